@@ -55,7 +55,9 @@ fn lines(root: &Path, end: &str, keeps: fn(&str) -> bool) -> Vec<String> {
 /// Whether a line has the phrase as whole words.
 fn has(line: &str, phrase: &str) -> bool {
     let is_letter = |c: char| c.is_alphabetic();
-    let mut ends = line.match_indices(phrase).map(|(at, _)| &line[at + phrase.len()..]);
+    let mut ends = line
+        .match_indices(phrase)
+        .map(|(at, _)| &line[at + phrase.len()..]);
     ends.any(|rest| phrase.ends_with(' ') || !rest.starts_with(is_letter))
 }
 

@@ -10,15 +10,15 @@ use jred::{
     Cubic, Harmonic, Image, Phase, Q31, Quadratic, Rows16, SliderCrankForm, Spline, Spline16,
     number::Number,
 };
+use jred_analysis::checked;
+use jred_analysis::duty::Duty;
+use jred_analysis::inspect::Findings;
+use jred_analysis::reduce::{Over, Request, Sets, reduce};
+use jred_analysis::simulate::simulate;
 use jred_cli::options::Cli;
 use jred_cli::rows::store;
-use jred_machine::analysis::duty::Duty;
-use jred_machine::analysis::inspect::Findings;
-use jred_machine::analysis::reduce::{Over, Request, Sets, reduce};
-use jred_machine::analysis::simulate::simulate;
-use jred_machine::model::machine::MachineFile;
-use jred_machine::number::columns::Columns;
-use jred_machine::read;
+use jred_file::model::machine::MachineFile;
+use jred_file::number::columns::Columns;
 use jred_report::list::inspection;
 use jred_report::table::output::{Format as Sheet, write};
 use jred_report::table::rows::RowFormat;
@@ -230,7 +230,7 @@ fn profile(text: &str) -> bool {
 }
 
 fn computed(text: &str, files: &BTreeMap<String, String>) -> bool {
-    let file = match read::parse("machine.toml", text, files) {
+    let file = match checked::parse("machine.toml", text, files) {
         Ok(file) => file,
         Err(report) => {
             assert!(!format!("{report:?}").is_empty());
@@ -377,7 +377,7 @@ fn catalogues() -> Vec<Vec<u8>> {
 fn catalogue(input: &str) -> bool {
     static PRESS: OnceLock<(MachineFile, Cycle)> = OnceLock::new();
     let (press, cycle) = PRESS.get_or_init(|| {
-        let file = read::read(&at("machines/press.toml")).expect("an example");
+        let file = checked::read(&at("machines/press.toml")).expect("an example");
         let motion = file.motion.as_ref().expect("a motion");
         let cycle = Cycle::new(&Duty::new(&file, motion, 200).expect("a duty"));
         (file, cycle)

@@ -26,14 +26,16 @@ use crate::commands::core_error::core_report;
 use crate::options;
 use crate::options::catalogue::CatalogueFiles;
 use crate::output;
-use jred_machine::analysis::contact::OneWay;
-use jred_machine::analysis::inspect::Findings;
-use jred_machine::analysis::warnings::of_motion;
-use jred_machine::model::axis::Axis;
-use jred_machine::model::coordinate::Coordinate;
-use jred_machine::model::machine::MachineFile;
-use jred_machine::plain;
-use jred_machine::read;
+use jred_analysis::checked;
+use jred_analysis::contact::OneWay;
+use jred_analysis::inspect::Findings;
+use jred_analysis::warnings::of_motion;
+use jred_file::argument;
+use jred_file::model::axis::Axis;
+use jred_file::model::coordinate::Coordinate;
+use jred_file::model::machine::MachineFile;
+use jred_file::plain;
+use jred_file::read;
 use jred_report::answer::Answer;
 use jred_report::list::{inspection, rule_list};
 use jred_report::table::output::Format;
@@ -117,7 +119,7 @@ const fn doing(command: &options::Command) -> &'static str {
 }
 
 fn run_check(options: &options::Check) -> Result<Done> {
-    let file = read::read(&options.file)?;
+    let file = checked::read(&options.file)?;
     let findings = Findings::of(&file).map_err(core_report)?;
     print_answer(&inspection::answer(&findings), options.format.into())?;
     Ok(if findings.holds() {
@@ -195,7 +197,7 @@ fn warn_of_supply(drive: &Drive, file: &MachineFile) {
 fn quantity(
     name: &str,
     text: Option<&str>,
-    read: read::Reader,
+    read: argument::Reader,
     coordinate: Coordinate,
 ) -> Result<Option<f64>> {
     let value = text.map(|text| {
@@ -206,7 +208,12 @@ fn quantity(
 }
 
 /// A speed or an acceleration of the drive link, given for the axis.
-fn rate(name: &str, text: Option<&str>, read: read::Reader, axis: &Axis) -> Result<Option<f64>> {
+fn rate(
+    name: &str,
+    text: Option<&str>,
+    read: argument::Reader,
+    axis: &Axis,
+) -> Result<Option<f64>> {
     let given = quantity(name, text, read, axis.coordinate)?;
     Ok(given.map(|rate| axis.drive_rate(rate)))
 }
@@ -235,7 +242,7 @@ fn warn_of_motion(file: &MachineFile) {
 
 /// A machine file, with the warnings of its motion.
 fn read_warned(path: &Path) -> Result<MachineFile> {
-    let file = read::read(path)?;
+    let file = checked::read(path)?;
     warn_of_motion(&file);
     Ok(file)
 }

@@ -1,4 +1,4 @@
-//! The command `jred`: options, files, progress and signals for [`jred_machine`], [`jred_sizing`], [`jred_motion`] and [`jred_report`].
+//! The command `jred`: options, files, progress and signals for [`jred_file`], [`jred_sizing`], [`jred_motion`] and [`jred_report`].
 #![forbid(unsafe_code)]
 
 pub mod busy;

@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use jred_cli::commands::{Done, run};
 use jred_cli::options::Cli;
 use jred_cli::output;
-use jred_machine::plain;
+use jred_file::plain;
 
 fn main() -> ExitCode {
     let words = std::env::args_os().map(|word| word.to_string_lossy().into_owned());

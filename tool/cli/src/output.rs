@@ -16,8 +16,8 @@ use std::sync::{Mutex, PoisonError, mpsc};
 use std::time::Duration;
 
 use crate::busy;
-use jred_machine::plain;
-use jred_machine::text::disk;
+use jred_file::plain;
+use jred_file::text::disk;
 use jred_report::table::screen::Screen;
 use miette::{
     GraphicalReportHandler, GraphicalTheme, IntoDiagnostic as _, Report, Result, WrapErr as _,

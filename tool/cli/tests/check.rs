@@ -208,7 +208,7 @@ fn too_near_a_dead_point() {
 /// Shafts cannot lock.
 #[test]
 fn a_train() {
-    let train = Path::new(env!("CARGO_MANIFEST_DIR")).join("../machine/tests/data/gear-train.toml");
+    let train = Path::new(env!("CARGO_MANIFEST_DIR")).join("../file/tests/data/gear-train.toml");
     let found = check(&train, 0);
     near("index", number(&found["transmission"]["index"]), 1.0, 1e-15);
     assert_eq!(found["travels"][0]["way"], "turns");
@@ -306,7 +306,7 @@ fn facts_of_a_four_bar() {
 /// Gears mesh equally in every position and have no transmission angle.
 #[test]
 fn an_index_that_never_changes_has_no_place() {
-    let train = Path::new(env!("CARGO_MANIFEST_DIR")).join("../machine/tests/data/gear-train.toml");
+    let train = Path::new(env!("CARGO_MANIFEST_DIR")).join("../file/tests/data/gear-train.toml");
     let found = check(&train, 0);
     assert!(found["transmission"]["at"].is_null());
     assert!(found["transmission"]["angle [deg]"].is_null());

@@ -29,7 +29,7 @@ mod refusals;
 
 use std::path::{Path, PathBuf};
 
-use jred_machine::export::{Answer, Export, LayoutChoice, Number, Task};
+use jred_export::{Answer, Export, LayoutChoice, Number, Task};
 
 use crate::support::{Folder, Run, press_file};
 
@@ -86,7 +86,7 @@ fn images_of(file: &Path, bytes: u32, [omega, alpha]: [f64; 2]) -> Vec<Vec<u32>>
     let task = Task {
         number: Number::F32,
         layout: LayoutChoice::Auto,
-        core: jred_machine::export::Core::default(),
+        core: jred_export::Core::default(),
         forward: false,
         reciprocal: false,
         torque_error: None,
@@ -98,7 +98,7 @@ fn images_of(file: &Path, bytes: u32, [omega, alpha]: [f64; 2]) -> Vec<Vec<u32>>
         edges: Vec::new(),
         machine: None,
     };
-    let export = Export::new(&jred_machine::read::read(file).unwrap(), task).unwrap();
+    let export = Export::new(&jred_analysis::checked::read(file).unwrap(), task).unwrap();
     let images: Vec<_> = export
         .answers
         .into_iter()

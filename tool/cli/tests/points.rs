@@ -1,7 +1,7 @@
 //! `jred reduce --points`: golden transfer functions, closed forms of velocity and acceleration.
 
 use crate::support::{Folder, budget, jred, near_column, press_file};
-use jred_machine::units::RPM;
+use jred_file::units::RPM;
 use serde_json::Value;
 
 /// The slider-crank of the golden data as a machine file.

@@ -12,7 +12,7 @@ use crate::support::{
     Columns, Folder, budget, jred, largest, near, near_column, press_file, within,
 };
 use drives::{ONE_GEARBOX, ONE_MOTOR};
-use jred_machine::units::RPM;
+use jred_file::units::RPM;
 use serde_json::Value;
 
 /// Instants of the reference: 2.5 µs apart, a hundred times closer than the tool's.

@@ -1,7 +1,7 @@
 //! `jred rules`, and rule sets named on the command line.
 
 use crate::support::{Folder, jred, press_file, press_text};
-use jred_machine::read as machine_file;
+use jred_file::read as machine_file;
 
 /// An unusable rule set of the user is refused with its file.
 #[test]

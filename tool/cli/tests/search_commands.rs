@@ -1,8 +1,8 @@
 //! Output of `jred size` and `jred ratio` for searches: ranking, filters, fronts, ratios.
 
 use crate::support::{jred, near, press_file, shipped, within};
-use jred_machine::analysis::duty::{Duty, STEPS};
-use jred_machine::read;
+use jred_analysis::checked;
+use jred_analysis::duty::{Duty, STEPS};
 use jred_sizing::catalogue::Catalogue;
 use jred_sizing::select::ratio::{Gear, Moments};
 
@@ -112,7 +112,7 @@ fn the_command_lists_ratios() {
     let run = jred([&"ratio", &press_file(), &"--format", &"json"]).ends(0);
     let json = run.json();
     let rows = json["rows"].as_array().unwrap();
-    let file = read::read(&press_file()).unwrap();
+    let file = checked::read(&press_file()).unwrap();
     let duty = Duty::new(&file, file.motion.as_ref().unwrap(), STEPS).unwrap();
     let catalogue = Catalogue::load(None, None).unwrap();
     assert!(rows.len() >= catalogue.motors.len());

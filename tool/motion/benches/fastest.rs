@@ -4,7 +4,7 @@ use std::hint::black_box;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use jred_machine::read;
+use jred_analysis::checked;
 use jred_motion::fastest::Limits;
 use jred_motion::fastest::field::Field;
 use jred_motion::fastest::sweep;
@@ -16,7 +16,7 @@ use jred_sizing::motor::envelope::Envelope;
 /// The press from top dead centre over the pressing stroke, with friction, losses of its belt and a servo motor.
 fn main() {
     let home = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let file = read::read(&home.join("../../machines/press.toml")).expect("the press is read");
+    let file = checked::read(&home.join("../../machines/press.toml")).expect("the press is read");
     let catalogue = Catalogue::built_in().expect("the catalogue is read");
     let drive = catalogue
         .drives()

@@ -13,12 +13,12 @@
 
 use jred::machine::{Element, Mechanism as _};
 use jred::{Error, Reducible as _};
-use jred_machine::analysis::contact::{OneWay, Parted};
-use jred_machine::analysis::duty::{self, Duty};
-use jred_machine::model::coordinate::positions;
-use jred_machine::model::laden::Attached;
-use jred_machine::model::machine::MachineFile;
-use jred_machine::model::schedule::Now;
+use jred_analysis::contact::{OneWay, Parted};
+use jred_analysis::duty::{self, Duty};
+use jred_file::model::coordinate::positions;
+use jred_file::model::laden::Attached;
+use jred_file::model::machine::MachineFile;
+use jred_file::model::schedule::Now;
 
 use self::rows::Rows;
 use self::unknowns::{Made, Unknowns};
@@ -36,7 +36,7 @@ const HEATS: f64 = 0.1;
 /// Share of the largest value below which a value counts as rounding error.
 const ROUNDING: f64 = 1e-9;
 
-jred_machine::words! {
+jred_file::words! {
     /// Quantity to minimise.
     pub enum Goal default Rms {
         /// RMS of the drive link's torque over the motion: the heat in the motor.

@@ -4,10 +4,10 @@
 //! that keeps it.
 
 use jred::Error;
-use jred_machine::analysis::contact::{Lost, OneWay, lost};
-use jred_machine::model::machine::MachineFile;
-use jred_machine::model::motion::Motion;
-use jred_machine::model::schedule::Now;
+use jred_analysis::contact::{Lost, OneWay, lost};
+use jred_file::model::machine::MachineFile;
+use jred_file::model::motion::Motion;
+use jred_file::model::schedule::Now;
 
 use crate::trace::Trace;
 

@@ -9,14 +9,14 @@
 //! and between two pieces, the torque falls over the last thousandth of the speed. Beyond the largest speed the motor brakes, with full braking
 //! torque from a thousandth above. This keeps the equations continuous, and the largest motor speed is a steady state.
 
-use jred_machine::analysis::simulate::{
+use jred_analysis::simulate::{
     Observer, Simulated, SimulationError, Together, Working, simulate_under,
 };
-use jred_machine::model::machine::MachineFile;
-use jred_machine::model::motor::{Coefficients, Motor};
-use jred_machine::model::simulation::{Shaft, Simulation};
-use jred_machine::number::columns::{Column, Quantity};
-use jred_machine::units::RPM;
+use jred_file::model::machine::MachineFile;
+use jred_file::model::motor::{Coefficients, Motor};
+use jred_file::model::simulation::{Shaft, Simulation};
+use jred_file::number::columns::{Column, Quantity};
+use jred_file::units::RPM;
 use jred_sizing::catalogue::{Drive, MotorKind};
 use jred_sizing::motor::envelope::{Limit, Prepared};
 use jred_sizing::thermal::course::Course;

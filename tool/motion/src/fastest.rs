@@ -36,7 +36,7 @@ pub mod winding;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use jred::{Domain, Reducible as _};
-use jred_machine::model::machine::MachineFile;
+use jred_file::model::machine::MachineFile;
 
 use crate::trace::Trace;
 use crate::way::{Actuator, Way};

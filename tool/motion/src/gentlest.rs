@@ -20,7 +20,7 @@
 use std::rc::Rc;
 
 use jred::Error;
-use jred_machine::model::motion::Phase;
+use jred_file::model::motion::Phase;
 
 use self::outcome::Waits;
 use self::task::{Task, edges};

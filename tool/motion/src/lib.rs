@@ -1,6 +1,6 @@
 //! Motion synthesis for a machine and its drive.
 //!
-//! This crate lies between `jred-sizing`, which computes what a drive can do, and `jred-report`. `jred-machine` computes the duty of a *given*
+//! This crate lies between `jred-sizing`, which computes what a drive can do, and `jred-report`. `jred-analysis` computes the duty of a *given*
 //! motion; here the motion itself is the unknown. Results are data; nothing is printed.
 //!
 //! 1. [`way`]: the machine and its drive along the path, all quantities counted in the direction of the motion;

@@ -3,7 +3,7 @@
 mod kept;
 mod timeline;
 
-use jred_machine::model::motion::{Motion, Overshoot, Steady};
+use jred_file::model::motion::{Motion, Overshoot, Steady};
 
 pub(crate) use kept::INSIDE;
 pub use kept::Kept;

@@ -2,9 +2,9 @@
 
 use jred::Error;
 use jred::machine::motion::Law;
-use jred_machine::analysis::duty;
-use jred_machine::model::machine::MachineFile;
-use jred_machine::model::motion::Motion;
+use jred_analysis::duty;
+use jred_file::model::machine::MachineFile;
+use jred_file::model::motion::Motion;
 
 use crate::gentlest::{self, Fault, Gentle, Optimum, Reason};
 use crate::moves::{self, Chain, Move, NoMoves, Part};

@@ -2,9 +2,9 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use jred_machine::analysis::duty::{Duty, Sampling};
-use jred_machine::model::machine::MachineFile;
-use jred_machine::model::motion::Motion;
+use jred_analysis::duty::{Duty, Sampling};
+use jred_file::model::machine::MachineFile;
+use jred_file::model::motion::Motion;
 use jred_sizing::catalogue::{Catalogue, Drive, DriveId};
 use jred_sizing::cycle::Cycle;
 use jred_sizing::motor::envelope::{Envelope, Prepared};

@@ -4,13 +4,13 @@ use std::f64::consts::TAU;
 use std::fmt::Write as _;
 
 use jred::machine::motion::State;
-use jred_machine::model::axis::Axis;
-use jred_machine::model::coordinate::Coordinate;
-use jred_machine::model::motion::step_at;
+use jred_file::model::axis::Axis;
+use jred_file::model::coordinate::Coordinate;
+use jred_file::model::motion::step_at;
 
-pub use jred_machine::model::motion::Node;
+pub use jred_file::model::motion::Node;
 
-jred_machine::words! {
+jred_file::words! {
     /// The unit of an electronic cam's master.
     pub enum Master default Degree {
         /// A turn is 360.

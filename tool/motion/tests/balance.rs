@@ -3,10 +3,10 @@
 use std::path::Path;
 
 use jred::Reducible as _;
-use jred_machine::analysis::duty::Duty;
-use jred_machine::model::coordinate::positions;
-use jred_machine::model::machine::MachineFile;
-use jred_machine::read;
+use jred_analysis::checked;
+use jred_analysis::duty::Duty;
+use jred_file::model::coordinate::positions;
+use jred_file::model::machine::MachineFile;
 use jred_motion::balance::{Balanced, Counterweight, Fault, Goal, Request, balance};
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt as _, SeedableRng as _};
@@ -15,7 +15,7 @@ const STEPS: usize = 200;
 
 fn machine(text: &str) -> MachineFile {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../machines");
-    read::parse("machine.toml", text, &folder).unwrap()
+    checked::parse("machine.toml", text, &folder).unwrap()
 }
 
 fn example(name: &str) -> String {

@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use jred_machine::model::machine::MachineFile;
-use jred_machine::read;
+use jred_analysis::checked;
+use jred_file::model::machine::MachineFile;
 use jred_motion::contact::broken;
 use jred_motion::fastest::Limits;
 use jred_motion::fastest::cycle::{Cycle, cycle};
@@ -14,7 +14,7 @@ use jred_sizing::cycle::form::Coefficients;
 use jred_sizing::motor::envelope::Envelope;
 
 fn hoist() -> MachineFile {
-    read::read(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../../machines/hoist.toml")).unwrap()
+    checked::read(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../../machines/hoist.toml")).unwrap()
 }
 
 fn fastest(file: &MachineFile, limits: &Limits) -> Cycle {

@@ -3,10 +3,10 @@
 use std::collections::BTreeMap;
 
 use jred::machine::motion::State;
-use jred_machine::analysis::simulate::Together;
-use jred_machine::model::machine::MachineFile;
-use jred_machine::read;
-use jred_machine::units::RPM;
+use jred_analysis::checked;
+use jred_analysis::simulate::Together;
+use jred_file::model::machine::MachineFile;
+use jred_file::units::RPM;
 use jred_motion::driven::{Driven, EASE, Unfit, driven};
 use jred_motion::way::{Actuator, BothWays};
 use jred_sizing::catalogue::{Catalogue, Commutation, Drive, Gearbox, Motor, Thermal, Winding};
@@ -15,7 +15,7 @@ use jred_sizing::motor::envelope::Envelope;
 use crate::support::{Columns, budget, largest, near, press_text, within};
 
 fn machine(text: &str) -> MachineFile {
-    read::parse("test.toml", text, BTreeMap::<String, String>::new()).unwrap()
+    checked::parse("test.toml", text, BTreeMap::<String, String>::new()).unwrap()
 }
 
 /// A table of 2 kg·m² with dry friction, without a motor of its own, simulated for this time (s).

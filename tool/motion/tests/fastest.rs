@@ -19,8 +19,8 @@ mod winding;
 
 use std::collections::BTreeMap;
 
-use jred_machine::model::machine::MachineFile;
-use jred_machine::read;
+use jred_analysis::checked;
+use jred_file::model::machine::MachineFile;
 use jred_motion::fastest::{Fastest, Limits, Task, solve};
 use jred_motion::way::Actuator;
 use jred_sizing::catalogue::Motor;
@@ -35,7 +35,7 @@ fn table(inertia: f64, loads: &str) -> MachineFile {
 }
 
 fn machine(text: &str) -> MachineFile {
-    read::parse("test.toml", text, BTreeMap::<String, String>::new()).unwrap()
+    checked::parse("test.toml", text, BTreeMap::<String, String>::new()).unwrap()
 }
 
 /// A motor without rotor, friction and gearbox, whose torque falls linearly from rest to its largest speed.

@@ -3,9 +3,9 @@
 use std::f64::consts::TAU;
 use std::path::Path;
 
-use jred_machine::model::machine::MachineFile;
-use jred_machine::model::motion::Motion;
-use jred_machine::read;
+use jred_analysis::checked;
+use jred_file::model::machine::MachineFile;
+use jred_file::model::motion::Motion;
 use jred_motion::gentlest::{Fault, Gentle, Objective, Optimum, Travel, gentlest, without_drive};
 use jred_motion::retime::{Goal, Obstacle, Request, Retimed, retime};
 use jred_motion::way::{Actuator, Way};
@@ -36,7 +36,7 @@ fn table(inertia: f64, friction: f64) -> MachineFile {
 }
 
 fn machine(text: &str) -> MachineFile {
-    read::parse("machine.toml", text, Path::new("")).unwrap()
+    checked::parse("machine.toml", text, Path::new("")).unwrap()
 }
 
 /// An example machine with edited text.
@@ -47,7 +47,7 @@ fn example(name: &str, edits: &[(&str, &str)]) -> MachineFile {
         assert!(text.contains(from), "{name} has no {from}");
         text = text.replace(from, to);
     }
-    read::parse(name, &text, folder.as_path()).unwrap()
+    checked::parse(name, &text, folder.as_path()).unwrap()
 }
 
 fn travel(start: f64, distance: f64, duration: f64) -> Travel {

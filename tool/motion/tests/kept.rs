@@ -3,9 +3,9 @@
 use std::f64::consts::TAU;
 use std::path::Path;
 
-use jred_machine::model::machine::MachineFile;
-use jred_machine::model::motion::Motion;
-use jred_machine::read;
+use jred_analysis::checked;
+use jred_file::model::machine::MachineFile;
+use jred_file::model::motion::Motion;
 use jred_motion::fastest::cycle::cycle;
 use jred_motion::fastest::{Limits, Rms};
 use jred_motion::gentlest::without_drive;
@@ -20,7 +20,7 @@ use crate::support::near;
 
 fn example(name: &str) -> MachineFile {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../machines");
-    read::read(&folder.join(format!("{name}.toml"))).unwrap()
+    checked::read(&folder.join(format!("{name}.toml"))).unwrap()
 }
 
 /// A table of 2 kg·m² with friction (N·m), and segments, each "key = value" by "; ".
@@ -38,7 +38,7 @@ fn table(friction: f64, segments: &[&str]) -> MachineFile {
         text += &segment.replace("; ", "\n");
         text += "\n";
     }
-    read::parse("machine.toml", &text, Path::new("")).unwrap()
+    checked::parse("machine.toml", &text, Path::new("")).unwrap()
 }
 
 fn of(file: &MachineFile) -> (&Motion, Chain) {

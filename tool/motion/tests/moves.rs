@@ -1,7 +1,7 @@
 //! Parts of motions.
 
 use jred::machine::motion::Law;
-use jred_machine::model::motion::{Motion, Segment};
+use jred_file::model::motion::{Motion, Segment};
 use jred_motion::moves::{Move, NoMoves, Part, chain};
 
 /// Moves, a pause, a move through a joint of two segments in motion, and an immediate return.

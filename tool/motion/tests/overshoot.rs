@@ -3,9 +3,9 @@
 use std::f64::consts::TAU;
 use std::path::Path;
 
-use jred_machine::model::machine::MachineFile;
-use jred_machine::model::motion::{Motion, Node};
-use jred_machine::read;
+use jred_analysis::checked;
+use jred_file::model::machine::MachineFile;
+use jred_file::model::motion::{Motion, Node};
 use jred_motion::gentlest::{Optimum, without_drive};
 use jred_motion::moves::{Chain, Part, chain};
 use jred_motion::retime::{Goal, Request, Retimed, retime};
@@ -40,7 +40,7 @@ fn table(viscous: f64, segments: &[&str]) -> MachineFile {
         text += &segment.replace("; ", "\n");
         text += "\n";
     }
-    read::parse("machine.toml", &text, Path::new("")).unwrap()
+    checked::parse("machine.toml", &text, Path::new("")).unwrap()
 }
 
 fn of(file: &MachineFile) -> Chain {

@@ -4,9 +4,9 @@
 
 use std::path::Path;
 
-use jred_machine::analysis::duty::Duty;
-use jred_machine::model::machine::MachineFile;
-use jred_machine::read;
+use jred_analysis::checked;
+use jred_analysis::duty::Duty;
+use jred_file::model::machine::MachineFile;
 use jred_motion::gentlest::without_drive;
 use jred_motion::retime::{Goal, Request, Retimed, retime};
 use jred_sizing::cycle::Cycle;
@@ -62,7 +62,7 @@ of = { point = "nut", along = "x" }
         "hand.csv",
         format!("t [s],s [m],v [m/s],a [m/s^2]\n{rows}\n"),
     );
-    read::read(&folder.file("spindle.toml", text)).unwrap()
+    checked::read(&folder.file("spindle.toml", text)).unwrap()
 }
 
 /// Torques of the spindle for friction and for an acceleration of 1.2 m/s² (N·m).
@@ -179,7 +179,7 @@ fn with_profile(name: &str, made: &Retimed, file: &MachineFile) -> MachineFile {
     kept += &motion;
     let folder = Folder::new();
     folder.file("p.csv", profile);
-    read::read(&folder.file("machine.toml", kept)).unwrap()
+    checked::read(&folder.file("machine.toml", kept)).unwrap()
 }
 
 /// The steps of a written profile without motion, up to rounding.
@@ -221,7 +221,7 @@ fn a_written_motion_is_read_with_its_pauses() {
     for (name, ramp) in machines {
         let path =
             Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../../machines/{name}.toml"));
-        let file = read::read(&path).unwrap();
+        let file = checked::read(&path).unwrap();
         let request = Request {
             actuator: without_drive(),
             copper: None,

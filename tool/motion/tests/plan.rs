@@ -7,7 +7,7 @@ mod rows;
 
 use std::f64::consts::TAU;
 
-use jred_machine::model::coordinate::Coordinate;
+use jred_file::model::coordinate::Coordinate;
 use jred_motion::trace::{Node, Trace};
 
 /// A motion with nodes at equal time steps.

@@ -2,12 +2,12 @@
 
 use std::fmt::Write as _;
 
-use jred_machine::analysis::duty::Duty;
-use jred_machine::analysis::inspect::Findings;
-use jred_machine::model::coordinate::Coordinate;
-use jred_machine::model::machine::MachineFile;
-use jred_machine::model::motion::Motion;
-use jred_machine::read;
+use jred_analysis::checked;
+use jred_analysis::duty::Duty;
+use jred_analysis::inspect::Findings;
+use jred_file::model::coordinate::Coordinate;
+use jred_file::model::machine::MachineFile;
+use jred_file::model::motion::Motion;
 use jred_motion::fastest::Limits;
 use jred_motion::fastest::cycle::cycle;
 use jred_motion::gentlest::without_drive;
@@ -32,7 +32,7 @@ fn press_with(trace: &Trace, more: &str) -> MachineFile {
     let end = text.find("# Start from rest").unwrap();
     let motion = format!("[motion]\ntype = \"profile\"\nfile = \"profile.csv\"\n{more}");
     let machine = folder.file("press.toml", edited(&text, &text[begin..end], &motion));
-    read::read(&machine).unwrap()
+    checked::read(&machine).unwrap()
 }
 
 /// If the speed is a cubic, the nodes reproduce it in between.
@@ -100,7 +100,7 @@ const DIRECT: Coefficients = Coefficients([0.0, 1.0, 1.0, 0.0, 0.0]);
 #[test]
 fn a_profile_keeps_the_corners() {
     let none = std::collections::BTreeMap::<String, String>::new();
-    let file = read::parse("press.toml", &press_text(), none).unwrap();
+    let file = checked::parse("press.toml", &press_text(), none).unwrap();
     let motor = Motor {
         peak_curve: vec![[0.0, 30.0], [150.0, 25.0]],
         ..Motor::default()
@@ -173,7 +173,7 @@ fn a_recorded_pause_is_followed_by_one_start() {
     let end = text.find("# Start from rest").unwrap();
     let motion = "[motion]\ntype = \"profile\"\nfile = \"profile.csv\"\n";
     let machine = folder.file("press.toml", edited(&text, &text[begin..end], motion));
-    let file = read::read(&machine).unwrap();
+    let file = checked::read(&machine).unwrap();
     let duty = Duty::new(&file, file.required_motion().unwrap(), 2000).unwrap();
     let features = Features::of(&Cycle::new(&duty), &DIRECT, 1.0);
     assert_eq!(features.starts, 2);
@@ -243,7 +243,7 @@ fn imbalance(file: &MachineFile) -> f64 {
 #[test]
 fn the_check_accepts_the_profiles() {
     let none = std::collections::BTreeMap::<String, String>::new();
-    let file = read::parse("press.toml", &press_text(), none).unwrap();
+    let file = checked::parse("press.toml", &press_text(), none).unwrap();
     let motor = Motor {
         peak_curve: vec![[0.0, 500.0], [10.0, 500.0]],
         ..Motor::default()
@@ -265,7 +265,7 @@ fn the_check_accepts_the_profiles() {
     for machine in ["cam-translating", "linkage-cam-lever", "load-table"] {
         let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR"))
             .join(format!("../../machines/{machine}.toml"));
-        let file = read::read(&path).unwrap();
+        let file = checked::read(&path).unwrap();
         let motion = file.required_motion().unwrap();
         let request = Request {
             actuator: without_drive(),

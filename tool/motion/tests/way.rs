@@ -1,8 +1,8 @@
 //! `Way` against the duty, which counts in the drive link's own direction.
 
-use jred_machine::analysis::duty::Duty;
-use jred_machine::model::machine::MachineFile;
-use jred_machine::read;
+use jred_analysis::checked;
+use jred_analysis::duty::Duty;
+use jred_file::model::machine::MachineFile;
 use jred_motion::way::{Actuator, Way};
 use jred_sizing::catalogue::Catalogue;
 use jred_sizing::motor::envelope::Envelope;
@@ -14,14 +14,14 @@ use crate::support::{Folder, edited, edited_press, press_file};
 /// the acceleration at this torque is the instant's: with its belt, and with two more stages with losses, one of which reverses the direction.
 #[test]
 fn demand_is_that_of_the_duty_and_acceleration_its_inverse() {
-    behaves_as_the_duty(&read::read(&press_file()).unwrap());
+    behaves_as_the_duty(&checked::read(&press_file()).unwrap());
     let folder = Folder::new();
     let stages = "[[drive_train]]\ntype = \"friction\"\nratio = -0.6\nslip = \"6 %\"\n\
                   input_inertia = \"0.0004 kg m^2\"\noutput_inertia = \"0.002 kg m^2\"\n\n";
     let text = edited_press("[[drive_train]]", &format!("{stages}[[drive_train]]"));
     let text = edited(&text, "[motion]", &format!("{stages}[motion]"));
     let text = edited(&text, "ratio = -0.6", "ratio = 1.2");
-    behaves_as_the_duty(&read::read(&folder.file("train.toml", text)).unwrap());
+    behaves_as_the_duty(&checked::read(&folder.file("train.toml", text)).unwrap());
 }
 
 fn behaves_as_the_duty(file: &MachineFile) {

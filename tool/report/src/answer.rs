@@ -14,7 +14,7 @@ use serde_json::{Map, Value};
 use crate::table::output::{self, Format};
 use crate::table::reading::Reading;
 use crate::table::screen::Screen;
-use jred_machine::number::columns::Columns;
+use jred_file::number::columns::Columns;
 use schema::Data;
 
 /// A part of an answer for reading.

@@ -11,8 +11,8 @@ use jred::machine::Mechanism as _;
 
 use crate::plot::PALETTE;
 use crate::plot::svg::{Anchor, Ink, Svg};
-use jred_machine::model::coordinate::positions;
-use jred_machine::model::mechanism::AnyMechanism;
+use jred_file::model::coordinate::positions;
+use jred_file::model::mechanism::AnyMechanism;
 
 mod glyphs;
 mod sketch;

@@ -8,11 +8,11 @@ use jred::Error;
 
 use crate::list;
 use crate::list::listing::{self, Explanation};
-use jred_machine::analysis::duty::Duty;
-use jred_machine::model::coordinate::Coordinate;
-use jred_machine::model::machine::MachineFile;
-use jred_machine::number::rounding::{cleared, rounded, short, shown};
-use jred_machine::units::Vocabulary;
+use jred_analysis::duty::Duty;
+use jred_file::model::coordinate::Coordinate;
+use jred_file::model::machine::MachineFile;
+use jred_file::number::rounding::{cleared, rounded, short, shown};
+use jred_file::units::Vocabulary;
 use jred_sizing::catalogue::MotorKind;
 use jred_sizing::explain::{Breakdown, Contributions, Lever, Remedies};
 use jred_sizing::select::size::{Candidate, Selection};
@@ -253,7 +253,7 @@ fn split_checks(best: &jred_sizing::judge::Judged) -> (Vec<CheckRow>, Vec<(&'sta
     let (open, checked): (Vec<_>, Vec<_>) = best
         .checks
         .iter()
-        .partition(|check| check.verdict == jred_machine::model::rules::Verdict::NotChecked);
+        .partition(|check| check.verdict == jred_file::model::rules::Verdict::NotChecked);
     let checked = checked.into_iter().map(CheckRow::of).collect();
     let open = open
         .into_iter()

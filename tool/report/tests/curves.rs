@@ -3,8 +3,8 @@
 use std::f64::consts::TAU;
 
 use jred::Reducible as _;
-use jred_machine::analysis::reduce::{Over, Request, Sets, reduce};
-use jred_machine::read;
+use jred_analysis::checked;
+use jred_analysis::reduce::{Over, Request, Sets, reduce};
 use jred_report::table::output;
 use jred_report::table::output::Format;
 
@@ -21,7 +21,7 @@ range = "turn"
 /// The CSV of `jred reduce` is read back as the same machine.
 #[test]
 fn an_exported_machine_comes_back() {
-    let file = read::read(&press_file()).unwrap();
+    let file = checked::read(&press_file()).unwrap();
     let folder = Folder::new();
     let request = |positions| Request {
         over: Over::Angle,
@@ -37,7 +37,7 @@ fn an_exported_machine_comes_back() {
     for rows in [360, 720] {
         let csv = output::write(&reduce(&file, &request(rows)).unwrap(), Format::Csv, "");
         folder.file("curves.csv", csv);
-        let back = read::parse("machine.toml", MACHINE, folder.path("")).unwrap();
+        let back = checked::parse("machine.toml", MACHINE, folder.path("")).unwrap();
         let original = file.with_drive_train().unwrap();
         let (mut j_error, mut slope_error, mut weight_error) = (0.0f64, 0.0f64, 0.0f64);
         let (mut j_most, mut slope_most, mut weight_most) = (0.0f64, 0.0f64, 0.0f64);

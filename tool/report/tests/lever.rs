@@ -5,11 +5,11 @@ use crate::support::{budget, near};
 use jred::machine::{Frame, Frames, Joint, Jointed, Joints, Marker, MassProperties, Mechanism};
 use jred::number::Transfer;
 use jred::{Domain, Link, Machine};
-use jred_machine::analysis::inspect::Findings;
-use jred_machine::analysis::reduce::{Over, Request, Sets, reduce};
-use jred_machine::model::coordinate::Coordinate;
-use jred_machine::model::machine::{MachineFile, OverRange};
-use jred_machine::model::mechanism::AnyMechanism;
+use jred_analysis::inspect::Findings;
+use jred_analysis::reduce::{Over, Request, Sets, reduce};
+use jred_file::model::coordinate::Coordinate;
+use jred_file::model::machine::{MachineFile, OverRange};
+use jred_file::model::mechanism::AnyMechanism;
 use jred_report::table::output::Format;
 use jred_report::table::screen::Screen;
 use serde_json::Value;
@@ -56,7 +56,7 @@ impl Jointed for Lever {
 fn lever() -> MachineFile {
     let plain = "gravity = [\"0 m/s^2\", \"0 m/s^2\"]\n[mechanism]\ntype = \"belt\"\n\
          driver = { radius = \"1 m\", inertia = \"1 kg m^2\" }\ndriven = { radius = \"1 m\", inertia = \"1 kg m^2\" }\n";
-    let file = jred_machine::read::parse("plain", plain, Path::new("")).unwrap();
+    let file = jred_analysis::checked::parse("plain", plain, Path::new("")).unwrap();
     let links = [
         Link::point_mass(3.0).unwrap(),
         Link::new(MassProperties {

@@ -34,9 +34,9 @@ use std::hint::black_box;
 use std::process::ExitCode;
 
 use bench::{Bench, best, once};
-use jred_machine::model::machine::MachineFile;
-use jred_machine::model::rules::RuleSet;
-use jred_machine::model::site::Site;
+use jred_file::model::machine::MachineFile;
+use jred_file::model::rules::RuleSet;
+use jred_file::model::site::Site;
 use jred_sizing::catalogue::{Catalogue, Drive, DriveId};
 use jred_sizing::cycle::Cycle;
 use jred_sizing::motor::envelope::Prepared;

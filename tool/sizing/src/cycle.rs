@@ -16,9 +16,9 @@ use std::sync::OnceLock;
 use crate::catalogue::Drive;
 use crate::cycle::form::{Coefficients, LOADS, MotorDuty, loads_of};
 use crate::motor::envelope::Envelope;
-use jred_machine::analysis::duty::{Duty, Panel, Smooth, Values};
-use jred_machine::analysis::mechanics::Mechanics;
-use jred_machine::number::figures::Figures;
+use jred_analysis::duty::mechanics::Mechanics;
+use jred_analysis::duty::{Duty, Panel, Smooth, Values};
+use jred_file::number::figures::Figures;
 
 mod against;
 mod bent;

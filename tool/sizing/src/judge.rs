@@ -9,10 +9,10 @@ use crate::cycle::Cycle;
 use crate::cycle::form::Coefficients;
 use crate::judge::check::Check;
 use crate::motor::envelope::Prepared;
-use jred_machine::model::rule::Rule;
-use jred_machine::model::rules::{Finding, RuleSet, Verdict};
-use jred_machine::model::site::Site;
-use jred_machine::units::Vocabulary;
+use jred_file::model::rule::Rule;
+use jred_file::model::rules::{Finding, RuleSet, Verdict};
+use jred_file::model::site::Site;
+use jred_file::units::Vocabulary;
 
 mod bits;
 mod brake;

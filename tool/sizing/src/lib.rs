@@ -1,6 +1,6 @@
 //! Servo sizing for machines whose inertia depends on the angle: selects the drives of a catalogue that suit a machine.
 //!
-//! This crate lies between [`jred_machine`], which reads and analyses a machine, and `jred-report`, which writes the results. Results are data;
+//! This crate lies between [`jred_file`], which reads and analyses a machine, and `jred-report`, which writes the results. Results are data;
 //! nothing is printed.
 //!
 //! 1. [`catalogue`]: motors, gearboxes, amplifiers and resistors, and their allowed combinations.

@@ -14,11 +14,11 @@ use crate::catalogue::Drive;
 use crate::judge::Judged;
 use crate::judge::{Context, Findings};
 use crate::motor::envelope::Envelope;
-use jred_machine::model::rule::Rule;
-use jred_machine::model::rules::Verdict;
-use jred_machine::model::rules::{MeanTorque, RuleSet};
-use jred_machine::number::rounding::{short, significant};
-use jred_machine::units::Vocabulary;
+use jred_file::model::rule::Rule;
+use jred_file::model::rules::Verdict;
+use jred_file::model::rules::{MeanTorque, RuleSet};
+use jred_file::number::rounding::{short, significant};
+use jred_file::units::Vocabulary;
 
 /// Largest shortfall that counts as rounding and is not reported.
 const EXACT: f64 = 1e-5;
@@ -34,7 +34,7 @@ pub enum Bound {
     Open,
 }
 
-jred_machine::words! {
+jred_file::words! {
     /// The fields of [`jred::duty::Limits`], with their names.
     pub enum Field {
         /// The S1 torque over speed.

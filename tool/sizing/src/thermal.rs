@@ -26,12 +26,12 @@ use crate::cycle::Cycle;
 use crate::cycle::form::Coefficients;
 use crate::motor::envelope::Prepared;
 use crate::motor::winding::{COPPER, REFERENCE_TEMPERATURE};
-use jred_machine::analysis::duty::Panel;
-use jred_machine::units::{Sentence, Vocabulary};
+use jred_analysis::duty::Panel;
+use jred_file::units::{Sentence, Vocabulary};
 
 use course::{Course, Hottest, MOST_PARTS, PART, Piece, Point};
-use jred_machine::model::operation::Operation;
-use jred_machine::model::surroundings::Surroundings;
+use jred_file::model::operation::Operation;
+use jred_file::model::surroundings::Surroundings;
 use network::{Losses, Network};
 
 /// Housing time constant assumed when none is given, as a multiple of the longest other one.

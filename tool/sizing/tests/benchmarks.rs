@@ -4,10 +4,10 @@
 
 use std::path::Path;
 
-use jred_machine::analysis::duty::Duty;
-use jred_machine::model::rule::Rule;
-use jred_machine::model::rules::Verdict;
-use jred_machine::read;
+use jred_analysis::checked;
+use jred_analysis::duty::Duty;
+use jred_file::model::rule::Rule;
+use jred_file::model::rules::Verdict;
 use jred_sizing::catalogue::{Catalogue, Drive};
 use jred_sizing::cycle::Cycle;
 use jred_sizing::judge::check::Check;
@@ -93,7 +93,7 @@ inertia_ratio_warning = {ratio}
 
     /// The rules of the chosen motor.
     fn checks(&self) -> Vec<Check> {
-        let file = read::parse("m.toml", &self.file(), Path::new("")).unwrap();
+        let file = checked::parse("m.toml", &self.file(), Path::new("")).unwrap();
         let duty = Duty::new(&file, file.motion.as_ref().unwrap(), 2000).unwrap();
         let folder = Folder::new();
         let header = "key,maker,model,rated_torque [N m],rated_speed [rpm],peak_torque [N m],max_speed [rpm],\

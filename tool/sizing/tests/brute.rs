@@ -1,7 +1,7 @@
 //! Figures of a cycle for a drive by plain loops over its samples: reference for `Cycle` and for its timing.
 #![allow(dead_code)]
 
-use jred_machine::analysis::duty::{Duty, Smooth};
+use jred_analysis::duty::{Duty, Smooth};
 use jred_sizing::cycle::form::Coefficients;
 use jred_sizing::cycle::{Cycle, Peak};
 use jred_sizing::motor::envelope::Envelope;

@@ -9,7 +9,7 @@ mod periods;
 mod phases;
 
 use crate::support::{budget, near, within};
-use jred_machine::model::supply::BrakeResistor;
+use jred_file::model::supply::BrakeResistor;
 use jred_sizing::bus::Need;
 use jred_sizing::bus::curve::PowerCurve;
 use jred_sizing::bus::store::{Bus, BusFigures};

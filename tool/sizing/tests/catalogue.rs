@@ -14,7 +14,7 @@ mod twins;
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::support::{budget, near};
-use jred_machine::units::RPM;
+use jred_file::units::RPM;
 use jred_sizing::catalogue::Catalogue;
 
 fn built_in() -> Catalogue {

@@ -9,15 +9,15 @@ use std::path::Path;
 
 use crate::support::machines::CONSTANT_SPEED;
 use crate::support::near;
-use jred_machine::analysis::duty::Duty;
-use jred_machine::model::machine::MachineFile;
-use jred_machine::read;
-use jred_machine::units::RPM;
+use jred_analysis::checked;
+use jred_analysis::duty::Duty;
+use jred_file::model::machine::MachineFile;
+use jred_file::units::RPM;
 use jred_sizing::catalogue::Catalogue;
 use jred_sizing::cycle::Cycle;
 
 fn read(text: &str) -> MachineFile {
-    read::parse("machine.toml", text, Path::new("")).unwrap()
+    checked::parse("machine.toml", text, Path::new("")).unwrap()
 }
 
 fn duty_of(file: &MachineFile, steps: usize) -> Duty {

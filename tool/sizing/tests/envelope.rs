@@ -12,8 +12,8 @@ mod pieces;
 mod sheet;
 mod total;
 
-use jred_machine::model::site::Site;
-use jred_machine::units::RPM;
+use jred_file::model::site::Site;
+use jred_file::units::RPM;
 use jred_sizing::catalogue::{Amplifier, Motor, Winding};
 
 use crate::support::budget;

@@ -6,9 +6,9 @@ mod remedies;
 use jred::mechanism::TrainOutput;
 use std::path::Path;
 
-use jred_machine::analysis::duty::Duty;
-use jred_machine::model::machine::MachineFile;
-use jred_machine::read;
+use jred_analysis::checked;
+use jred_analysis::duty::Duty;
+use jred_file::model::machine::MachineFile;
 use jred_sizing::catalogue::Catalogue;
 use jred_sizing::catalogue::Drive;
 use jred_sizing::explain::{Alteration, Altered, Breakdown, Contributions, Effect, Share};
@@ -16,11 +16,11 @@ use jred_sizing::explain::{Alteration, Altered, Breakdown, Contributions, Effect
 use crate::support::{budget, edited, near, press_text, within};
 
 fn parse(text: &str) -> MachineFile {
-    read::parse("machine.toml", text, Path::new("")).unwrap()
+    checked::parse("machine.toml", text, Path::new("")).unwrap()
 }
 
 fn machine(name: &str) -> MachineFile {
-    read::read(
+    checked::read(
         &Path::new(env!("CARGO_MANIFEST_DIR"))
             .join("../../machines")
             .join(name),
@@ -137,7 +137,7 @@ fn the_cells_of_every_instant_add_up_to_the_motor_torque() {
         if path.extension().is_none_or(|e| e != "toml") {
             continue;
         }
-        let Ok(file) = read::read(&path) else {
+        let Ok(file) = checked::read(&path) else {
             continue;
         };
         if file.motion.is_none() || file.variator.is_some() {
@@ -318,7 +318,7 @@ fn an_altered_duty_is_that_of_the_altered_file() {
     for (name, quantity) in [
         (
             "torque",
-            (|i| i.input_torque) as fn(&jred_machine::analysis::duty::Instant) -> f64,
+            (|i| i.input_torque) as fn(&jred_analysis::duty::Instant) -> f64,
         ),
         ("speed", |i| i.input_speed),
         ("acceleration", |i| i.input_alpha),

@@ -6,10 +6,10 @@ mod firmware;
 use crate::brute;
 use crate::support::{budget, edited_press, near, press_file, shipped};
 use jred::duty::Curve;
-use jred_machine::analysis::duty::{Duty, STEPS};
-use jred_machine::model::machine::MachineFile;
-use jred_machine::model::rule::Rule;
-use jred_machine::read;
+use jred_analysis::checked;
+use jred_analysis::duty::{Duty, STEPS};
+use jred_file::model::machine::MachineFile;
+use jred_file::model::rule::Rule;
 use jred_sizing::catalogue::Catalogue;
 use jred_sizing::catalogue::Drive;
 use jred_sizing::cycle::Cycle;
@@ -39,7 +39,7 @@ fn with_limits(file: &MachineFile, test: impl FnOnce(&Context, &MeterLimits)) {
 fn limits_are_those_of_the_rules() {
     let rules = "[rules]\nrms_torque = \"50 %\"\npeak_torque = \"off\"\nspeed = \"100 %\"\ngearbox_mean_exponent = \"10/3\"\n\n[motion]";
     let text = edited_press("[motion]", rules);
-    let file = read::parse("press.toml", &text, std::path::Path::new("")).unwrap();
+    let file = checked::parse("press.toml", &text, std::path::Path::new("")).unwrap();
     with_limits(&file, |context, limits| {
         let of = |field: Field| {
             let entry = limits.entries.iter().find(|entry| entry.field == field);
@@ -76,7 +76,7 @@ fn violated_rules_are_named() {
     for (share, violated) in [("100 %", 0), ("0.1 %", 2)] {
         let rules = format!("[rules]\nspeed = \"{share}\"\nrms_torque = \"{share}\"\n\n[motion]");
         let text = edited_press("[motion]", &rules);
-        let file = read::parse("press.toml", &text, std::path::Path::new("")).unwrap();
+        let file = checked::parse("press.toml", &text, std::path::Path::new("")).unwrap();
         with_limits(&file, |_, limits| {
             let broken = limits.broken();
             assert_eq!(broken.len(), violated, "{broken:?}");
@@ -90,7 +90,7 @@ fn violated_rules_are_named() {
 /// The figures of the cycle in the source are those of plain loops over its samples, for a drive with regeneration.
 #[test]
 fn sized_figures_are_those_of_the_samples() {
-    let file = read::read(&shipped("hoist.toml")).unwrap();
+    let file = checked::read(&shipped("hoist.toml")).unwrap();
     with_limits(&file, |context, limits| {
         let source = limits.source("hoist.toml");
         let sized = source.split_once("pub const SIZED").unwrap().1;
@@ -166,7 +166,7 @@ fn what_the_meter_does_not_monitor_is_named() {
     for (exponent, monitored) in [("3", true), ("10/3", false)] {
         let rules = format!("[rules]\ngearbox_mean_exponent = \"{exponent}\"\n\n[motion]");
         let text = edited_press("[motion]", &rules);
-        let file = read::parse("press.toml", &text, std::path::Path::new("")).unwrap();
+        let file = checked::parse("press.toml", &text, std::path::Path::new("")).unwrap();
         with_limits(&file, |context, limits| {
             let unseen = limits.unseen();
             assert_eq!(
@@ -197,7 +197,7 @@ fn the_source_warns_and_is_laid_out() {
     for (share, violated) in [("100 %", false), ("0.1 %", true)] {
         let rules = format!("[rules]\nspeed = \"{share}\"\n\n[motion]");
         let text = edited_press("[motion]", &rules);
-        let file = read::parse("press.toml", &text, std::path::Path::new("")).unwrap();
+        let file = checked::parse("press.toml", &text, std::path::Path::new("")).unwrap();
         with_limits(&file, |_, limits| {
             let source = limits.source("press.toml");
             assert_eq!(source.contains("THIS DRIVE VIOLATES RULES"), violated);
@@ -221,7 +221,7 @@ fn the_source_warns_and_is_laid_out() {
 /// The distance of a curve below its rating is stated if larger than rounding, and correct.
 #[test]
 fn shortfalls_are_said() {
-    let file = read::read(&press_file()).unwrap();
+    let file = checked::read(&press_file()).unwrap();
     with_limits(&file, |_, limits| {
         let mut curves = 0;
         for entry in &limits.entries {
@@ -244,7 +244,7 @@ fn shortfalls_are_said() {
 /// Each constant in the source has its unit, and digits grouped by three on both sides of the decimal point.
 #[test]
 fn constants_have_units_and_grouped_digits() {
-    let file = read::read(&press_file()).unwrap();
+    let file = checked::read(&press_file()).unwrap();
     with_limits(&file, |_, limits| {
         let source = limits.source("press.toml");
         for (name, unit) in [
@@ -294,7 +294,7 @@ fn the_stricter_of_two_rules_is_the_limit() {
         let rules =
             format!("[rules]\nspeed = \"{motor}\"\ngearbox_speed = \"{gearbox}\"\n\n[motion]");
         let text = edited_press("[motion]", &rules);
-        let file = read::parse("press.toml", &text, std::path::Path::new("")).unwrap();
+        let file = checked::parse("press.toml", &text, std::path::Path::new("")).unwrap();
         with_limits(&file, |context, limits| {
             let entry = limits
                 .entries
@@ -325,7 +325,7 @@ fn the_stricter_of_two_rules_is_the_limit() {
 /// The constants of the source are those that its function passes to the meter; a time constant of 0 is left out.
 #[test]
 fn the_limits_that_are_defined_are_used() {
-    let file = read::read(&press_file()).unwrap();
+    let file = checked::read(&press_file()).unwrap();
     with_limits(&file, |context, limits| {
         let source = limits.source("press.toml");
         let (_, function) = source.split_once("pub fn limits()").unwrap();

@@ -21,12 +21,12 @@ mod words;
 use std::path::Path;
 
 use crate::support::{Folder, budget, edited, near, press_text, within};
-use jred_machine::analysis::duty::Duty;
-use jred_machine::model::machine::MachineFile;
-use jred_machine::model::rule::Rule;
-use jred_machine::model::rules::Finding;
-use jred_machine::model::rules::{Limit, RuleSet};
-use jred_machine::read;
+use jred_analysis::checked;
+use jred_analysis::duty::Duty;
+use jred_file::model::machine::MachineFile;
+use jred_file::model::rule::Rule;
+use jred_file::model::rules::Finding;
+use jred_file::model::rules::{Limit, RuleSet};
 use jred_sizing::catalogue::Drive;
 use jred_sizing::catalogue::{Brake, Catalogue, Gearbox, Motor};
 use jred_sizing::cycle::Cycle;
@@ -35,7 +35,7 @@ use jred_sizing::judge::{Context, Words};
 use jred_sizing::motor::envelope::Prepared;
 
 fn read(text: &str) -> MachineFile {
-    read::parse("machine.toml", text, Path::new("")).unwrap()
+    checked::parse("machine.toml", text, Path::new("")).unwrap()
 }
 
 /// A motor with every figure of the envelope.
@@ -167,7 +167,7 @@ fn the_place_of_the_peak_is_said() {
     within(
         "rpm",
         number.abs(),
-        peak.speed.abs() / jred_machine::units::RPM,
+        peak.speed.abs() / jred_file::units::RPM,
         1.0,
     );
 }

@@ -12,11 +12,11 @@ use std::path::Path;
 
 use crate::brute;
 use crate::support::{budget, near, press_text};
-use jred_machine::analysis::duty::Duty;
-use jred_machine::model::machine::MachineFile;
-use jred_machine::model::rule::Rule;
-use jred_machine::model::rules::Limit;
-use jred_machine::read;
+use jred_analysis::checked;
+use jred_analysis::duty::Duty;
+use jred_file::model::machine::MachineFile;
+use jred_file::model::rule::Rule;
+use jred_file::model::rules::Limit;
 use jred_sizing::catalogue::{Catalogue, MotorKind};
 use jred_sizing::cycle::Cycle;
 use jred_sizing::select::pareto::Front;
@@ -32,7 +32,7 @@ struct Case {
 }
 
 fn case(text: &str, steps: usize) -> Case {
-    let file = read::parse("machine.toml", text, Path::new("")).unwrap();
+    let file = checked::parse("machine.toml", text, Path::new("")).unwrap();
     let duty = Duty::new(&file, file.motion.as_ref().unwrap(), steps).unwrap();
     let cycle = Cycle::new(&duty);
     Case { file, duty, cycle }

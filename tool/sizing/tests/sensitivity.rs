@@ -6,10 +6,10 @@ use std::path::Path;
 use std::sync::Arc;
 
 use crate::support::{Folder, budget, near, press_text, shipped, within};
-use jred_machine::analysis::duty::{Duty, Instant, Sampling};
-use jred_machine::model::rule::Rule;
-use jred_machine::read;
-use jred_machine::units::RPM;
+use jred_analysis::checked;
+use jred_analysis::duty::{Duty, Instant, Sampling};
+use jred_file::model::rule::Rule;
+use jred_file::units::RPM;
 use jred_sizing::catalogue::Drive;
 use jred_sizing::catalogue::{Catalogue, Gearbox};
 use jred_sizing::cycle::Cycle;
@@ -53,7 +53,7 @@ fn study(text: &str, steps: usize) -> (Folder, Study) {
 
 /// Motor torque of every instant with the drive "strong+five".
 fn torques(text: &str, steps: usize) -> (Duty, Vec<f64>) {
-    let file = read::parse("machine.toml", text, Path::new("")).unwrap();
+    let file = checked::parse("machine.toml", text, Path::new("")).unwrap();
     let duty = Duty::new(&file, file.motion.as_ref().unwrap(), steps).unwrap();
     let catalogue = strong();
     let drive = Drive {
@@ -153,7 +153,7 @@ fn some_sections_do_not_reach_the_cycle() {
                 unit: found.unit(),
             };
             let text = study.document.with(std::slice::from_ref(&edit));
-            let anew = read::parse(&study.name, &text, path.parent().unwrap());
+            let anew = checked::parse(&study.name, &text, path.parent().unwrap());
             let machine = study.machine(&[edit]);
             let (Ok(anew), Ok(machine)) = (&anew, &machine) else {
                 assert_eq!(anew.is_ok(), machine.is_ok(), "{name}: {}", found.path);

@@ -9,7 +9,7 @@ mod relative;
 
 use crate::brute;
 use crate::support::{budget, near, within};
-use jred_machine::model::operation::Operation;
+use jred_file::model::operation::Operation;
 use jred_sizing::judge::overload;
 use jred_sizing::thermal::course::{Course, Hottest, Point};
 use jred_sizing::thermal::network::{Change, Losses, Network, steady};

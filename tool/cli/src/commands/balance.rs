@@ -5,10 +5,11 @@ use miette::{Report, Result, miette};
 use crate::commands::core_error::{core_report, duty_report};
 use crate::commands::{Done, print_answer};
 use crate::options;
-use jred_machine::model::machine::MachineFile;
-use jred_machine::model::variator;
-use jred_machine::plain;
-use jred_machine::read;
+use jred_analysis::checked;
+use jred_file::argument;
+use jred_file::model::machine::MachineFile;
+use jred_file::model::variator;
+use jred_file::plain;
 use jred_motion::balance::{self, Counterweight, Fault, Goal, Request};
 use jred_report::list;
 
@@ -17,7 +18,7 @@ use jred_report::list;
 /// # Errors
 /// Bad input, or nothing to balance.
 pub fn balance(options: &options::balance::Balance) -> Result<Done> {
-    let file = read::read(&options.file)?;
+    let file = checked::read(&options.file)?;
     variator::refuse(&file, "balance")?;
     if let Some(carriage) = file.carriages().next() {
         return Err(miette!(
@@ -144,8 +145,8 @@ fn counterweight(text: &str, file: &MachineFile) -> Result<Counterweight> {
     };
     Ok(Counterweight {
         link: number,
-        most: quantity(read::mass_argument, most)?,
-        reach: quantity(read::length_argument, reach)?,
+        most: quantity(argument::mass_argument, most)?,
+        reach: quantity(argument::length_argument, reach)?,
     })
 }
 

@@ -1,7 +1,7 @@
 //! The core's errors as reports: the fault, and its cure as help.
 
 use jred::Error;
-use jred_machine::analysis::duty::Fault;
+use jred_analysis::duty::Fault;
 use miette::{Report, miette};
 
 /// Report of an obstacle to a duty.

@@ -8,15 +8,13 @@ use crate::commands::{Done, print_answer, read_warned, warn};
 use crate::options;
 use crate::output;
 use jred::Reducible as _;
-use jred_machine::analysis::duty::Duty;
-use jred_machine::export::{
-    Choice, Export, Failure, Form, LayoutChoice, Name, Number, Proven, Task,
-};
-use jred_machine::model::axis::Axis;
-use jred_machine::model::machine::MachineFile;
-use jred_machine::model::variator;
-use jred_machine::plain;
-use jred_machine::read;
+use jred_analysis::duty::Duty;
+use jred_export::{Choice, Export, Failure, Form, LayoutChoice, Name, Number, Proven, Task};
+use jred_file::argument;
+use jred_file::model::axis::Axis;
+use jred_file::model::machine::MachineFile;
+use jred_file::model::variator;
+use jred_file::plain;
 use jred_report::list;
 use jred_report::table::output::Format;
 
@@ -27,7 +25,7 @@ fn edges(options: &options::Export, file: &MachineFile) -> Result<Vec<f64>> {
         Some("auto") => (0..).map_while(|k| file.machine.edge(k)).collect(),
         Some(list) => {
             let drive = Axis::of_drive(file.machine.mechanism().coordinate());
-            read::drive_positions(list, file.machine.domain(), [&drive; 2]).map_err(|why| {
+            argument::drive_positions(list, file.machine.domain(), [&drive; 2]).map_err(|why| {
                 miette!(
                     help = "write positions with a comma between them, such as \"60 deg, 75 deg\", or auto",
                     "--pieces {list:?} cannot be used: {why}"
@@ -110,16 +108,20 @@ pub(super) fn run(options: &options::Export) -> Result<Done> {
         ));
     }
     let coordinate = file.machine.mechanism().coordinate();
-    let quantity = |name: &str, text: &Option<String>, read: read::Reader| {
+    let quantity = |name: &str, text: &Option<String>, read: argument::Reader| {
         let value = text.as_deref().map(|text| {
             read(text, coordinate)
                 .map_err(|why| miette!("--{name} {} cannot be used: {why}", plain::quoted(text)))
         });
         value.transpose()
     };
-    let torque_error = quantity("torque-error", &options.torque_error, read::drive_effort)?;
-    let omega = quantity("omega", &options.omega, read::largest_speed)?;
-    let alpha = quantity("alpha", &options.alpha, read::largest_acceleration)?;
+    let torque_error = quantity(
+        "torque-error",
+        &options.torque_error,
+        argument::drive_effort,
+    )?;
+    let omega = quantity("omega", &options.omega, argument::largest_speed)?;
+    let alpha = quantity("alpha", &options.alpha, argument::largest_acceleration)?;
     let (omega, alpha) = range([omega, alpha], &file)?;
     let task = Task {
         number: options.number,
@@ -215,12 +217,8 @@ fn range(given: [Option<f64>; 2], file: &MachineFile) -> Result<(f64, f64)> {
         _ => {}
     }
     let motion = file.motion_or("the table needs a largest speed: give --omega, or ")?;
-    let duty = Duty::new(
-        file,
-        motion,
-        jred_machine::analysis::duty::Sampling::default(),
-    )
-    .map_err(duty_report)?;
+    let duty =
+        Duty::new(file, motion, jred_analysis::duty::Sampling::default()).map_err(duty_report)?;
     let [omega, alpha] = given;
     let omega = omega.unwrap_or(duty.figures(|i| i.omega).peak());
     let moved = duty.figures(|i| i.alpha).peak();

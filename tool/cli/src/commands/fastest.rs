@@ -17,13 +17,13 @@ use crate::commands::{
 use crate::options::fastest::{Asked, Fastest as Options};
 use crate::output::{self, Files};
 use jred::Reducible as _;
-use jred_machine::model::coordinate::Coordinate;
-use jred_machine::model::drive_train;
-use jred_machine::model::machine::MachineFile;
-use jred_machine::model::variator;
-use jred_machine::number::rounding::short;
-use jred_machine::plain;
-use jred_machine::read;
+use jred_file::argument;
+use jred_file::model::coordinate::Coordinate;
+use jred_file::model::drive_train;
+use jred_file::model::machine::MachineFile;
+use jred_file::model::variator;
+use jred_file::number::rounding::short;
+use jred_file::plain;
 use jred_motion::contact::broken;
 use jred_motion::fastest::field::Field;
 use jred_motion::fastest::joint_force::reached;
@@ -214,10 +214,10 @@ fn task(options: &Options, file: &MachineFile) -> Result<Option<Task>> {
     let position = |name: &str, text: &str| {
         let refused =
             |why: String| miette!("--{name} {} cannot be used: {why}", plain::quoted(text));
-        read::axis_position(text, domain, &axis).map_err(refused)
+        argument::axis_position(text, domain, &axis).map_err(refused)
     };
     let speed = |name: &str, text: &Option<String>| {
-        let speed = rate(name, text.as_deref(), read::drive_speed, &axis)?.unwrap_or(0.0);
+        let speed = rate(name, text.as_deref(), argument::drive_speed, &axis)?.unwrap_or(0.0);
         if speed < 0.0 {
             return Err(miette!(
                 help = "speeds count in the direction of the move",
@@ -295,7 +295,7 @@ fn rms(options: &Options, file: &MachineFile, chosen: &Chosen) -> Result<Option<
             let torque = quantity(
                 "max-rms",
                 Some(text),
-                read::drive_effort,
+                argument::drive_effort,
                 motor_coordinate(file),
             )?;
             Ok(torque.map(Rms::Torque))
@@ -340,11 +340,11 @@ fn chosen(options: &Options, file: &MachineFile) -> Result<Chosen> {
 fn plain_motor(options: &Options, file: &MachineFile, torque: &str) -> Result<Chosen> {
     let kind = fit::input_kind(file);
     let coordinate = motor_coordinate(file);
-    let effort = quantity("torque", Some(torque), read::drive_effort, coordinate)?;
+    let effort = quantity("torque", Some(torque), argument::drive_effort, coordinate)?;
     let speed = quantity(
         "motor-speed",
         options.motor_speed.as_deref(),
-        read::largest_speed,
+        argument::largest_speed,
         coordinate,
     )?;
     let motor = Motor {

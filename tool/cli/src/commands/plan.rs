@@ -6,9 +6,9 @@ use crate::commands::core_error::core_report;
 use crate::options::plan::{Form, PlanFile};
 use crate::output::{self, Files};
 use jred::Reducible as _;
-use jred_machine::export::{plan_c_source, plan_source};
-use jred_machine::model::machine::MachineFile;
-use jred_machine::plain;
+use jred_export::{plan_c_source, plan_source};
+use jred_file::model::machine::MachineFile;
+use jred_file::plain;
 use jred_motion::plan::Plan;
 use jred_motion::plan::ramp::least_ramp;
 use jred_motion::trace::Trace;
@@ -28,7 +28,7 @@ pub(super) fn write(
     let Some(path) = &options.plan else {
         return Ok(None);
     };
-    let machine = jred_machine::export::identifier(&file.title);
+    let machine = jred_export::identifier(&file.title);
     let ramp = least_ramp(file, actuator, gearbox, trace).map_err(core_report)?;
     let plan = Plan::new(trace, file.machine.domain(), machine, options.plan_error)
         .and_then(|plan| plan.with_ramp(ramp))

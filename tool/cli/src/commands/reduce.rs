@@ -7,13 +7,14 @@ use crate::commands::{Done, print_answer, warn};
 use crate::options;
 use crate::output;
 use jred::Reducible as _;
-use jred_machine::analysis::reduce;
-use jred_machine::analysis::reduce::{Over, Sets, reduce};
-use jred_machine::model::axis::Axis;
-use jred_machine::model::machine::MachineFile;
-use jred_machine::model::variator;
-use jred_machine::plain;
-use jred_machine::read;
+use jred_analysis::checked;
+use jred_analysis::reduce;
+use jred_analysis::reduce::{Over, Sets, reduce};
+use jred_file::argument;
+use jred_file::model::axis::Axis;
+use jred_file::model::machine::MachineFile;
+use jred_file::model::variator;
+use jred_file::plain;
 use jred_report::list::{self, reduction::not_contained};
 use jred_report::page;
 use jred_report::table::output::Format;
@@ -23,7 +24,7 @@ use jred_report::table::output::Format;
 /// # Errors
 /// Bad input, or a file that cannot be written.
 pub(super) fn run(options: &options::Reduce) -> Result<Done> {
-    let file = read::read(&options.file)?;
+    let file = checked::read(&options.file)?;
     output::check([("--report", &options.report)])?;
     variator::refuse(&file, "reduce")?;
     if options.over == Over::Time {
@@ -137,9 +138,9 @@ fn state(options: &options::Reduce, file: &MachineFile) -> Result<Option<[f64; 2
         miette!("--{name} {} cannot be used: {why}", plain::quoted(text))
     };
     let omega =
-        read::drive_speed(speed, coordinate).map_err(|why| refused("speed", speed, &why))?;
+        argument::drive_speed(speed, coordinate).map_err(|why| refused("speed", speed, &why))?;
     let alpha = match &options.accel {
-        Some(accel) => read::drive_acceleration(accel, coordinate)
+        Some(accel) => argument::drive_acceleration(accel, coordinate)
             .map_err(|why| refused("accel", accel, &why))?,
         None => 0.0,
     };
@@ -153,7 +154,7 @@ fn states(options: &options::Reduce, file: &MachineFile) -> Result<Option<Vec<re
     };
     let domain = file.machine.domain();
     let drive = Axis::of_drive(file.machine.mechanism().coordinate());
-    let states = read::drive_states(text, domain, [&drive, &file.axis()]);
+    let states = argument::drive_states(text, domain, [&drive, &file.axis()]);
     let states = states.map_err(|why| {
         miette!(
             help = "write positions with commas between them, such as \"30 deg, 60 deg\", each with its speed and acceleration, if you like: \"30 deg, 60 rpm, 5 rad/s^2, 60 deg, 90 rpm\"",

@@ -11,12 +11,12 @@ use crate::commands::{
 };
 use crate::options::retime::{Ends, RAMP, Retime};
 use crate::output::{self, Files};
-use jred_machine::model::drive_train;
-use jred_machine::model::machine::MachineFile;
-use jred_machine::model::rules::Verdict;
-use jred_machine::model::variator;
-use jred_machine::number::rounding::short;
-use jred_machine::plain;
+use jred_file::model::drive_train;
+use jred_file::model::machine::MachineFile;
+use jred_file::model::rules::Verdict;
+use jred_file::model::variator;
+use jred_file::number::rounding::short;
+use jred_file::plain;
 use jred_motion::contact::broken;
 use jred_motion::fastest::ruled::Judge;
 use jred_motion::gentlest::{Fault, without_drive};

@@ -8,15 +8,16 @@ use crate::commands::core_error::core_report;
 use crate::commands::{Done, drive_asked, envelope, print_answer, rate, warn_of_motion};
 use crate::options::simulate::Simulate;
 use crate::output;
-use jred_machine::analysis::reduce::{Sets, add_columns};
-use jred_machine::analysis::simulate::{self, Simulated, Together, beside_name};
-use jred_machine::model::coordinate::Coordinate;
-use jred_machine::model::machine::MachineFile;
-use jred_machine::model::simulation::Simulation;
-use jred_machine::model::variator;
-use jred_machine::number::words::counted;
-use jred_machine::plain;
-use jred_machine::read;
+use jred_analysis::checked;
+use jred_analysis::reduce::{Sets, add_columns};
+use jred_analysis::simulate::{self, Simulated, Together, beside_name};
+use jred_file::argument;
+use jred_file::model::coordinate::Coordinate;
+use jred_file::model::machine::MachineFile;
+use jred_file::model::simulation::Simulation;
+use jred_file::model::variator;
+use jred_file::number::words::counted;
+use jred_file::plain;
 use jred_motion::driven::{Loads, Unfit, driven};
 use jred_report::list;
 use jred_report::page;
@@ -30,7 +31,7 @@ pub(super) fn run(options: &Simulate) -> Result<Done> {
     let Some((path, others)) = options.files.split_first() else {
         return Err(miette!("no machine file is given"));
     };
-    let file = read::read_over_turns(path)?;
+    let file = checked::read_over_turns(path)?;
     let others = read_all(others)?;
     let chosen = drive_asked(options.drive.as_deref(), &options.catalogue, &file)?;
     output::check([("--plot", &options.plot)])?;
@@ -56,7 +57,7 @@ pub(super) fn run(options: &Simulate) -> Result<Done> {
     let to_speed = rate(
         "to-speed",
         options.to_speed.as_deref(),
-        read::drive_speed,
+        argument::drive_speed,
         &file.axis(),
     )?;
     let simulation = &Simulation {
@@ -111,7 +112,7 @@ pub(super) fn run(options: &Simulate) -> Result<Done> {
 /// Reads the further machines.
 pub(super) fn read_all(paths: &[PathBuf]) -> Result<Vec<MachineFile>> {
     let files = paths.iter();
-    files.map(|path| read::read_over_turns(path)).collect()
+    files.map(|path| checked::read_over_turns(path)).collect()
 }
 
 /// Starting positions of the further machines' drive links.

@@ -10,14 +10,15 @@ use crate::commands::vary::catalogue;
 use crate::commands::{Done, print, print_answer};
 use crate::options::{Moved, Size};
 use crate::output;
-use jred_machine::analysis::duty::Duty;
-use jred_machine::analysis::warnings::warnings;
-use jred_machine::model::machine::MachineFile;
-use jred_machine::model::motion::Motion;
-use jred_machine::model::{drive_train, variator};
-use jred_machine::number::words::counted;
-use jred_machine::plain;
-use jred_machine::read;
+use jred_analysis::checked;
+use jred_analysis::duty::Duty;
+use jred_analysis::warnings::warnings;
+use jred_file::model::machine::MachineFile;
+use jred_file::model::motion::Motion;
+use jred_file::model::{drive_train, variator};
+use jred_file::number::words::counted;
+use jred_file::plain;
+use jred_file::read;
 use jred_motion::suited::Judging;
 use jred_report::list;
 use jred_report::list::listing;
@@ -38,7 +39,7 @@ const TOP: usize = 10;
 /// # Errors
 /// Bad input, or a file that cannot be written.
 pub fn size(options: &Size) -> Result<Done> {
-    let mut file = read::read(&options.file)?;
+    let mut file = checked::read(&options.file)?;
     if let Some(set) = options.supply.rule_set()? {
         file.rules = read::rules_based_on(&file.rules, set)?;
     }

@@ -6,14 +6,15 @@ use crate::commands::simulate::{read_all, starts};
 use crate::commands::{Done, print_answer, rate};
 use crate::options;
 use crate::output::{self, print};
-use jred_machine::analysis::simulate::Together;
-use jred_machine::analysis::steady::{self, Level, MeanSpeed, Request};
-use jred_machine::model::characteristic::Characteristic;
-use jred_machine::model::machine::MachineFile;
-use jred_machine::model::simulation::Simulation;
-use jred_machine::model::variator;
-use jred_machine::plain;
-use jred_machine::read;
+use jred_analysis::checked;
+use jred_analysis::simulate::Together;
+use jred_analysis::steady::{self, Level, MeanSpeed, Request};
+use jred_file::argument;
+use jred_file::model::characteristic::Characteristic;
+use jred_file::model::machine::MachineFile;
+use jred_file::model::simulation::Simulation;
+use jred_file::model::variator;
+use jred_file::plain;
 use jred_report::list;
 use jred_report::page;
 use jred_report::table::output::Format;
@@ -29,14 +30,14 @@ pub fn steady(options: &options::Steady) -> Result<Done> {
     let Some((path, others)) = options.files.split_first() else {
         return Err(miette!("no machine file is given"));
     };
-    let (file, others) = (read::read_over_turns(path)?, read_all(others)?);
+    let (file, others) = (checked::read_over_turns(path)?, read_all(others)?);
     output::check([("--report", &options.report)])?;
     variator::refuse(&file, "steady")?;
     let simulation = simulation(options, &file)?;
     let starts = starts(&others, &options.phase)?;
     let machines = Together::alone(&file).with(others.iter().zip(starts), &simulation)?;
     let asked = options.mean_speed.as_deref();
-    let speed = rate("mean-speed", asked, read::drive_speed, &file.axis())?;
+    let speed = rate("mean-speed", asked, argument::drive_speed, &file.axis())?;
     let request = Request {
         delta: options.delta,
         mean_speed: mean_speed(speed, options)?,

@@ -1,6 +1,6 @@
 //! `jred tolerance`.
 
-use jred_machine::plain;
+use jred_file::plain;
 use miette::{Result, miette};
 
 use crate::commands::vary::{stopped, study};
@@ -8,7 +8,7 @@ use crate::commands::{Done, print_answer, warn_of_motion};
 use crate::options::search::Tolerance as Options;
 use crate::output;
 use crate::rows::run::run;
-use jred_machine::model::tolerance::Tolerance;
+use jred_file::model::tolerance::Tolerance;
 use jred_report::list::tolerance::sheet;
 use jred_report::table::output::Format;
 use jred_report::table::rows::RowFormat;

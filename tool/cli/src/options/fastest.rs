@@ -8,7 +8,7 @@ use super::plan::PlanFile;
 use super::retime::Ends;
 use super::search::SizingOptions;
 use super::word::word;
-use jred_machine::read;
+use jred_file::argument;
 use jred_motion::trace::Master;
 use jred_report::table::output::Format;
 
@@ -25,7 +25,7 @@ fn asked(text: &str) -> Result<Asked, String> {
     if text.eq_ignore_ascii_case("rules") {
         return Ok(Asked::Rules);
     }
-    read::reserve_argument(text).map(Asked::Share)
+    argument::reserve_argument(text).map(Asked::Share)
 }
 
 /// `jred fastest`
@@ -77,7 +77,7 @@ pub struct Fastest {
     )]
     pub motor_speed: Option<String>,
     /// Inertia of its rotor, e.g. "2 kg cm^2"; zero if not given.
-    #[arg(long, requires = "torque", value_parser = jred_machine::read::inertia_argument)]
+    #[arg(long, requires = "torque", value_parser = jred_file::argument::inertia_argument)]
     pub rotor_inertia: Option<f64>,
     /// Share of the motor's torque and of its largest speed that stays unused, e.g. "10 %"; "rules": the motion satisfies the rules of `jred size`
     /// for motor, gearbox and amplifier (`[rules]` of the file), the motor's heat with --max-rms or --max-winding-temperature; no reserve if not

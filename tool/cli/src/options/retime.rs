@@ -13,7 +13,7 @@ use jred_motion::retime::Goal;
 use jred_motion::trace::Master;
 use jred_report::table::output::Format;
 
-jred_machine::words! {
+jred_file::words! {
     /// Acceleration at the ends of a move.
     pub enum Ends default Free {
         /// The acceleration may jump at rest, which gives the best result.

@@ -1,7 +1,7 @@
 //! Sampling of a cycle.
 
 use clap::Args;
-use jred_machine::analysis::duty::{LEAST_TOLERANCE, STEPS, Sampling, TOLERANCE};
+use jred_analysis::duty::{LEAST_TOLERANCE, STEPS, Sampling, TOLERANCE};
 
 /// Largest allowed tolerance.
 const MOST_TOLERANCE: f64 = 1e-2;

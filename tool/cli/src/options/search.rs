@@ -8,10 +8,10 @@ use glob::Pattern;
 use super::catalogue::CatalogueFiles;
 use super::sampling::{Accuracy, Steps};
 use super::word::word;
-use jred_machine::model::rules::RuleSet;
-use jred_machine::number::words::Word as _;
-use jred_machine::number::words::counted;
-use jred_machine::read;
+use jred_file::model::rules::RuleSet;
+use jred_file::number::words::Word as _;
+use jred_file::number::words::counted;
+use jred_file::read;
 use jred_report::table::output::Format;
 use jred_report::table::rows::RowFormat;
 use jred_sizing::catalogue::{Catalogue, CatalogueError};
@@ -58,7 +58,7 @@ pub struct Search {
     #[arg(long, conflicts_with = "gearbox")]
     pub direct_only: bool,
     /// Only drives up to this mass, e.g. "12 kg".
-    #[arg(long, value_name = "MASS", value_parser = jred_machine::read::mass_argument)]
+    #[arg(long, value_name = "MASS", value_parser = jred_file::argument::mass_argument)]
     pub max_mass: Option<f64>,
     /// Only drives up to this price, in the currency of the catalogue.
     #[arg(long, value_name = "PRICE", value_parser = price)]
@@ -290,7 +290,7 @@ pub struct Ratio {
     #[arg(long, default_value_t = 1.0, value_parser = efficiency)]
     pub efficiency: f64,
     /// Inertia of the gearbox at its input, e.g. "0.5 kg cm^2"; zero if not given.
-    #[arg(long, value_parser = jred_machine::read::inertia_argument)]
+    #[arg(long, value_parser = jred_file::argument::inertia_argument)]
     pub gearbox_inertia: Option<f64>,
     /// Only motors whose key matches, e.g. "sgmsh-*"; may be repeated.
     #[arg(long, value_name = "GLOB")]

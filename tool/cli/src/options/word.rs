@@ -2,7 +2,7 @@
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 
-use jred_machine::number::words::Word;
+use jred_file::number::words::Word;
 
 /// Parses a word; the help lists all of them with their meanings.
 pub(super) fn word<T: Word>() -> impl TypedValueParser<Value = T> {

@@ -5,8 +5,8 @@ use std::collections::BinaryHeap;
 use std::io::{BufReader, BufWriter, Error, ErrorKind, Read, Write};
 use std::path::{Path, PathBuf};
 
-use jred_machine::plain;
-use jred_machine::text::disk;
+use jred_file::plain;
+use jred_file::text::disk;
 use miette::{IntoDiagnostic as _, Report, Result, WrapErr as _, miette};
 
 use super::store;

@@ -9,7 +9,7 @@ use std::fs::{File, OpenOptions};
 use std::io::{BufRead, BufReader, Read as _, Seek as _, SeekFrom, Write as _};
 use std::path::Path;
 
-use jred_machine::plain;
+use jred_file::plain;
 use miette::{IntoDiagnostic as _, Report, Result, WrapErr as _, miette};
 
 use crate::output;

@@ -20,7 +20,7 @@ const SET: Set = curves::LOAD
 fn a_plain_slider_crank_is_taken_as_its_form() {
     let folder = Folder::new();
     let path = shipped("shaking-feeder.toml");
-    let file = jred_machine::read::read(&path).unwrap();
+    let file = jred_analysis::checked::read(&path).unwrap();
     for allowed in ["5 N m", "0.01 N m", "0.00002 N m"] {
         let out = folder.path("feeder.jred");
         let more = ["--torque-error", allowed, "--layout", "slider-crank"];
@@ -96,7 +96,7 @@ fn the_rust_file_of_a_form_is_a_program() {
         [out.as_path(), here.as_ref()].map(|path| std::fs::read_to_string(path).unwrap());
     assert_eq!(written, expected, "see CONTRIBUTING.md, Examples");
     let model = feeder_form::model().unwrap();
-    let file = jred_machine::read::read(&shipped("shaking-feeder.toml")).unwrap();
+    let file = jred_analysis::checked::read(&shipped("shaking-feeder.toml")).unwrap();
     let exact = machine(&file).reduction(0.5).unwrap().torque(20.0, 300.0);
     let found = model.torque(Phase::from_radians(0.5), 20.0, 300.0);
     assert!((f64::from(found) - exact.total()).abs() < 2e-5, "{found}");

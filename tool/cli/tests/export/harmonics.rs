@@ -28,7 +28,7 @@ const SET: Set = curves::LOAD
 fn an_image_of_harmonics_holds_its_error() {
     let folder = Folder::new();
     let path = smooth(&folder);
-    let file = jred_machine::read::read(&path).unwrap();
+    let file = jred_analysis::checked::read(&path).unwrap();
     let machine = machine(&file);
     let mut before = 0;
     for (allowed, more) in [(2.0, "256"), (0.05, "256"), (0.001, "32")] {

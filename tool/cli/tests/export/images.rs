@@ -6,8 +6,8 @@ use jred::{
     Cubic, Image, ImageError, Phase, Q31, Quadratic, Reducible as _, Rows16, Set, SliderCrankForm,
     Spline, Spline16, curves,
 };
-use jred_machine::model::machine::MachineFile;
-use jred_machine::model::mechanism::AnyMechanism;
+use jred_file::model::machine::MachineFile;
+use jred_file::model::mechanism::AnyMechanism;
 
 use super::{KINDS, export, export_of, image, number_after, words_of};
 use crate::support::{Folder, budget, press_file, shipped};
@@ -87,7 +87,7 @@ fn of_model<F: Format, const CURVES: Set>(words: &[u32]) -> [f64; 2] {
     let image = Image::new(words).unwrap();
     let model = image.model::<F, CURVES>().unwrap();
     errors::<F::Number>(
-        &machine(&jred_machine::read::read(&press_file()).unwrap()),
+        &machine(&jred_analysis::checked::read(&press_file()).unwrap()),
         &image,
         |share| Phase::from_bits((share * 4_294_967_296.0) as u32),
         |phase, omega, alpha| model.torque(phase, omega, alpha),
@@ -188,7 +188,7 @@ fn every_machine_holds_its_error() {
     files.sort();
     let mut checked = 0;
     for (k, path) in files.iter().enumerate() {
-        let file = jred_machine::read::read(path).unwrap();
+        let file = jred_analysis::checked::read(path).unwrap();
         // Parts that follow the motion are in no table.
         if file.variator.is_some() || file.scheduled().next().is_some() {
             continue;

@@ -8,8 +8,8 @@ use jred::{
     Spline, Spline16, curves,
 };
 
-use jred_machine::export::{Answer, Export, LayoutChoice, Number, Task};
-use jred_machine::model::machine::MachineFile;
+use jred_export::{Answer, Export, LayoutChoice, Number, Task};
+use jred_file::model::machine::MachineFile;
 
 use super::images::{errors, machine};
 use super::{KINDS, export_of, press_pieces};
@@ -41,7 +41,7 @@ fn searched(file: &MachineFile) -> Export {
     let task = Task {
         number: Number::F32,
         layout: LayoutChoice::Auto,
-        core: jred_machine::export::Core::default(),
+        core: jred_export::Core::default(),
         forward: false,
         reciprocal: false,
         torque_error: Some(0.5),
@@ -100,7 +100,7 @@ fn words(piece: &serde_json::Value) -> Vec<u32> {
 #[test]
 fn pieces_of_every_type_and_layout_hold_their_error() {
     let folder = Folder::new();
-    let file = jred_machine::read::read(&steep(&folder)).unwrap();
+    let file = jred_analysis::checked::read(&steep(&folder)).unwrap();
     let export = searched(&file);
     for ((number, layout, answer), kind) in export.answers.iter().zip(KINDS) {
         assert_eq!((number.name(), layout.name()), kind);
@@ -181,7 +181,7 @@ fn steep_edges_that_are_no_whole_phases_hold_their_error() {
     ];
     let run = export_of(&file, &arguments, None).ends(0);
     let stated = run.json()["torque_error"].as_f64().unwrap();
-    let file = jred_machine::read::read(&file).unwrap();
+    let file = jred_analysis::checked::read(&file).unwrap();
     let [error, _] = errors_of::<Spline<f32>>(&file, &written(&run.json()));
     assert!(stated <= 0.1 && error > 0.1 * stated, "{error} of {stated}");
     assert!(
@@ -222,7 +222,7 @@ fn a_single_piece_begins_at_its_edge() {
             .model::<Spline<f32>, SET>()
             .unwrap();
         let turn = Pieces::new(Domain::Turn, [(Phase::from_bits(start), model)]).unwrap();
-        let machine = machine(&jred_machine::read::read(&press_file()).unwrap());
+        let machine = machine(&jred_analysis::checked::read(&press_file()).unwrap());
         let [torque, _] = errors::<f32>(
             &machine,
             &Image::new(&words).unwrap(),
@@ -293,7 +293,7 @@ fn a_stroke_in_pieces_holds_its_error() {
         near(k, "from", from);
         near(k, "to", to);
     }
-    let machine = machine(&jred_machine::read::read(&gripper).unwrap());
+    let machine = machine(&jred_analysis::checked::read(&gripper).unwrap());
     let [omega, alpha] = ["omega", "alpha"].map(|key| value[key].as_f64().unwrap());
     let mut worst = 0.0f64;
     for piece in pieces {
@@ -331,7 +331,7 @@ fn a_narrow_load_has_its_curve_and_its_units() {
     let text = text.replace("ramp = \"15 deg\"", "ramp = \"0.0625 deg\"");
     let weightless = text.replace("\"9.81 m/s^2\"", "\"0 m/s^2\"");
     for (name, text) in [("heavy", &text), ("weightless", &weightless)] {
-        let file = jred_machine::read::read(&folder.file("narrow.toml", text)).unwrap();
+        let file = jred_analysis::checked::read(&folder.file("narrow.toml", text)).unwrap();
         let mut met = Vec::new();
         for (number, layout, answer) in searched(&file).answers {
             // Some layouts would need more cells.
@@ -376,7 +376,7 @@ fn the_source_text_is_a_program() {
     assert_eq!(written, expected, "see CONTRIBUTING.md, Examples");
 
     let model = press_pieces::pieces().unwrap();
-    let machine = machine(&jred_machine::read::read(&press_file()).unwrap());
+    let machine = machine(&jred_analysis::checked::read(&press_file()).unwrap());
     let image = Image::new(&press_pieces::TABLE_1).unwrap();
     let [torque, _] = errors::<f32>(
         &machine,

@@ -2,9 +2,9 @@
 
 use jred::machine::{Element, Frames, MassProperties, Mechanism as _};
 use jred::{Error, Link, Reducible as _};
-use jred_machine::analysis::duty::{Duty, Instant, Sampling};
-use jred_machine::model::coordinate::positions;
-use jred_machine::model::machine::MachineFile;
+use jred_analysis::duty::{Duty, Instant, Sampling};
+use jred_file::model::coordinate::positions;
+use jred_file::model::machine::MachineFile;
 
 use super::{Counterweight, Fault, Goal, POSITIONS, ROUNDING, Request, largest};
 

@@ -1,8 +1,8 @@
 //! The unknowns, their bounds, and their conversion to bodies and springs.
 
 use jred::machine::Element;
-use jred_machine::model::laden::Attached;
-use jred_machine::model::machine::MachineFile;
+use jred_file::model::laden::Attached;
+use jred_file::model::machine::MachineFile;
 
 use super::barrier::{Bound, Problem};
 use super::rows::{Rows, product};

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use jred::machine::Mechanism as _;
 use jred::{Domain, Error, Reducible as _};
-use jred_machine::number::numerics::{edge, least};
+use jred_file::number::numerics::{edge, least};
 
 use super::field::Field;
 use super::joint_force::JointForce;

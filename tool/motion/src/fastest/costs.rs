@@ -1,6 +1,6 @@
 //! The cost of each active limit: the time without it, or with more of the motor's own.
 
-use jred_machine::model::machine::MachineFile;
+use jred_file::model::machine::MachineFile;
 
 use super::cycle::Made;
 use super::field::{Binding, Limits};

@@ -1,6 +1,6 @@
 //! Makes all moves of a motion as fast as possible and keeps its pauses.
 
-use jred_machine::model::machine::MachineFile;
+use jred_file::model::machine::MachineFile;
 
 use super::costs::costs;
 pub use super::costs::{Cost, MORE};

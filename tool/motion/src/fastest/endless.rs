@@ -3,7 +3,7 @@
 //! A larger start speed never gives a smaller end speed. Iterating from the largest possible speed therefore descends, turn by turn, to the largest
 //! speed that repeats itself. No repeating motion is faster anywhere than the motion with this speed.
 
-use jred_machine::model::machine::MachineFile;
+use jred_file::model::machine::MachineFile;
 
 use super::course::Course;
 use super::field::Field;

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 
 use jred::Error;
-use jred_machine::model::machine::MachineFile;
+use jred_file::model::machine::MachineFile;
 use jred_sizing::select::fit::input_kind;
 
 use super::joint_force::{JointForces, Spot};

@@ -17,8 +17,8 @@ use std::ops::Deref;
 use jred::Error;
 use jred::machine::MAX_JOINTS;
 
-use jred_machine::model::machine::MachineFile;
-use jred_machine::model::schedule::Now;
+use jred_file::model::machine::MachineFile;
+use jred_file::model::schedule::Now;
 
 use super::NoMotion;
 use super::field::{Field, speed};

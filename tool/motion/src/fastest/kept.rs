@@ -1,7 +1,7 @@
 //! Parts of the motion that are kept unchanged.
 
 use jred::Error;
-use jred_machine::model::machine::MachineFile;
+use jred_file::model::machine::MachineFile;
 
 use super::field::{Binding, Field, Limits};
 use super::track::Seen;

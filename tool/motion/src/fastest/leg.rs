@@ -1,6 +1,6 @@
 //! Integrates one field of accelerations through a cell.
 
-use jred_machine::number::quadrature::GAUSS_3;
+use jred_file::number::quadrature::GAUSS_3;
 
 use super::field::{Field, speed};
 use super::sweep::Side;

@@ -4,9 +4,9 @@ use std::convert::Infallible;
 
 use jred::Error;
 use jred::machine::motion::State;
-use jred_machine::model::machine::MachineFile;
-use jred_machine::number::numerics;
-use jred_machine::number::quadrature::GAUSS_2;
+use jred_file::model::machine::MachineFile;
+use jred_file::number::numerics;
+use jred_file::number::quadrature::GAUSS_2;
 
 use super::field::Reserve;
 use crate::trace::{Node, Trace};

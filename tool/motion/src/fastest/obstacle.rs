@@ -4,10 +4,10 @@ mod cure;
 mod words;
 
 use jred::Error;
-use jred_machine::analysis::duty;
-use jred_machine::model::axis::Axis;
-use jred_machine::model::coordinate::Coordinate;
-use jred_machine::model::machine::MachineFile;
+use jred_analysis::duty;
+use jred_file::model::axis::Axis;
+use jred_file::model::coordinate::Coordinate;
+use jred_file::model::machine::MachineFile;
 
 use jred_sizing::catalogue::MotorKind;
 use jred_sizing::select::fit::input_kind;

@@ -2,7 +2,7 @@
 
 use std::convert::Infallible;
 
-use jred_machine::number::numerics::edge;
+use jred_file::number::numerics::edge;
 
 use super::field::{Binding, Field, speed};
 use super::sweep::{Along, Piece};

@@ -1,7 +1,7 @@
 //! The phase plane of a move: speed over position, with the active limit of each stretch and the speeds that the machine cannot pass.
 
 use jred::Error;
-use jred_machine::model::machine::MachineFile;
+use jred_file::model::machine::MachineFile;
 
 use super::Binding;
 use super::cycle::Made;

@@ -1,7 +1,7 @@
 //! Reserves of motor and gearbox.
 
-use jred_machine::model::rule::Rule;
-use jred_machine::model::rules::RuleSet;
+use jred_file::model::rule::Rule;
+use jred_file::model::rules::RuleSet;
 
 /// Share by which a motion with a reserve stays below the reduced limit, so that a rule with the same reserve is satisfied whatever the last digits:
 /// limits are accurate to 1e-9 between the nodes.

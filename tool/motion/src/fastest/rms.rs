@@ -14,8 +14,8 @@
 //! 1.155·G. Therefore β grows with a share s from 0 to 1 as 1/β = (1 − s)/s + (1 − C²/R²), and ∫T² dt − R²·t falls with s.
 
 use jred::Error;
-use jred_machine::model::coordinate::Coordinate;
-use jred_machine::model::machine::MachineFile;
+use jred_file::model::coordinate::Coordinate;
+use jred_file::model::machine::MachineFile;
 
 use super::NoMotion;
 use super::cycle::{Cycle, MotorLoad};

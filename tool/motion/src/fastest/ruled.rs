@@ -8,11 +8,11 @@
 //! With such a cap the motion is the fastest one within constant limits. For the cubic mean or the mean speed another motion may be faster that uses
 //! torque and speed unevenly over the path.
 
-use jred_machine::analysis::duty::{Duty, Fault, Sampling};
-use jred_machine::model::machine::MachineFile;
-use jred_machine::model::motion::Motion;
-use jred_machine::model::rule::Rule;
-use jred_machine::model::rules::Verdict;
+use jred_analysis::duty::{Duty, Fault, Sampling};
+use jred_file::model::machine::MachineFile;
+use jred_file::model::motion::Motion;
+use jred_file::model::rule::Rule;
+use jred_file::model::rules::Verdict;
 use jred_sizing::catalogue::Drive;
 use jred_sizing::judge::Context;
 use jred_sizing::judge::Findings;

@@ -11,7 +11,7 @@
 
 use std::convert::Infallible;
 
-use jred_machine::number::numerics::zero;
+use jred_file::number::numerics::zero;
 
 use super::field::Field;
 use super::leg::{Leg, MOST_STEPS, Point, Stalled, Step};

@@ -6,8 +6,8 @@ use std::f64::consts::TAU;
 
 use jred::machine::Mechanism as _;
 use jred::{Domain, Error};
-use jred_machine::model::coordinate::positions;
-use jred_machine::model::mechanism::AnyMechanism;
+use jred_file::model::coordinate::positions;
+use jred_file::model::mechanism::AnyMechanism;
 
 /// Positions at which the largest transfer function is searched.
 const POSITIONS: usize = 720;

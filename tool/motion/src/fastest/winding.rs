@@ -13,10 +13,10 @@
 //! then the fastest one with its RMS torque; another motion that distributes the heat differently over the cycle may be faster.
 
 use jred::Error;
-use jred_machine::model::machine::MachineFile;
-use jred_machine::model::operation::Operation;
-use jred_machine::model::surroundings::{REFERENCE, Surroundings};
-use jred_machine::units::Sentence;
+use jred_file::model::machine::MachineFile;
+use jred_file::model::operation::Operation;
+use jred_file::model::surroundings::{REFERENCE, Surroundings};
+use jred_file::units::Sentence;
 use jred_sizing::catalogue::{DeratingBasis, Drive, Motor};
 use jred_sizing::motor::envelope::Prepared;
 use jred_sizing::thermal::course::{Course, Hottest};

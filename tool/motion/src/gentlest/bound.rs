@@ -13,8 +13,8 @@
 
 use std::convert::Infallible;
 
-use jred_machine::number::numerics::golden_section;
-use jred_machine::number::quadrature::GAUSS_5;
+use jred_file::number::numerics::golden_section;
+use jred_file::number::quadrature::GAUSS_5;
 
 use super::Fault;
 use super::mesh::Mesh;

@@ -5,7 +5,7 @@
 //! acceleration jumps: there each side has its own slope.
 
 use jred::Error;
-use jred_machine::number::quadrature::GAUSS_5;
+use jred_file::number::quadrature::GAUSS_5;
 
 use super::{Ends, Travel};
 use crate::collocation::pieces::{Value, dot, first_columns, hermite};

@@ -1,8 +1,8 @@
 //! The result for a solved move: its cost with the wait, the quality of the optimum, and the motion.
 
 use jred::machine::motion::{End, Polynomial};
-use jred_machine::model::motion::Phase;
-use jred_machine::number::quadrature::GAUSS_5;
+use jred_file::model::motion::Phase;
+use jred_file::number::quadrature::GAUSS_5;
 
 use super::cost::Cost;
 use super::mesh::Mesh;

@@ -4,7 +4,7 @@
 //! time. How high it rises depends on the length of the piece along the path, which is found by a search. At a moving end the piece is as long as
 //! that share of the time requires.
 
-use jred_machine::number::quadrature::GAUSS_5;
+use jred_file::number::quadrature::GAUSS_5;
 
 use super::task::{Solved, Start, Task};
 use super::{FIRST, Fault, solve};

@@ -7,8 +7,8 @@
 //! motions it has no separate bound.
 
 use jred::machine::motion::{End, Polynomial};
-use jred_machine::model::motion::Phase;
-use jred_machine::number::numerics::{least, zero};
+use jred_file::model::motion::Phase;
+use jred_file::number::numerics::{least, zero};
 
 use super::{Fault, GAP, Gentle, Objective, Optimum, Reason, Travel, from_end_to_end};
 use crate::way::Way;

@@ -1,7 +1,7 @@
 //! A part of a motion that is kept unchanged.
 
 use jred::machine::motion::{End, Polynomial, State};
-use jred_machine::model::motion::{Motion, Node, Phase, Steady};
+use jred_file::model::motion::{Motion, Node, Phase, Steady};
 
 /// Share of a part by which its ends are evaluated further inside, because the acceleration may jump there.
 pub(crate) const INSIDE: f64 = 1e-9;

@@ -2,8 +2,8 @@
 
 use std::convert::Infallible;
 
-use jred_machine::model::motion::{Motion, Overshoot, Steady};
-use jred_machine::number::numerics::edge;
+use jred_file::model::motion::{Motion, Overshoot, Steady};
+use jred_file::number::numerics::edge;
 
 use super::{Chain, Kept, Move, NoMoves, POINT, Part, Passing};
 

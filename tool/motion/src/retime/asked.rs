@@ -2,10 +2,10 @@
 
 use jred::Error;
 use jred::machine::motion::{End, Law, Polynomial};
-use jred_machine::analysis::duty::{self, Duty};
-use jred_machine::model::machine::MachineFile;
-use jred_machine::model::motion::{Motion, Phase, Segment};
-use jred_machine::number::quadrature::GAUSS_3;
+use jred_analysis::duty::{self, Duty};
+use jred_file::model::machine::MachineFile;
+use jred_file::model::motion::{Motion, Phase, Segment};
+use jred_file::number::quadrature::GAUSS_3;
 use jred_sizing::cycle::Cycle;
 
 use super::even::constant_energy;

@@ -1,7 +1,7 @@
 //! The gentlest motion as nodes over time.
 
-use jred_machine::model::machine::MachineFile;
-use jred_machine::model::motion::Phase;
+use jred_file::model::machine::MachineFile;
+use jred_file::model::motion::Phase;
 
 use crate::gentlest::Gentle;
 use crate::moves::Part;

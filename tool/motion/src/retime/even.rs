@@ -2,8 +2,8 @@
 
 use jred::Error;
 use jred::machine::motion::{End, Polynomial};
-use jred_machine::model::motion::Phase;
-use jred_machine::number::numerics::gauss;
+use jred_file::model::motion::Phase;
+use jred_file::number::numerics::gauss;
 
 use crate::moves::Move;
 use crate::way::{Place, Way};

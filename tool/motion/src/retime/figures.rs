@@ -1,6 +1,6 @@
 //! The load of the motor in a motion, and the goal to minimise.
 
-use jred_machine::number::rounding::of_terms;
+use jred_file::number::rounding::of_terms;
 use jred_sizing::catalogue::Drive;
 use jred_sizing::cycle::Cycle;
 use jred_sizing::motor::winding::CurrentCurve;
@@ -11,7 +11,7 @@ use crate::way::Actuator;
 /// Temperature of the winding (°C) for the copper loss.
 pub const WINDING: f64 = 20.0;
 
-jred_machine::words! {
+jred_file::words! {
     /// Quantity to minimise over the cycle.
     pub enum Goal default Rms {
         /// RMS torque: the heat in the motor.

@@ -1,7 +1,7 @@
 //! A motion law as polynomials.
 
 use jred::machine::motion::{End, Law, Polynomial};
-use jred_machine::model::motion::Phase;
+use jred_file::model::motion::Phase;
 
 use crate::moves::INSIDE;
 

@@ -2,8 +2,8 @@
 
 use jred::Error;
 use jred::machine::Mechanism as _;
-use jred_machine::model::machine::MachineFile;
-use jred_machine::model::motion::Motion;
+use jred_file::model::machine::MachineFile;
+use jred_file::model::motion::Motion;
 
 /// Instants that are evaluated.
 const INSTANTS: u32 = 2000;

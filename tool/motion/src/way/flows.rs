@@ -10,7 +10,7 @@
 //! with one form for each combination of power directions through the stages. T rises with a, so the acceleration by a torque is the least of the
 //! forms' accelerations. Neither needs a search.
 
-use jred_machine::model::drive_train::DriveTrain;
+use jred_file::model::drive_train::DriveTrain;
 use jred_sizing::cycle::form::Coefficients;
 
 use super::Demand;

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 use std::path::Path;
 
 use jred::Domain;
-use jred_machine::read;
+use jred_analysis::checked;
 use jred_motion::fastest::joint_force::reached;
 use jred_motion::fastest::{Binding, JointForces, Limits, NoMotion, Task, solve};
 use jred_motion::plan::{Plan, SHARE};
@@ -117,7 +117,7 @@ fn machines_go_on_for_ever() {
         ("shaking-feeder", 60.0),
     ] {
         let text = std::fs::read_to_string(folder.join(format!("{name}.toml"))).unwrap();
-        let file = read::parse(name, &text, folder.as_path()).unwrap();
+        let file = checked::parse(name, &text, folder.as_path()).unwrap();
         let found = solve(&file, &motor([torque; 2], 157.0), &turn(0.5)).unwrap();
         assert!(found.excess <= 1e-6, "{name}: {:e}", found.excess);
         let nodes = found.trace.nodes();
@@ -199,7 +199,7 @@ fn a_steep_turn_is_accurate() {
 #[test]
 fn a_pin_at_its_dead_centre() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../machines/shaking-feeder.toml");
-    let file = read::read(&path).unwrap();
+    let file = checked::read(&path).unwrap();
     let names = file.machine.mechanism().joint_names();
     let pin = names.iter().position(|name| name == "crank pin").unwrap();
     let mut before = f64::INFINITY;

@@ -62,7 +62,7 @@ fn limited(speed: f64, acceleration: f64, jerk: f64) -> Limits {
 }
 
 pub(super) fn smooth(
-    file: &jred_machine::model::machine::MachineFile,
+    file: &jred_file::model::machine::MachineFile,
     motor: &Actuator,
     asked: &Task,
 ) -> Fastest {
@@ -192,7 +192,7 @@ fn a_weight_leaves_different_accelerations() {
 /// A larger jerk brings the time closer to that without a limit, from above.
 #[test]
 fn a_press_comes_near_the_motion_without_a_limit() {
-    let file = jred_machine::read::read(&press_file()).unwrap();
+    let file = jred_analysis::checked::read(&press_file()).unwrap();
     let motor = motor([60.0, 40.0], 90.0);
     let mut last = f64::INFINITY;
     for jerk in [1e3, 1e4, 1e5, 1e6] {
@@ -235,7 +235,7 @@ fn a_large_jerk_tends_to_the_motion_without_a_limit() {
 /// The same for a press with losses in its belt, and for the torque rate: never slower with a larger limit, and finally as fast as without one.
 #[test]
 fn larger_limits_of_a_press_are_faster() {
-    let file = jred_machine::read::read(&press_file()).unwrap();
+    let file = jred_analysis::checked::read(&press_file()).unwrap();
     let motor = motor([24.0, 12.0], 300.0);
     let bound = solve(&file, &motor, &task(3.2, 9.0)).unwrap().time;
     let limits: [fn(f64) -> Limits; 2] = [
@@ -272,7 +272,7 @@ fn larger_limits_of_a_press_are_faster() {
 /// The tool is as slow as without the jerk limit, and the motion slower than with either alone.
 #[test]
 fn a_tool_speed_with_a_limited_jerk() {
-    let file = jred_machine::read::read(&press_file()).unwrap();
+    let file = jred_analysis::checked::read(&press_file()).unwrap();
     let mechanism = file.machine.mechanism();
     let slider = (mechanism.link_names().iter())
         .position(|name| name == "slider")
@@ -308,7 +308,7 @@ fn a_tool_speed_with_a_limited_jerk() {
 /// A press with a gearbox, whose limits are close together.
 #[test]
 fn the_jerk_is_kept_inside_the_steps() {
-    let file = jred_machine::read::read(&press_file()).unwrap();
+    let file = jred_analysis::checked::read(&press_file()).unwrap();
     let drive = Actuator {
         coefficients: Coefficients([3.2e-3, 0.25 / 0.96, 0.25 * 0.96, 0.0, 0.0]),
         ratio: 4.0,
@@ -343,7 +343,7 @@ fn a_phase_at_two_limits_is_one() {
 #[test]
 fn the_cure_names_the_jerk() {
     let path = shipped("eccentric-press.toml");
-    let file = jred_machine::read::read(&path).unwrap();
+    let file = jred_analysis::checked::read(&path).unwrap();
     let asked = Task {
         limits: Limits {
             jerk: Some(500.0),

@@ -1,7 +1,7 @@
 //! Limits of the force in a joint.
 
-use jred_machine::analysis::reduce::joints_with_force;
-use jred_machine::model::machine::MachineFile;
+use jred_analysis::reduce::joints_with_force;
+use jred_file::model::machine::MachineFile;
 use jred_motion::fastest::joint_force::reached;
 use jred_motion::fastest::{Binding, Fastest, JointForces, Limits, NoMotion, Task, solve};
 use jred_motion::trace::Trace;

@@ -1,6 +1,6 @@
 //! Moves of every length: also between its nodes a motion stays within the motor's torque, in steps of any length.
 
-use jred_machine::model::machine::MachineFile;
+use jred_file::model::machine::MachineFile;
 use jred_motion::fastest::{Fastest, NoMotion, solve};
 
 use super::{fastest, machine, motor, scales, table, task};

@@ -1,7 +1,7 @@
 //! Nodes of a motion: no step consists of rounding, and limits are satisfied up to the nodes.
 
-use jred_machine::model::machine::MachineFile;
-use jred_machine::read;
+use jred_analysis::checked;
+use jred_file::model::machine::MachineFile;
 use jred_motion::fastest::{Fastest, Limits, Task, ToolSpeed};
 use jred_motion::trace::Trace;
 use jred_motion::way::{Actuator, Way};
@@ -12,7 +12,7 @@ use crate::support::press_text;
 
 fn press() -> MachineFile {
     let none = std::collections::BTreeMap::<String, String>::new();
-    read::parse("press.toml", &press_text(), none).unwrap()
+    checked::parse("press.toml", &press_text(), none).unwrap()
 }
 
 fn turns() -> Task {

@@ -1,7 +1,7 @@
 //! The press with drives of the catalogue, against a dynamic programme independent of the sweeps.
 
-use jred_machine::model::machine::MachineFile;
-use jred_machine::read;
+use jred_analysis::checked;
+use jred_file::model::machine::MachineFile;
 use jred_motion::fastest::{Task, solve};
 use jred_motion::way::{Actuator, Way};
 use jred_sizing::catalogue::{Catalogue, Drive, DriveId};
@@ -60,7 +60,7 @@ fn some(catalogue: &Catalogue, count: usize) -> impl Iterator<Item = (DriveId, D
 /// The times agree as closely as the grid allows, from both sides.
 #[test]
 fn a_dynamic_programme_finds_the_same_time() {
-    let file = read::read(&press_file()).unwrap();
+    let file = checked::read(&press_file()).unwrap();
     let catalogue = Catalogue::built_in().unwrap();
     let mut compared = 0;
     for (_, drive) in some(&catalogue, 5) {
@@ -96,7 +96,7 @@ fn a_dynamic_programme_finds_the_same_time() {
 /// distance takes longer.
 #[test]
 fn every_drive_keeps_its_limits_between_the_nodes() {
-    let file = read::read(&press_file()).unwrap();
+    let file = checked::read(&press_file()).unwrap();
     let catalogue = Catalogue::built_in().unwrap();
     let (mut found, mut refused) = (0, 0);
     for (_, drive) in some(&catalogue, 12) {

@@ -2,7 +2,7 @@
 
 use std::convert::Infallible;
 
-use jred_machine::number::numerics::least;
+use jred_file::number::numerics::least;
 use jred_motion::fastest::{Binding, Limits, NoMotion, Slowing, Task, solve};
 use jred_sizing::catalogue::Motor;
 use jred_sizing::motor::envelope::Envelope;
@@ -10,7 +10,7 @@ use jred_sizing::motor::envelope::Envelope;
 use super::{close, fastest, machine, motor, table, task};
 
 /// An upright slider-crank: a pendulum of its slider, with dead centres at the top and at the bottom.
-fn upright() -> jred_machine::model::machine::MachineFile {
+fn upright() -> jred_file::model::machine::MachineFile {
     machine(
         "title = \"upright\"\ngravity = [\"-10 m/s^2\", \"0 m/s^2\"]\n[mechanism]\ntype = \"slider-crank\"\nflywheel = \"1 kg m^2\"\n\
          [mechanism.crank]\nlength = \"100 mm\"\nmass = \"1 kg\"\ninertia = \"0.01 kg m^2\"\n[mechanism.rod]\nlength = \"400 mm\"\nmass = \"1 kg\"\ninertia = \"0.01 kg m^2\"\n[mechanism.slider]\nmass = \"50 kg\"\n",

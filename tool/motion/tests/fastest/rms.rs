@@ -228,7 +228,7 @@ fn a_torque_that_does_not_bind_changes_nothing() {
 /// A press with losses, friction and a falling torque: a tighter limit takes longer, and one that is hardly active takes as long as none.
 #[test]
 fn a_tighter_limit_of_a_press_takes_longer() {
-    let file = jred_machine::read::read(&press_file()).unwrap();
+    let file = jred_analysis::checked::read(&press_file()).unwrap();
     let motor = motor([24.0, 12.0], 300.0);
     let asked = task(3.2, 9.0);
     let free = single(&file, &motor, asked, None).unwrap();

@@ -2,13 +2,13 @@
 
 use std::path::{Path, PathBuf};
 
-use jred_machine::analysis::duty::Duty;
-use jred_machine::model::axis::Axis;
-use jred_machine::model::machine::MachineFile;
-use jred_machine::model::rule::Rule;
-use jred_machine::model::rules::{Limit, Verdict};
-use jred_machine::model::{drive_train, variator};
-use jred_machine::read;
+use jred_analysis::checked;
+use jred_analysis::duty::Duty;
+use jred_file::model::axis::Axis;
+use jred_file::model::machine::MachineFile;
+use jred_file::model::rule::Rule;
+use jred_file::model::rules::{Limit, Verdict};
+use jred_file::model::{drive_train, variator};
 use jred_motion::contact::broken;
 use jred_motion::fastest::cycle::{Cycle, cycle, endless};
 use jred_motion::fastest::field::Reserve;
@@ -82,7 +82,7 @@ fn made(
 /// The rules of a machine file with the profile of a cycle as its motion, read like in `jred size`.
 fn size(path: &Path, cycle: &Cycle, drive: Drive) -> Vec<Check> {
     let text = std::fs::read_to_string(path).unwrap();
-    let own = read::read(path).unwrap();
+    let own = checked::read(path).unwrap();
     // A profile of the tool needs `of`.
     let of_tool = own.axis() != Axis::of_drive(own.machine.mechanism().coordinate());
     let mut lines: Vec<&str> = Vec::new();
@@ -109,7 +109,7 @@ fn size(path: &Path, cycle: &Cycle, drive: Drive) -> Vec<Check> {
     }
     folder.file("fastest.csv", cycle.trace.of_axis(&own.axis()).profile());
     let judged = folder.file("judged.toml", lines.join("\n"));
-    let file = read::read(&judged).unwrap_or_else(|why| panic!("{}: {why:?}", path.display()));
+    let file = checked::read(&judged).unwrap_or_else(|why| panic!("{}: {why:?}", path.display()));
     let duty = Duty::new(&file, file.required_motion().unwrap(), STEPS).unwrap();
     let cycle = jred_sizing::cycle::Cycle::new(&duty);
     let prepared = Prepared::new(drive.motor, drive.amplifier, &file.site);
@@ -121,7 +121,7 @@ fn size(path: &Path, cycle: &Cycle, drive: Drive) -> Vec<Check> {
 fn a_gearbox_keeps_its_torques_at_the_rate_of_the_motion() {
     let catalogue = catalogue();
     let path = home().join("support/engineer/table.toml");
-    let mut file = read::read(&path).unwrap();
+    let mut file = checked::read(&path).unwrap();
     let (_, drive) = named(&catalogue, "sm100bb+g115-16 on a6").unwrap();
     let chain = chain(file.required_motion().unwrap(), &file.process()).unwrap();
     for rms in [None, Some(Rms::Continuous)] {
@@ -184,7 +184,7 @@ fn what_is_named_as_kept_is_kept() {
         if path.extension().is_none_or(|ending| ending != "toml") {
             continue;
         }
-        let file = read::read(&path).unwrap();
+        let file = checked::read(&path).unwrap();
         let refused = variator::refuse(&file, "fastest").is_err()
             || drive_train::refuse(&file, "fastest").is_err()
             || file.refuse_timed("fastest").is_err();

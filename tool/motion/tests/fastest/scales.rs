@@ -44,7 +44,7 @@ fn the_way_back_takes_as_long_without_losses() {
 }
 
 /// The crank of the press, without gravity, loads and drive train.
-pub(super) fn lossless_press() -> jred_machine::model::machine::MachineFile {
+pub(super) fn lossless_press() -> jred_file::model::machine::MachineFile {
     let text = press_text();
     let begin = text.find("[mechanism]").unwrap();
     let end = text.find("[[load]]").unwrap();

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use jred_machine::model::machine::MachineFile;
+use jred_file::model::machine::MachineFile;
 use jred_motion::fastest::{Fastest, Limits, NoMotion, Task, solve};
 use jred_motion::way::{Actuator, Way};
 use jred_sizing::cycle::form::Coefficients;
@@ -37,7 +37,7 @@ fn a_torque_rate_is_a_jerk() {
 /// The torque of the press changes at the permitted rate; the time approaches that without a limit from above, and never reaches it.
 #[test]
 fn a_press_with_a_torque_rate() {
-    let file = jred_machine::read::read(&press_file()).unwrap();
+    let file = jred_analysis::checked::read(&press_file()).unwrap();
     let limits = Limits {
         torque_rate: Some(1e3),
         level_ends: true,
@@ -205,7 +205,7 @@ fn a_load_that_jumps_has_no_torque_rate() {
 /// ∫|T′| dφ/r. The effect of inertia and viscous friction falls with r. With a gearbox and a belt the power reverses twice.
 #[test]
 fn a_small_rate_follows_the_loads() {
-    let file = jred_machine::read::read(&press_file()).unwrap();
+    let file = jred_analysis::checked::read(&press_file()).unwrap();
     let actuator = Actuator {
         coefficients: Coefficients([0.0, 0.25 / 0.95, 0.25 * 0.95, 0.0, 0.0]),
         ratio: 4.0,

@@ -1,6 +1,6 @@
 //! The winding temperature as a limit, against closed forms and a numerical integration of the heat.
 
-use jred_machine::model::machine::MachineFile;
+use jred_file::model::machine::MachineFile;
 use jred_motion::fastest::cycle::{Cycle, cycle};
 use jred_motion::fastest::winding::{Cooled, Temperatures, Unknown, Winding, cooled};
 use jred_motion::fastest::{Limits, NoMotion, Rms};

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use jred_machine::model::motion::Motion;
+use jred_file::model::motion::Motion;
 use jred_motion::gentlest::{Objective, Travel};
 use jred_motion::retime::{Goal, retime};
 

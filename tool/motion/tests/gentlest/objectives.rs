@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use jred_machine::model::motion::Motion;
+use jred_file::model::motion::Motion;
 use jred_motion::gentlest::{Fault, Objective, Optimum};
 use jred_motion::retime::{Goal, Obstacle, retime};
 
@@ -42,7 +42,7 @@ fn the_duty_confirms_the_torque() {
         let duration = found.motion.duration();
         let moves: f64 = found.moves.iter().map(|gentle| gentle.cost).sum();
         // The share of the file's dwells: its own motion without the moves.
-        let duty = jred_machine::analysis::duty::Duty::new(&file, &found.motion, 4000).unwrap();
+        let duty = jred_analysis::duty::Duty::new(&file, &found.motion, 4000).unwrap();
         let still = duty.instants.iter().filter(|instant| instant.omega == 0.0);
         let dwells: f64 = still
             .map(|instant| instant.weight * instant.input_torque * instant.input_torque)

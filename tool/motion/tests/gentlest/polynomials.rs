@@ -1,7 +1,7 @@
 //! An independent search: polynomials with fourteen free coefficients over the time, by the Levenberg-Marquardt method.
 
 use jred::mechanism::TrainOutput;
-use jred_machine::model::machine::MachineFile;
+use jred_file::model::machine::MachineFile;
 use jred_motion::gentlest::{Objective, Travel};
 
 use super::{best, example, travel};

@@ -1,6 +1,6 @@
 //! Ramps: the acceleration rises from zero to its first peak in the requested share of the time.
 
-use jred_machine::model::machine::MachineFile;
+use jred_file::model::machine::MachineFile;
 use jred_motion::moves::{Part, chain};
 use jred_motion::retime::Goal;
 use jred_motion::trace::Trace;

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use jred_machine::model::motion::{Motion, Segment};
+use jred_file::model::motion::{Motion, Segment};
 use jred_motion::retime::{Goal, retime};
 
 use super::{example, request, retimed};

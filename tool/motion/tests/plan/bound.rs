@@ -5,8 +5,8 @@ use std::f64::consts::TAU;
 use jred::axis::Plan as Read;
 use jred::table::{Constants, Shape};
 use jred::{Domain, Model, Scale, Spline, Table, curves};
-use jred_machine::model::coordinate::Coordinate;
-use jred_machine::read;
+use jred_analysis::checked;
+use jred_file::model::coordinate::Coordinate;
 use jred_motion::fastest::{Limits, Task, solve};
 use jred_motion::plan::{Plan, SHARE};
 use jred_motion::trace::{Node, Trace};
@@ -92,7 +92,7 @@ fn what_is_stated_is_a_bound() {
         Trace::new(Coordinate::Angle, nodes)
     };
     let none = std::collections::BTreeMap::<String, String>::new();
-    let press = read::parse("press.toml", &press_text(), none).unwrap();
+    let press = checked::parse("press.toml", &press_text(), none).unwrap();
     let stroke = |torque: f64| {
         let motor = Motor {
             peak_curve: vec![[0.0, torque], [30.0 * TAU / 2.0, torque]],

@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use jred_machine::model::machine::MachineFile;
-use jred_machine::read;
+use jred_analysis::checked;
+use jred_file::model::machine::MachineFile;
 use jred_motion::fastest::field::Reserve;
 use jred_motion::fastest::{Limits, Task, solve};
 use jred_motion::plan::ramp::least_ramp;
@@ -77,7 +77,7 @@ fn used(file: &MachineFile, [rest, top, end]: [f64; 3], trace: &Trace, ramp: f64
 #[test]
 fn the_least_ramp_is_the_least() {
     let table = "title = \"table\"\ngravity = [\"0 m/s^2\", \"0 m/s^2\"]\n[mechanism]\ntype = \"rotary-table\"\n[mechanism.table]\nmass = \"1 kg\"\ninertia = \"0.5 kg m^2\"\n[[load]]\nname = \"seal\"\non = \"table\"\nopposing_moment = \"2 N m\"\n[[load]]\nname = \"oil\"\non = \"table\"\nviscous_moment = \"0.2 N m s/rad\"\n";
-    let table = read::parse("test.toml", table, BTreeMap::<String, String>::new()).unwrap();
+    let table = checked::parse("test.toml", table, BTreeMap::<String, String>::new()).unwrap();
     let mut inside = false;
     let press: Vec<String> = press_text()
         .lines()
@@ -90,7 +90,7 @@ fn the_least_ramp_is_the_least() {
         .map(str::to_owned)
         .collect();
     let none = BTreeMap::<String, String>::new();
-    let press = read::parse("press.toml", &press.join("\n"), none).unwrap();
+    let press = checked::parse("press.toml", &press.join("\n"), none).unwrap();
     for (file, torques, speed, way) in [
         (&table, [20.0, 8.0], 40.0, [0.0, 9.0]),
         (&press, [900.0, 400.0], 12.0, [3.3, 9.0]),
@@ -120,7 +120,7 @@ fn the_least_ramp_is_the_least() {
 #[test]
 fn the_ramp_of_a_constant_inertia() {
     let table = "title = \"table\"\ngravity = [\"0 m/s^2\", \"0 m/s^2\"]\n[mechanism]\ntype = \"rotary-table\"\n[mechanism.table]\nmass = \"1 kg\"\ninertia = \"0.5 kg m^2\"\n";
-    let file = read::parse("test.toml", table, BTreeMap::<String, String>::new()).unwrap();
+    let file = checked::parse("test.toml", table, BTreeMap::<String, String>::new()).unwrap();
     let (torque, inertia, way) = (20.0, 0.5, 8.0);
     let motor = motor([torque; 2], 100.0);
     for share in [0.1, 0.25] {

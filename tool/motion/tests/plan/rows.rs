@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use jred::Domain;
 use jred::axis::plan::HEADER_WORDS;
-use jred_machine::model::coordinate::Coordinate;
+use jred_file::model::coordinate::Coordinate;
 use jred_motion::plan::{Plan, Quantity, SHARE};
 use jred_motion::trace::{Node, Trace};
 

@@ -3,8 +3,8 @@
 use jred::Error;
 use jred::machine::{Body, Frames, Joint, Jointed as _, Joints, Marker, Mechanism as _, PoseError};
 
-use jred_machine::model::coordinate::whole_range;
-use jred_machine::model::mechanism::{AnyMechanism, NamedPoint};
+use jred_file::model::coordinate::whole_range;
+use jred_file::model::mechanism::{AnyMechanism, NamedPoint};
 
 /// Number of poses for paths, ranges of guides and the size of the drawing.
 const POSES: usize = 240;

@@ -3,7 +3,7 @@
 use super::sketch::{Part, Sketch};
 use crate::plot::WIDTH;
 use crate::plot::svg::{Anchor, Ink, Svg};
-use jred_machine::number::rounding::rounded;
+use jred_file::number::rounding::rounded;
 
 /// Margin around the drawing (px) for bearings, blocks and labels.
 const MARGIN: f64 = 48.0;

@@ -6,10 +6,10 @@ use serde::Serialize;
 use crate::answer::Answer;
 use crate::answer::schema::Data;
 use jred::machine::Element;
-use jred_machine::model::coordinate::Coordinate;
-use jred_machine::model::laden::Attached;
-use jred_machine::model::machine::MachineFile;
-use jred_machine::number::rounding::{figure, percent, short};
+use jred_file::model::coordinate::Coordinate;
+use jred_file::model::laden::Attached;
+use jred_file::model::machine::MachineFile;
+use jred_file::number::rounding::{figure, percent, short};
 use jred_motion::balance::{Balanced, Figures, Goal, Request};
 
 /// The content of the listing.

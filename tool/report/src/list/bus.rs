@@ -9,9 +9,9 @@ use miette::{Result, miette};
 
 use crate::answer::Answer;
 use crate::table::output::Format;
-use jred_machine::number::columns::{Column, Columns};
-use jred_machine::number::rounding::short;
-use jred_machine::number::words::counted;
+use jred_file::number::columns::{Column, Columns};
+use jred_file::number::rounding::short;
+use jred_file::number::words::counted;
 use jred_sizing::bus::answer::Answer as Bus;
 use jred_sizing::bus::axes::Bounds;
 use jred_sizing::bus::curve::PowerCurve;

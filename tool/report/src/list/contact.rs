@@ -1,7 +1,7 @@
 //! Text about a one-sided contact that a motion loses.
 
-use jred_machine::model::axis::Axis;
-use jred_machine::number::rounding::short;
+use jred_file::model::axis::Axis;
+use jred_file::number::rounding::short;
 use jred_motion::contact::Broken;
 
 /// Place, time and force of the loss.

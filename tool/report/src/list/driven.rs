@@ -1,6 +1,6 @@
 //! Text about process loads that drive a machine, for every listing with the works of a turn.
 
-use jred_machine::number::rounding::short;
+use jred_file::number::rounding::short;
 
 /// Share of the energy turned over from which the work of process loads drives the machine.
 const DRIVING: f64 = 1e-3;

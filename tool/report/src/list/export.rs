@@ -3,9 +3,9 @@
 use crate::answer::Answer;
 use crate::answer::schema::Data;
 use crate::table::reading::Reading;
-use jred_machine::export::data::{ExportData, FORM};
-use jred_machine::export::{Answer as Found, Export};
-use jred_machine::number::rounding::short;
+use jred_export::data::{ExportData, FORM};
+use jred_export::{Answer as Found, Export};
+use jred_file::number::rounding::short;
 use jred_sizing::study::cell::Cell;
 
 impl Data for ExportData {

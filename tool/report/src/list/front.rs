@@ -7,7 +7,7 @@ use super::marks;
 use crate::answer::Answer;
 use crate::answer::schema::Data;
 use crate::table::reading::Reading;
-use jred_machine::number::rounding::rounded;
+use jred_file::number::rounding::rounded;
 use jred_sizing::catalogue::Drive;
 use jred_sizing::select::pareto::{Front, Point};
 use jred_sizing::select::rank::Objective;

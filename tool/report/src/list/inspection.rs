@@ -8,16 +8,16 @@ use crate::answer::Answer;
 use crate::answer::schema::Data;
 use crate::table::output::Format as Full;
 use crate::table::reading::Reading;
-use jred_machine::analysis::inspect::{
+use jred_analysis::inspect::{
     Agreement, Findings, Inertia, JointFinding, MotionFindings, NEAR_DEAD_POINT, RECOMMENDED,
     Transmission, Travel,
 };
-use jred_machine::model::coordinate::Coordinate;
-use jred_machine::model::mechanism::Fact;
-use jred_machine::number::rounding::{short, shown};
+use jred_file::model::coordinate::Coordinate;
+use jred_file::model::mechanism::Fact;
+use jred_file::number::rounding::{short, shown};
 use jred_sizing::study::cell::Cell;
 
-jred_machine::words! {
+jred_file::words! {
     /// Format of an answer without columns.
     pub enum Format default Table {
         /// For reading.

@@ -3,9 +3,9 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use jred_machine::model::machine::MachineFile;
-use jred_machine::model::motion::{Motion, ToolCoordinate};
-use jred_machine::number::rounding::short;
+use jred_file::model::machine::MachineFile;
+use jred_file::model::motion::{Motion, ToolCoordinate};
+use jred_file::number::rounding::short;
 use jred_motion::moves::{Chain, Kept};
 
 /// A prescribed speed (rad/s, or m/s).

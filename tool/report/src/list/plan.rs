@@ -1,8 +1,8 @@
 //! A plan for firmware in one line.
 
 use jred::axis::plan::Errors;
-use jred_machine::number::rounding::{bound, short};
-use jred_machine::number::words::counted;
+use jred_file::number::rounding::{bound, short};
+use jred_file::number::words::counted;
 use jred_motion::plan::{Excess, Plan, Quantity};
 use jred_motion::trace::Trace;
 

@@ -2,8 +2,8 @@
 
 use crate::answer::sheet::Sheet;
 use crate::table::reading::Reading;
-use jred_machine::model::rule::Rule;
-use jred_machine::number::rounding::{short, significant};
+use jred_file::model::rule::Rule;
+use jred_file::number::rounding::{short, significant};
 use jred_sizing::select::ratio::obstacle::Obstacle;
 use jred_sizing::select::ratio::{Gear, Range};
 use jred_sizing::study::cell::Cell;

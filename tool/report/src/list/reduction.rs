@@ -7,10 +7,10 @@ use serde::Serialize;
 
 use crate::answer::Answer;
 use crate::answer::schema::Data;
-use jred_machine::analysis::inspect;
-use jred_machine::analysis::reduce::{Largest, Sets};
-use jred_machine::model::machine::MachineFile;
-use jred_machine::number::columns::Columns;
+use jred_analysis::inspect;
+use jred_analysis::reduce::{Largest, Sets};
+use jred_file::model::machine::MachineFile;
+use jred_file::number::columns::Columns;
 
 /// The rows, and remarks about them.
 #[derive(Debug)]

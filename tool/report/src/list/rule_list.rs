@@ -6,11 +6,11 @@ use serde::Serialize;
 use crate::answer::Answer;
 use crate::answer::schema::Data;
 use crate::table::reading::Reading;
-use jred_machine::model::rule::{Rule, Sense};
-use jred_machine::model::rules::{Choices, Moves, RuleSet, shown};
-use jred_machine::number::csv;
-use jred_machine::number::rounding::figure;
-use jred_machine::read;
+use jred_file::model::rule::{Rule, Sense};
+use jred_file::model::rules::{Choices, Moves, RuleSet, shown};
+use jred_file::number::csv;
+use jred_file::number::rounding::figure;
+use jred_file::read;
 use jred_sizing::study::cell::Cell;
 
 /// All built-in sets, one line each.
@@ -157,7 +157,7 @@ pub fn choice_words(set: &RuleSet) -> Vec<String> {
         format!("the inertia ratio is {}", choices.inertia_ratio_of.words()),
         format!(
             "the mean torque of a gearbox has the exponent {}",
-            jred_machine::model::rules::MeanTorque::WORDS[choices.gearbox_mean_exponent as usize]
+            jred_file::model::rules::MeanTorque::WORDS[choices.gearbox_mean_exponent as usize]
         ),
     ];
     words.extend(

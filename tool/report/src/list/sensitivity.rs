@@ -2,9 +2,9 @@
 
 use crate::answer::sheet::Sheet;
 use crate::table::reading::Reading;
-use jred_machine::number::rounding::{short, significant};
-use jred_machine::number::words::counted;
-use jred_machine::units::Vocabulary;
+use jred_file::number::rounding::{short, significant};
+use jred_file::number::words::counted;
+use jred_file::units::Vocabulary;
 use jred_sizing::study::cell::Cell;
 use jred_sizing::study::chosen::ChosenDrive;
 use jred_sizing::study::common::Study;

@@ -6,8 +6,8 @@ mod sentences;
 use std::borrow::Cow;
 
 use crate::answer::Answer;
-use jred_machine::analysis::simulate::{Simulated, Stop, Together};
-use jred_machine::model::simulation::Simulation;
+use jred_analysis::simulate::{Simulated, Stop, Together};
+use jred_file::model::simulation::Simulation;
 use jred_motion::driven::Loads;
 
 pub(crate) use data::Form;

@@ -9,8 +9,8 @@ use serde::Serialize;
 
 use crate::answer::Answer;
 use crate::answer::schema::Data;
-use jred_machine::number::columns::{Column, Columns};
-use jred_machine::number::rounding::rounded;
+use jred_file::number::columns::{Column, Columns};
+use jred_file::number::rounding::rounded;
 
 /// A train of stages.
 #[derive(Debug)]

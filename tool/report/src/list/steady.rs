@@ -7,9 +7,9 @@ use std::borrow::Cow;
 use crate::answer::Answer;
 use crate::answer::schema::Data;
 use cycle::{describe, rpm};
-use jred_machine::analysis::simulate::Together;
-use jred_machine::analysis::steady::{Cycle, Flywheel, Place, Steady, Wheel};
-use jred_machine::number::rounding::{percent, short};
+use jred_analysis::simulate::Together;
+use jred_analysis::steady::{Cycle, Flywheel, Place, Steady, Wheel};
+use jred_file::number::rounding::{percent, short};
 
 impl Data for Steady {
     const FORM: &'static str = "jred-steady/1";

@@ -5,9 +5,9 @@ use std::fmt::Write as _;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use jred_machine::model::machine::MachineFile;
-use jred_machine::number::rounding::{percent, short};
-use jred_machine::units::Vocabulary;
+use jred_file::model::machine::MachineFile;
+use jred_file::number::rounding::{percent, short};
+use jred_file::units::Vocabulary;
 use jred_motion::suited::{Suited, Tried};
 use jred_sizing::catalogue::Drive;
 use jred_sizing::study::cell::Cell;

@@ -2,9 +2,9 @@
 
 use crate::answer::sheet::Sheet;
 use crate::table::reading::Reading;
-use jred_machine::model::rules::RuleSet;
-use jred_machine::number::rounding::short;
-use jred_machine::number::words::counted;
+use jred_file::model::rules::RuleSet;
+use jred_file::number::rounding::short;
+use jred_file::number::words::counted;
 use jred_sizing::study::cell::Cell;
 use jred_sizing::study::tolerance::Samples;
 use jred_sizing::study::tolerance::summary::{Probability, Summary, quantile};

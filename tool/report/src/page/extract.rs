@@ -3,9 +3,9 @@
 use jred::Error;
 
 use super::mechanism::{POINTS, Source};
-use jred_machine::analysis::reduce::{Request, Sets, largest};
-use jred_machine::number::columns::{Column, Columns, Quantity};
-use jred_machine::number::rounding::{rounded, short};
+use jred_analysis::reduce::{Request, Sets, largest};
+use jred_file::number::columns::{Column, Columns, Quantity};
+use jred_file::number::rounding::{rounded, short};
 
 /// Rows of each table.
 const ROWS: usize = 13;

@@ -6,9 +6,9 @@ use jred::{Error, Reducible as _};
 use super::chart::{Chart, ChartKind};
 use super::section::{Figure, Section, over};
 use crate::plot::{Axes, Axis, Series, Style};
-use jred_machine::model::coordinate::{Coordinate, whole_range};
-use jred_machine::model::machine::MachineFile;
-use jred_machine::number::columns::{Column, Columns, Quantity};
+use jred_file::model::coordinate::{Coordinate, whole_range};
+use jred_file::model::machine::MachineFile;
+use jred_file::number::columns::{Column, Columns, Quantity};
 
 /// Intervals of the figures over the range.
 const POSITIONS: usize = 360;

@@ -10,12 +10,12 @@ use crate::answer::Block;
 use crate::drawing;
 use crate::list::inspection;
 use crate::plot::Axis;
-use jred_machine::analysis::inspect::Findings;
-use jred_machine::analysis::reduce::{Over, Request, Sets, reduce};
-use jred_machine::model::coordinate::Coordinate;
-use jred_machine::model::machine::MachineFile;
-use jred_machine::number::columns::{Columns, Quantity};
-use jred_machine::number::rounding::short;
+use jred_analysis::inspect::Findings;
+use jred_analysis::reduce::{Over, Request, Sets, reduce};
+use jred_file::model::coordinate::Coordinate;
+use jred_file::model::machine::MachineFile;
+use jred_file::number::columns::{Columns, Quantity};
+use jred_file::number::rounding::short;
 
 /// Points of each curve.
 pub(super) const POINTS: usize = 361;

@@ -2,14 +2,14 @@
 
 use jred::Error;
 use jred::machine::motion::State;
-use jred_machine::analysis::simulate::Together;
-use jred_machine::analysis::steady::Steady;
-use jred_machine::model::axis::Axis as Place;
-use jred_machine::model::coordinate::Coordinate;
-use jred_machine::model::machine::MachineFile;
-use jred_machine::model::motion::Motion;
-use jred_machine::number::columns::Quantity;
-use jred_machine::number::rounding::short;
+use jred_analysis::simulate::Together;
+use jred_analysis::steady::Steady;
+use jred_file::model::axis::Axis as Place;
+use jred_file::model::coordinate::Coordinate;
+use jred_file::model::machine::MachineFile;
+use jred_file::model::motion::Motion;
+use jred_file::number::columns::Quantity;
+use jred_file::number::rounding::short;
 use jred_motion::fastest::Binding;
 use jred_motion::fastest::cycle::Made;
 use jred_motion::fastest::plane::Plane;

@@ -1,8 +1,8 @@
 //! Texts of the report: result, self-check, assumptions, sources.
 
-use jred_machine::analysis::duty::Duty;
-use jred_machine::model::rules::Verdict;
-use jred_machine::number::rounding::{cleared, rounded, shown};
+use jred_analysis::duty::Duty;
+use jred_file::model::rules::Verdict;
+use jred_file::number::rounding::{cleared, rounded, shown};
 use jred_sizing::judge::Judged;
 use jred_sizing::select::size::Selection;
 

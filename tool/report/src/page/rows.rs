@@ -1,12 +1,12 @@
 //! The tables of the report.
 
-use jred_machine::analysis::duty::Duty;
-use jred_machine::model::rule::Rule;
-use jred_machine::model::rules::RuleSet;
-use jred_machine::model::rules::Verdict;
-use jred_machine::number::figures::Figures;
-use jred_machine::number::rounding::{percent, rounded, short, shown, significant};
-use jred_machine::units::Vocabulary;
+use jred_analysis::duty::Duty;
+use jred_file::model::rule::Rule;
+use jred_file::model::rules::RuleSet;
+use jred_file::model::rules::Verdict;
+use jred_file::number::figures::Figures;
+use jred_file::number::rounding::{percent, rounded, short, shown, significant};
+use jred_file::units::Vocabulary;
 use jred_sizing::explain::{Breakdown, InertiaShare, Remedies, Share};
 use jred_sizing::judge::Judged;
 use jred_sizing::judge::check::Check;

@@ -4,8 +4,8 @@ use askama::Template;
 
 use crate::answer::{Answer, Block};
 use crate::plot::{Axes, Axis, lines};
-use jred_machine::model::machine::MachineFile;
-use jred_machine::number::columns::{Column, Columns, Quantity};
+use jred_file::model::machine::MachineFile;
+use jred_file::number::columns::{Column, Columns, Quantity};
 
 use super::figures::line;
 

@@ -4,7 +4,7 @@ use legend::Legend;
 use scale::{Span, nice_step, range, usable};
 use svg::{Anchor, Ink, Svg};
 
-use jred_machine::model::coordinate::Coordinate;
+use jred_file::model::coordinate::Coordinate;
 
 mod legend;
 mod scale;

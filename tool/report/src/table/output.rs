@@ -4,11 +4,11 @@ use comfy_table::{CellAlignment, ContentArrangement, LineStyle, TableStyle};
 use serde_json::{Map, Value, json};
 
 use super::json::split_at_entry;
-use jred_machine::number::columns::{Columns, Quantity};
-use jred_machine::number::csv;
-use jred_machine::number::rounding::rounded;
+use jred_file::number::columns::{Columns, Quantity};
+use jred_file::number::csv;
+use jred_file::number::rounding::rounded;
 
-jred_machine::words! {
+jred_file::words! {
     /// Format of a result.
     pub enum Format default Table {
         /// An aligned table for reading, rounded to six digits.

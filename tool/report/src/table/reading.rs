@@ -5,7 +5,7 @@ use comfy_table::{CellAlignment, ColumnConstraint, ContentArrangement};
 use super::rows::csv_line;
 use super::screen::Screen;
 use crate::table::output::text_table;
-use jred_machine::number::rounding::significant;
+use jred_file::number::rounding::significant;
 use jred_sizing::study::cell::Cell;
 
 /// Largest width of a table; wider cells are wrapped.

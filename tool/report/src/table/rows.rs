@@ -3,12 +3,12 @@
 use serde_json::{Map, Value};
 
 use crate::table::output::text_table;
-use jred_machine::number::csv;
-use jred_machine::number::rounding::rounded;
+use jred_file::number::csv;
+use jred_file::number::rounding::rounded;
 use jred_sizing::study::cell::Cell;
 use jred_sizing::study::header::digest;
 
-jred_machine::words! {
+jred_file::words! {
     /// Format of rows.
     pub enum RowFormat default Table {
         /// An aligned table for reading, printed when all rows are complete.

@@ -3,8 +3,8 @@
 use std::collections::HashSet;
 use std::hint::black_box;
 
-use jred_machine::model::rule::Rule;
-use jred_machine::model::rules::Finding;
+use jred_file::model::rule::Rule;
+use jred_file::model::rules::Finding;
 use jred_sizing::catalogue::Drive;
 use jred_sizing::judge::{Context, Findings, Outcome};
 use jred_sizing::select::size::{Group, Selection};

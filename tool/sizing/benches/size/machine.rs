@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
-use jred_machine::analysis::duty::Duty;
-use jred_machine::model::machine::MachineFile;
-use jred_machine::read;
+use jred_analysis::checked;
+use jred_analysis::duty::Duty;
+use jred_file::model::machine::MachineFile;
 
 use crate::brute;
 
@@ -62,7 +62,7 @@ dwell = "0.5 s"
 
 /// The machine.
 pub(crate) fn machine() -> MachineFile {
-    match read::parse("press.toml", MACHINE, Path::new("")) {
+    match checked::parse("press.toml", MACHINE, Path::new("")) {
         Ok(file) => file,
         Err(problem) => panic!("the benchmark's own machine: {problem:?}"),
     }

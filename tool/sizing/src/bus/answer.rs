@@ -9,7 +9,7 @@ use super::store::BusFigures;
 use super::supply::BusData;
 use super::{Need, Watch};
 use crate::catalogue::Catalogue;
-use jred_machine::model::supply::Supply;
+use jred_file::model::supply::Supply;
 
 /// One axis: its drive and its power.
 #[derive(Debug)]

@@ -4,7 +4,7 @@
 //! amplifier, the motor's data sheet.
 
 use super::supply::BusData;
-use jred_machine::number::rounding::short;
+use jred_file::number::rounding::short;
 
 /// A conflict that no brake resistor resolves: the supply voltage must be below the chopper voltage, and the chopper voltage below the maximum
 /// voltage.

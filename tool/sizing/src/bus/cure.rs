@@ -8,7 +8,7 @@ use super::conflict::Conflict;
 use super::store::{Bus, BusFigures};
 use super::verdict::Judged;
 use super::{Need, Watch};
-use jred_machine::number::rounding::short;
+use jred_file::number::rounding::short;
 
 /// A single change that is sufficient.
 #[derive(Clone, Debug)]

@@ -6,9 +6,9 @@ use super::phases::Watch;
 use super::store::Bus;
 use super::supply::BusData;
 use crate::catalogue::Resistor;
-use jred_machine::model::supply::BrakeResistor;
-use jred_machine::number::rounding::short;
-use jred_machine::number::words::counted;
+use jred_file::model::supply::BrakeResistor;
+use jred_file::number::rounding::short;
+use jred_file::number::words::counted;
 
 /// A requirement, and whether a resistor misses it.
 type Misses<'a> = (&'static str, Box<dyn Fn(&Resistor) -> bool + 'a>);

@@ -1,7 +1,7 @@
 //! The known data of the bus of one drive or of several.
 
 use crate::catalogue::{Amplifier, Motor};
-use jred_machine::model::supply::{BrakeResistor, Supply};
+use jred_file::model::supply::{BrakeResistor, Supply};
 
 use super::store::Bus;
 

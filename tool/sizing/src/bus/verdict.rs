@@ -5,8 +5,8 @@ use super::conflict::Conflict;
 use super::curve::PowerCurve;
 use super::period::{Common, LOOKED_AT, MOST_CYCLES};
 use super::store::BusFigures;
-use jred_machine::model::rule::Sense;
-use jred_machine::number::rounding::short;
+use jred_file::model::rule::Sense;
+use jred_file::number::rounding::short;
 
 /// The value that is checked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

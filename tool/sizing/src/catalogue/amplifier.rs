@@ -1,6 +1,6 @@
 //! Servo amplifiers and brake resistors of the catalogue.
 
-use jred_machine::model::supply::BrakeResistor;
+use jred_file::model::supply::BrakeResistor;
 
 use super::derating::Derating;
 

@@ -1,11 +1,11 @@
 //! Quantities in cells: a number with its unit in the header, a number with its own unit, points of a curve.
 
-use jred_machine::number::rounding::figure;
-use jred_machine::plain;
-use jred_machine::units::Fault;
-use jred_machine::units::kind::SHARE;
-use jred_machine::units::quantity::{no_unit, split_number};
-use jred_machine::units::unit::tidy;
+use jred_file::number::rounding::figure;
+use jred_file::plain;
+use jred_file::units::Fault;
+use jred_file::units::kind::SHARE;
+use jred_file::units::quantity::{no_unit, split_number};
+use jred_file::units::unit::tidy;
 
 use super::column::{For, Holds, Unit};
 

@@ -1,9 +1,9 @@
 //! The columns of jred's own catalogue format: name, units, and the tables that have them.
 
-use jred_machine::plain;
-use jred_machine::units::Fault;
-use jred_machine::units::kind as units;
-use jred_machine::units::quantity::unit_of;
+use jred_file::plain;
+use jred_file::units::Fault;
+use jred_file::units::kind as units;
+use jred_file::units::quantity::unit_of;
 
 /// A table of the catalogue.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]

@@ -4,7 +4,7 @@
 //! [`Derated::hottest`] and [`Derated::highest`] are the limits.
 
 use super::{Amplifier, Motor, broken_line};
-use jred_machine::model::surroundings::{LOW, REFERENCE, Surroundings};
+use jred_file::model::surroundings::{LOW, REFERENCE, Surroundings};
 
 /// Highest ambient temperature (°C) for which IEC 60034-1 has a rule; above it maker and user agree on the ratings.
 const HOTTEST_MOTOR: f64 = 60.0;

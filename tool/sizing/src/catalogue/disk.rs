@@ -4,10 +4,10 @@ use std::collections::HashMap;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
-use jred_machine::plain;
-use jred_machine::text::disk;
-use jred_machine::text::file::LARGE;
-use jred_machine::units::closest;
+use jred_file::plain;
+use jred_file::text::disk;
+use jred_file::text::file::LARGE;
+use jred_file::units::closest;
 
 use super::Catalogue;
 use super::column::Kind;

@@ -9,9 +9,9 @@ use super::gearbox::Gearbox;
 use super::lists::{Listing, listing};
 use super::motor::Motor;
 use super::row::{Read, Row};
-use jred_machine::model::supply::{MAINS, rectified};
-use jred_machine::number::rounding::figure;
-use jred_machine::plain;
+use jred_file::model::supply::{MAINS, rectified};
+use jred_file::number::rounding::figure;
+use jred_file::plain;
 use motor::motor;
 
 /// The entry of a row.

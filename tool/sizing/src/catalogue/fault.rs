@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use jred_machine::text::problem::Problem;
+use jred_file::text::problem::Problem;
 use miette::Diagnostic;
 use thiserror::Error;
 

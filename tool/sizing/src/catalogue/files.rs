@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use jred_machine::plain;
-use jred_machine::text::csv;
+use jred_file::plain;
+use jred_file::text::csv;
 
 use super::column::{Column, Kind};
 use super::fault::{CatalogueError, Text};

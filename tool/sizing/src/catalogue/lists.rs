@@ -4,9 +4,9 @@ use std::collections::{HashMap, HashSet};
 use std::ops::Range;
 use std::path::Path;
 
-use jred_machine::plain;
-use jred_machine::text::problem::Problem;
-use jred_machine::units::did_you_mean;
+use jred_file::plain;
+use jred_file::text::problem::Problem;
+use jred_file::units::did_you_mean;
 
 use super::Pairing;
 use super::column::Column;

@@ -4,8 +4,8 @@ use std::collections::{HashMap, HashSet};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use jred_machine::plain;
-use jred_machine::text::problem::Problem;
+use jred_file::plain;
+use jred_file::text::problem::Problem;
 
 use super::column::{Column, Kind};
 use super::entry::Entry;
@@ -17,7 +17,7 @@ use super::row::{Read, Row};
 use super::table::Table;
 use super::twins::Twins;
 use super::{Catalogue, Pairing, mgdb, plausible, toml_table};
-use jred_machine::number::words::counted;
+use jred_file::number::words::counted;
 
 /// Most rows of all tables: this many motors with their limits take 150 MB.
 const MOST_ROWS: usize = 100_000;

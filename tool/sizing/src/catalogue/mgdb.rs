@@ -3,9 +3,9 @@
 
 use std::ops::Range;
 
-use jred_machine::plain;
-use jred_machine::text::csv::{self, Table};
-use jred_machine::text::problem::Problem;
+use jred_file::plain;
+use jred_file::text::csv::{self, Table};
+use jred_file::text::problem::Problem;
 
 use super::fault::{Remarks, Text};
 use super::gearbox::Gearbox;

@@ -1,7 +1,7 @@
 //! A motor of the catalogue.
 
 use super::derating::Derating;
-use jred_machine::units::Vocabulary;
+use jred_file::units::Vocabulary;
 use serde::Serialize;
 
 /// Commutation of a winding, which determines the meaning of its data.

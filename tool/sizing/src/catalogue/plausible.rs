@@ -6,7 +6,7 @@
 use super::fault::Remarks;
 use super::gearbox::Gearbox;
 use super::motor::{Motor, MotorKind};
-use jred_machine::number::rounding::figure;
+use jred_file::number::rounding::figure;
 
 /// Rotor inertia over rated torque to the power 5/3, (kg·m²)/(N·m)^(5/3): equal for similar shapes at equal shear stress.
 const SLIMNESS: [f64; 2] = [5e-7, 3e-2];
@@ -125,7 +125,7 @@ pub(super) fn motor(remarks: &mut Remarks, place: &dyn Fn() -> String, motor: &M
                 format!(
                     "{}: the speed of \"{key}\" is {} rpm: are rpm and rad/s mixed up?",
                     place(),
-                    figure(speed.unwrap_or(0.0) / jred_machine::units::RPM)
+                    figure(speed.unwrap_or(0.0) / jred_file::units::RPM)
                 )
             });
         }

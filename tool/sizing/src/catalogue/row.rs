@@ -3,10 +3,10 @@
 use std::cell::RefCell;
 use std::ops::Range;
 
-use jred_machine::number::rounding::figure;
-use jred_machine::plain;
-use jred_machine::text::problem::Problem;
-use jred_machine::units::quantity::possible_units;
+use jred_file::number::rounding::figure;
+use jred_file::plain;
+use jred_file::text::problem::Problem;
+use jred_file::units::quantity::possible_units;
 
 use super::cell::{self, Cell, NUMBER_CURE};
 use super::column::{Column, For, Holds, Kind, PLAIN, RATIO, Unit};

@@ -2,10 +2,10 @@
 
 use std::ops::Range;
 
-use jred_machine::plain;
-use jred_machine::text::csv::{self, name_and_unit};
-use jred_machine::text::problem::Problem;
-use jred_machine::units::did_you_mean;
+use jred_file::plain;
+use jred_file::text::csv::{self, name_and_unit};
+use jred_file::text::problem::Problem;
+use jred_file::units::did_you_mean;
 
 use super::cell::Cell;
 use super::column::{Column, Kind, Unit};

@@ -2,12 +2,12 @@
 
 use std::ops::Range;
 
-use jred_machine::text::item::Item;
-use jred_machine::text::problem::Problem;
-use jred_machine::text::section::Section;
-use jred_machine::text::tree;
-use jred_machine::units::kind::SHARE;
-use jred_machine::units::quantity::split_number;
+use jred_file::text::item::Item;
+use jred_file::text::problem::Problem;
+use jred_file::text::section::Section;
+use jred_file::text::tree;
+use jred_file::units::kind::SHARE;
+use jred_file::units::quantity::split_number;
 
 use super::cell::{Cell, number_and_unit};
 use super::column::{Column, Kind, Unit};

@@ -3,7 +3,7 @@
 
 use std::collections::HashMap;
 
-use jred_machine::number::rounding::figure;
+use jred_file::number::rounding::figure;
 
 use super::column::{Column, Kind};
 use super::fault::Remarks;

@@ -1,9 +1,9 @@
 //! The supply that motors and amplifiers are made for: the largest voltage of the DC bus, from their data sheets.
 
-use jred_machine::model::supply::{MAINS_TOLERANCE, rectified};
+use jred_file::model::supply::{MAINS_TOLERANCE, rectified};
 
 use super::{Amplifier, Motor};
-use jred_machine::number::rounding::short;
+use jred_file::number::rounding::short;
 
 /// Classes of mains (V). A device for any voltage of a class is made for the highest one, because makers build for the class and state one of its
 /// voltages (nominal voltages: IEC 60038).

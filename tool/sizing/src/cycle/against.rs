@@ -4,7 +4,7 @@ use super::Sample;
 use super::extremes::Stretches;
 use crate::cycle::form::Coefficients;
 use crate::motor::envelope::Envelope;
-use jred_machine::analysis::duty::MOST_RAISED;
+use jred_analysis::duty::MOST_RAISED;
 
 /// The peak of a cycle relative to two shares of an envelope.
 #[derive(Clone, Copy, Debug, PartialEq)]

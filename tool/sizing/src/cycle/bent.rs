@@ -5,7 +5,7 @@
 
 use super::extremes::Stretches;
 use crate::cycle::form::Coefficients;
-use jred_machine::analysis::duty::Panel;
+use jred_analysis::duty::Panel;
 
 /// Allowed error of the integral over a panel, as a share of it, and as a share of the reference value.
 const SHARE: f64 = 1e-10;

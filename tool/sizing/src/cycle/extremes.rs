@@ -16,7 +16,7 @@ use super::tree::{Direction, Node, Tree};
 use super::{Peak, Sample};
 use crate::cycle::form::{Coefficients, LOADS};
 use crate::motor::envelope::Envelope;
-use jred_machine::analysis::duty::{Panel, Smooth};
+use jred_analysis::duty::{Panel, Smooth};
 
 /// Rounding of a torque and of its bound, as a share of the sum of its terms' largest magnitudes.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;

@@ -3,9 +3,9 @@
 use serde::Serialize;
 
 use crate::catalogue::Drive;
-use jred_machine::analysis::duty::Instant;
-pub use jred_machine::model::motor::{Coefficients, LOADS, loads_of};
-use jred_machine::number::figures::Figures;
+use jred_analysis::duty::Instant;
+pub use jred_file::model::motor::{Coefficients, LOADS, loads_of};
+use jred_file::number::figures::Figures;
 
 /// The five loads of an instant: α, τ₊, τ₋, n, sgn n.
 pub fn loads(instant: &Instant) -> [f64; LOADS] {

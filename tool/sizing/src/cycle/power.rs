@@ -6,7 +6,7 @@ use super::Sample;
 use super::extremes::Stretches;
 use super::tree::Direction;
 use crate::cycle::form::{Coefficients, LOADS};
-use jred_machine::number::numerics;
+use jred_file::number::numerics;
 
 /// Work supplied and returned (J), in order of time.
 #[derive(Default)]

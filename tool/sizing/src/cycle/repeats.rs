@@ -7,7 +7,7 @@ use super::Sample;
 use super::front::Front;
 use super::tree::Tree;
 use crate::cycle::form::LOADS;
-use jred_machine::analysis::duty::Smooth;
+use jred_analysis::duty::Smooth;
 
 /// Two values are equal if they differ by less than this share of the largest: rounding of a position after many turns.
 const SAME: f64 = 1e-10;

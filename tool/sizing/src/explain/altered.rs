@@ -14,11 +14,11 @@ use jred::machine::TorqueTerms;
 use jred::mechanism::TrainOutput;
 use jred::{Error, Machine};
 
-use jred_machine::analysis::duty::{Duty, Instant, Smooth};
-use jred_machine::analysis::mechanics::{Held, Rest, constant_loads};
-use jred_machine::model::machine::MachineFile;
-use jred_machine::model::mechanism::AnyMechanism;
-use jred_machine::model::schedule::Now;
+use jred_analysis::duty::mechanics::{Held, Rest, constant_loads};
+use jred_analysis::duty::{Duty, Instant, Smooth};
+use jred_file::model::machine::MachineFile;
+use jred_file::model::mechanism::AnyMechanism;
+use jred_file::model::schedule::Now;
 
 /// Factors on parts of the machine and its motion.
 #[derive(Clone, Copy, Debug, PartialEq)]

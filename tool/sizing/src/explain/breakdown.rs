@@ -20,11 +20,11 @@ use serde::Serialize;
 use super::contributions::{Contribution, Contributions, Effect, PartKind};
 use crate::catalogue::Drive;
 use crate::cycle::form::loads;
-use jred_machine::analysis::duty::Duty;
-use jred_machine::model::machine::MachineFile;
-use jred_machine::number::figures::Figures;
-use jred_machine::number::rounding::cleared;
-use jred_machine::units::Vocabulary;
+use jred_analysis::duty::Duty;
+use jred_file::model::machine::MachineFile;
+use jred_file::number::figures::Figures;
+use jred_file::number::rounding::cleared;
+use jred_file::units::Vocabulary;
 
 /// Contribution of one part or effect to the motor torque.
 #[derive(Clone, Debug, Serialize, schemars::JsonSchema)]

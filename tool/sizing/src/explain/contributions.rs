@@ -5,11 +5,11 @@ use jred::machine::Mechanism as _;
 
 use crate::catalogue::Drive;
 use crate::cycle::form::loads;
-use jred_machine::analysis::duty::{Duty, Instant};
-use jred_machine::model::machine::MachineFile;
-use jred_machine::model::motion::Motion;
-use jred_machine::model::schedule::Now;
-use jred_machine::units::Vocabulary;
+use jred_analysis::duty::{Duty, Instant};
+use jred_file::model::machine::MachineFile;
+use jred_file::model::motion::Motion;
+use jred_file::model::schedule::Now;
+use jred_file::units::Vocabulary;
 
 /// Torque at the motor of one part through one effect, at every instant.
 #[derive(Clone, Debug)]

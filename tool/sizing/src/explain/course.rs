@@ -3,8 +3,8 @@
 use super::remedy::with_ratio;
 use crate::catalogue::Drive;
 use crate::judge::{Context, Findings};
-use jred_machine::model::rule::Rule;
-use jred_machine::model::rules::RuleSet;
+use jred_file::model::rule::Rule;
+use jred_file::model::rules::RuleSet;
 
 /// The shares of their limits that the rules use at each ratio, with the rest of the drive unchanged; NaN without data. Rules that follow time and
 /// rules without a limit are omitted. A drive without gearbox gets one without losses and inertia.

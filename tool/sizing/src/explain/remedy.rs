@@ -23,12 +23,12 @@ use crate::cycle::Cycle;
 use crate::judge::Context;
 use crate::motor::envelope::Prepared;
 use crate::select::size::{Candidate, Selection};
-use jred_machine::analysis::duty::Duty;
-use jred_machine::model::rule::Rule;
-use jred_machine::model::rules::RuleSet;
-use jred_machine::model::rules::Verdict;
-use jred_machine::model::site::Site;
-use jred_machine::units::Vocabulary;
+use jred_analysis::duty::Duty;
+use jred_file::model::rule::Rule;
+use jred_file::model::rules::RuleSet;
+use jred_file::model::rules::Verdict;
+use jred_file::model::site::Site;
+use jred_file::units::Vocabulary;
 
 /// The quantity to change.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, schemars::JsonSchema)]

@@ -4,10 +4,10 @@ use std::convert::Infallible;
 
 use super::remedy::{Edge, Lever, Remedy};
 use crate::judge::{Context, Findings};
-use jred_machine::model::rule::Rule;
-use jred_machine::model::rules::RuleSet;
-use jred_machine::model::rules::Verdict;
-use jred_machine::number::numerics::golden_section;
+use jred_file::model::rule::Rule;
+use jred_file::model::rules::RuleSet;
+use jred_file::model::rules::Verdict;
+use jred_file::number::numerics::golden_section;
 
 /// Steps of the search by the golden section.
 const SECTIONS: u32 = 40;

@@ -1,8 +1,8 @@
 //! Messages about remedies.
 
 use super::remedy::{Edge, Lever, Miss, Remedy};
-use jred_machine::number::rounding::{short, told_apart};
-use jred_machine::units::Vocabulary;
+use jred_file::number::rounding::{short, told_apart};
+use jred_file::units::Vocabulary;
 
 impl Remedy {
     /// The closest value at which every rule is satisfied, and the rule at its limit there; `None` if no value helps or the current one is suitable.

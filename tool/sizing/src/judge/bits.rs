@@ -1,6 +1,6 @@
 //! A set of rules, one bit each.
 
-use jred_machine::model::rule::Rule;
+use jred_file::model::rule::Rule;
 
 /// A set of rules.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

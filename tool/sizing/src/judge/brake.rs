@@ -5,11 +5,11 @@ use std::fmt::Write as _;
 use super::motor::{braked, falls, locks};
 use super::{Context, Record, Words};
 use crate::catalogue::Brake;
-use jred_machine::analysis::mechanics::{Closing, Stopped};
-use jred_machine::model::rule::Rule;
-use jred_machine::model::rules::Finding;
-use jred_machine::number::rounding::short;
-use jred_machine::units::Vocabulary;
+use jred_analysis::duty::mechanics::{Closing, Stopped};
+use jred_file::model::rule::Rule;
+use jred_file::model::rules::Finding;
+use jred_file::number::rounding::short;
+use jred_file::units::Vocabulary;
 
 pub(super) fn measure(context: &Context, findings: &mut impl Record) {
     let brake = context.drive.motor.brake;
@@ -106,7 +106,7 @@ fn run_on(context: &Context, stop: &Stopped) -> String {
     let mechanics = context.cycle.mechanics();
     let (slides, slope, of) = match (mechanics.tool_slope, &context.site.tool) {
         (Some(slope), Some(tool)) => (
-            !matches!(tool.place, jred_machine::model::site::ToolPlace::Turning),
+            !matches!(tool.place, jred_file::model::site::ToolPlace::Turning),
             slope,
             tool.name.as_str(),
         ),
@@ -115,7 +115,7 @@ fn run_on(context: &Context, stop: &Stopped) -> String {
     let (unit, scale) = if slides {
         ("mm", 1e-3)
     } else {
-        ("deg", jred_machine::units::DEGREE)
+        ("deg", jred_file::units::DEGREE)
     };
     let shown = |way: f64| {
         let way = way * slope / mechanics.train_ratio / scale;

@@ -3,9 +3,9 @@
 use serde::Serialize;
 
 use crate::judge::Words;
-use jred_machine::model::rule::{Rule, Sense};
-use jred_machine::model::rules::{Finding, RuleSet, Verdict};
-use jred_machine::number::rounding::{cleared, short, told_apart};
+use jred_file::model::rule::{Rule, Sense};
+use jred_file::model::rules::{Finding, RuleSet, Verdict};
+use jred_file::number::rounding::{cleared, short, told_apart};
 
 /// A rule with its value, limit and verdict.
 #[derive(Clone, Debug, Serialize, schemars::JsonSchema)]

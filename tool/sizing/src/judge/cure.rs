@@ -1,6 +1,6 @@
 //! The data missing for a rule that is not checked, and where to add them.
 
-use jred_machine::model::rule::Rule;
+use jred_file::model::rule::Rule;
 
 /// Keys with which a rule can be checked: columns of the catalogue (docs/catalogue.md), or keys of the machine file.
 pub const fn cure(rule: Rule) -> &'static str {

@@ -7,9 +7,9 @@ use crate::bus::{self, Need};
 use crate::catalogue::Resistor;
 use crate::judge::overload;
 use crate::thermal::mean::rms_current;
-use jred_machine::model::rule::Rule;
-use jred_machine::model::rules::Finding;
-use jred_machine::number::rounding::short;
+use jred_file::model::rule::Rule;
+use jred_file::model::rules::Finding;
+use jred_file::number::rounding::short;
 
 /// Measures currents; returns the largest (A) if the rules need it; NaN if the current of a torque is unknown.
 pub(super) fn measure(context: &Context, findings: &mut impl Record) -> Option<f64> {

@@ -2,12 +2,12 @@
 
 use super::{Context, Record, Words};
 use crate::catalogue::Gearbox;
-use jred_machine::analysis::mechanics::Braking;
-use jred_machine::model::rule::Rule;
-use jred_machine::model::rules::Finding;
-use jred_machine::model::rules::{MeanTorque, RuleSet};
-use jred_machine::number::rounding::short;
-use jred_machine::units::RPM;
+use jred_analysis::duty::mechanics::Braking;
+use jred_file::model::rule::Rule;
+use jred_file::model::rules::Finding;
+use jred_file::model::rules::{MeanTorque, RuleSet};
+use jred_file::number::rounding::short;
+use jred_file::units::RPM;
 
 /// Seconds of an hour.
 const HOUR: f64 = 3600.0;

@@ -4,8 +4,8 @@ use super::{Context, motor};
 use crate::catalogue::{Drive, Resistor};
 use crate::cycle::form::MotorDuty;
 use crate::judge::check::Check;
-use jred_machine::model::rule::Rule;
-use jred_machine::model::rules::{RuleSet, Verdict};
+use jred_file::model::rule::Rule;
+use jred_file::model::rules::{RuleSet, Verdict};
 
 /// A drive with the verdict of every rule.
 #[derive(Clone, Debug)]

@@ -5,11 +5,11 @@ use std::fmt::Write as _;
 use super::{Context, Record, Words};
 use crate::cycle::Cycle;
 use crate::motor::envelope::Prepared;
-use jred_machine::model::rule::Rule;
-use jred_machine::model::rules::Finding;
-use jred_machine::model::rules::RuleSet;
-use jred_machine::number::rounding::short;
-use jred_machine::units::Vocabulary;
+use jred_file::model::rule::Rule;
+use jred_file::model::rules::Finding;
+use jred_file::model::rules::RuleSet;
+use jred_file::number::rounding::short;
+use jred_file::units::Vocabulary;
 
 /// Seconds of a minute.
 const MINUTE: f64 = 60.0;

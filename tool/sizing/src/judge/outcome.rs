@@ -1,10 +1,10 @@
 //! Result of a drive in numbers.
 
 use super::{Findings, Record, RuleBits};
-use jred_machine::model::rule::Rule;
-use jred_machine::model::rules::Finding;
-use jred_machine::model::rules::RuleSet;
-use jred_machine::model::rules::Verdict;
+use jred_file::model::rule::Rule;
+use jred_file::model::rules::Finding;
+use jred_file::model::rules::RuleSet;
+use jred_file::model::rules::Verdict;
 
 /// Result of a drive in numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]

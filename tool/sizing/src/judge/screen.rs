@@ -11,9 +11,9 @@ use super::{Context, Outcome, brake, electric, gearbox, motor, site, stiffness, 
 use crate::catalogue::{Drive, DriveId, Gearbox, Motor, Resistor};
 use crate::cycle::{Against, Cycle};
 use crate::motor::envelope::Prepared;
-use jred_machine::model::rule::Rule;
-use jred_machine::model::rules::RuleSet;
-use jred_machine::model::site::Site;
+use jred_file::model::rule::Rule;
+use jred_file::model::rules::RuleSet;
+use jred_file::model::site::Site;
 
 /// Data common to all drives.
 #[derive(Clone, Debug)]

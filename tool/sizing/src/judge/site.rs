@@ -5,10 +5,10 @@
 
 use super::{Context, Record, Words};
 use crate::catalogue::{Derated, DeratingBasis};
-use jred_machine::model::rule::Rule;
-use jred_machine::model::rules::Finding;
-use jred_machine::model::surroundings::{LOW, REFERENCE};
-use jred_machine::number::rounding::short;
+use jred_file::model::rule::Rule;
+use jred_file::model::rules::Finding;
+use jred_file::model::surroundings::{LOW, REFERENCE};
+use jred_file::number::rounding::short;
 
 /// Measures the site, without cycle and gearbox. A site that reduces no rating needs no check.
 pub(super) fn measure(context: &Context, findings: &mut impl Record) {

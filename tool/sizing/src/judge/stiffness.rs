@@ -7,12 +7,12 @@
 use std::f64::consts::TAU;
 
 use super::{Context, Record, Words};
-use jred_machine::model::rule::Rule;
-use jred_machine::model::rules::Finding;
-use jred_machine::model::site::ToolPlace;
-use jred_machine::number::rounding::short;
-use jred_machine::units::DEGREE;
-use jred_machine::units::Vocabulary;
+use jred_file::model::rule::Rule;
+use jred_file::model::rules::Finding;
+use jred_file::model::site::ToolPlace;
+use jred_file::number::rounding::short;
+use jred_file::units::DEGREE;
+use jred_file::units::Vocabulary;
 
 /// Measures both; they depend only on gearbox, machine and cycle, not on the motor.
 pub(super) fn measure(context: &Context, findings: &mut impl Record) {

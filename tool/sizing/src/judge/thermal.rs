@@ -4,10 +4,10 @@ use super::{Context, Record, Words};
 use crate::thermal::classify::Features;
 use crate::thermal::course::Hottest;
 use crate::thermal::{Heating, Load, Model, allowed_rise};
-use jred_machine::model::operation::Operation;
-use jred_machine::model::rule::Rule;
-use jred_machine::model::rules::Finding;
-use jred_machine::units::{Sentence, Vocabulary};
+use jred_file::model::operation::Operation;
+use jred_file::model::rule::Rule;
+use jred_file::model::rules::Finding;
+use jred_file::units::{Sentence, Vocabulary};
 
 pub(super) fn follow(context: &Context, findings: &mut impl Record) {
     let Ok(heating) = heating(context) else {

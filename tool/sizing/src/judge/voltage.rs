@@ -3,9 +3,9 @@
 use super::{Context, Record, Words};
 use crate::catalogue::Basis;
 use crate::motor::envelope::Prepared;
-use jred_machine::model::rule::Rule;
-use jred_machine::model::rules::{Finding, RuleSet, Verdict};
-use jred_machine::number::rounding::short;
+use jred_file::model::rule::Rule;
+use jred_file::model::rules::{Finding, RuleSet, Verdict};
+use jred_file::number::rounding::short;
 
 /// Both rules; they do not need cycle and gearbox.
 pub(super) fn measure(limits: &Prepared, findings: &mut impl Record) {

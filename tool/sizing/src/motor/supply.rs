@@ -4,8 +4,8 @@
 //! ([`Motor::made_for`]). The rule for the bus voltage judges the additional rise by braking.
 
 use crate::catalogue::{Amplifier, Motor};
-use jred_machine::model::rules::Finding;
-use jred_machine::model::site::Site;
+use jred_file::model::rules::Finding;
+use jred_file::model::site::Site;
 
 /// The findings of a motor on an amplifier at a supply; neither depends on the rest of the drive.
 #[derive(Clone, Copy, Debug)]

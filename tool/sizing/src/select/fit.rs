@@ -3,8 +3,8 @@
 use miette::{Result, miette};
 
 use crate::catalogue::{Catalogue, MotorKind};
-use jred_machine::model::coordinate::Coordinate;
-use jred_machine::model::machine::MachineFile;
+use jred_file::model::coordinate::Coordinate;
+use jred_file::model::machine::MachineFile;
 
 /// Kind of motor at the input: a sliding drive link without a drive train needs a linear motor.
 pub fn input_kind(file: &MachineFile) -> MotorKind {

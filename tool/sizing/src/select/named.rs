@@ -3,8 +3,8 @@
 use miette::{Result, miette};
 
 use crate::catalogue::{Catalogue, Drive, DriveId};
-use jred_machine::plain;
-use jred_machine::units::closest;
+use jred_file::plain;
+use jred_file::units::closest;
 
 /// Motor, gearbox and amplifier of a drive's name, by their keys: `MOTOR+GEARBOX on AMPLIFIER`.
 fn keys(text: &str) -> (&str, Option<&str>, Option<&str>) {

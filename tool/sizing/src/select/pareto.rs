@@ -4,7 +4,7 @@ use miette::{Report, miette};
 
 use crate::select::rank::Objective;
 use crate::select::size::{Candidate, Selection};
-use jred_machine::number::words::counted;
+use jred_file::number::words::counted;
 
 /// A drive of the front with its values, one for each objective.
 #[derive(Clone, Debug)]

@@ -2,11 +2,11 @@
 
 use crate::judge::price;
 use crate::select::size::{Candidate, Certainty, Group, Selection};
-use jred_machine::model::rule::Rule;
-use jred_machine::model::rules::Finding;
-use jred_machine::units::{Sentence, Vocabulary};
+use jred_file::model::rule::Rule;
+use jred_file::model::rules::Finding;
+use jred_file::units::{Sentence, Vocabulary};
 
-jred_machine::words! {
+jred_file::words! {
     /// An objective: to be minimised, except for the margin.
     pub enum Objective {
         /// Rated torque times rated speed of the motor.

@@ -24,8 +24,8 @@ pub mod ranges;
 
 use crate::catalogue::Motor;
 use crate::cycle::form::loads;
-use jred_machine::analysis::duty::Duty;
-use jred_machine::number::numerics::edge;
+use jred_analysis::duty::Duty;
+use jred_file::number::numerics::edge;
 
 /// Properties of the gearbox other than its ratio.
 #[derive(Clone, Copy, Debug, PartialEq)]

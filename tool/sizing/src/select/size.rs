@@ -8,10 +8,10 @@ use crate::judge::Judged;
 use crate::judge::{Context, Outcome, Screen};
 use crate::motor::envelope::Prepared;
 use crate::threads;
-use jred_machine::model::rule::Rule;
-use jred_machine::model::rules::RuleSet;
-use jred_machine::model::site::Site;
-use jred_machine::units::{Sentence, Vocabulary};
+use jred_file::model::rule::Rule;
+use jred_file::model::rules::RuleSet;
+use jred_file::model::site::Site;
+use jred_file::units::{Sentence, Vocabulary};
 
 mod group;
 mod order;

@@ -6,11 +6,11 @@
 //! slider.mass=50,60,80kg         these values
 //! ```
 
-use jred_machine::plain;
+use jred_file::plain;
 use miette::{Result, miette};
 
 use super::edit::Document;
-use jred_machine::units::literal;
+use jred_file::units::literal;
 
 /// Most values of one axis.
 const MOST_STEPS: u32 = 1_000_000;

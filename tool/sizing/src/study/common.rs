@@ -10,11 +10,12 @@ use crate::catalogue::{Drive, DriveId};
 use crate::cycle::Cycle;
 use crate::select::fit::fit_input;
 use crate::select::named::named;
-use jred_machine::analysis::duty::{Duty, Sampling};
-use jred_machine::model::machine::MachineFile;
-use jred_machine::model::rules::RuleSet;
-use jred_machine::read;
-use jred_machine::text::file::Files;
+use jred_analysis::checked;
+use jred_analysis::duty::{Duty, Sampling};
+use jred_file::model::machine::MachineFile;
+use jred_file::model::rules::RuleSet;
+use jred_file::read;
+use jred_file::text::file::Files;
 
 /// The common part of a study.
 #[derive(Debug)]
@@ -68,7 +69,7 @@ impl Study {
         rules: Option<RuleSet>,
         sampling: impl Into<Sampling>,
     ) -> Result<Self> {
-        let name = jred_machine::plain::path(path);
+        let name = jred_file::plain::path(path);
         let files = Box::new(read::folder(path).to_owned());
         Self::new(name, read::text(path)?, files, catalogue, rules, sampling)
     }
@@ -86,7 +87,7 @@ impl Study {
         rules: Option<RuleSet>,
         sampling: impl Into<Sampling>,
     ) -> Result<Self> {
-        let mut nominal = read::parse(&name, &text, &*files)?;
+        let mut nominal = checked::parse(&name, &text, &*files)?;
         if let Some(set) = &rules {
             nominal.rules = read::rules_based_on(&nominal.rules, set.clone())?;
         }
@@ -125,9 +126,9 @@ impl Study {
         let text = self.document.with(edits);
         let around = edits.iter().all(|edit| self.is_around(edit.quantity));
         let mut file = if around {
-            read::parse_around(&self.name, &text, &*self.files)?
+            checked::parse_around(&self.name, &text, &*self.files)?
         } else {
-            read::parse(&self.name, &text, &*self.files)?
+            checked::parse(&self.name, &text, &*self.files)?
         };
         if let Some(set) = &self.rules {
             file.rules = read::rules_based_on(&file.rules, set.clone())?;
@@ -167,7 +168,7 @@ pub fn cycle(file: &MachineFile, sampling: impl Into<Sampling>) -> Result<Cycle>
 /// # Errors
 /// The machine has a variator, or no motion.
 pub fn sizeable(file: &MachineFile) -> Result<()> {
-    jred_machine::model::variator::refuse(file, "size")?;
+    jred_file::model::variator::refuse(file, "size")?;
     file.required_motion()?;
     Ok(())
 }

@@ -6,14 +6,14 @@
 //!
 //! A changed file is the text with other numbers in the same places, so that a message shows the line that the user knows.
 
-use jred_machine::plain;
+use jred_file::plain;
 use miette::{Result, miette};
 use std::ops::Range;
 use toml_edit::{Document as Toml, Item, Table, TableLike, Value};
 
-use jred_machine::units::closest;
-use jred_machine::units::literal;
-use jred_machine::units::literal::Literal;
+use jred_file::units::closest;
+use jred_file::units::literal;
+use jred_file::units::literal::Literal;
 
 /// Tables and keys whose texts are never quantities of the machine.
 const NOT_VARIED: [&str; 3] = ["title", "name", "tolerance"];

@@ -9,7 +9,7 @@ use crate::study::cell::Cell;
 use crate::study::common::{Study, sentence};
 use crate::study::header::{Header, digest};
 use crate::study::task::Task;
-use jred_machine::number::words::counted;
+use jred_file::number::words::counted;
 
 /// Machines of a grid, to be sized.
 #[derive(Debug)]
@@ -24,7 +24,7 @@ pub struct GridStudy<'s> {
     pub rank: Option<Objective>,
 }
 
-jred_machine::words! {
+jred_file::words! {
     /// Result for a machine of a study: the words of the column `verdict`.
     pub enum Verdict {
         /// A drive satisfies every rule.

@@ -10,9 +10,9 @@ use crate::select::ratio::ranges::{Found, Trial};
 use crate::select::ratio::{Gear, Moments, Range, accelerating_factor};
 use crate::select::size::Selection;
 use crate::threads;
-use jred_machine::analysis::duty::Duty;
-use jred_machine::model::machine::MachineFile;
-use jred_machine::model::rule::Rule;
+use jred_analysis::duty::Duty;
+use jred_file::model::machine::MachineFile;
+use jred_file::model::rule::Rule;
 
 /// A machine, and the motors whose ratios are computed.
 #[derive(Clone, Copy, Debug)]

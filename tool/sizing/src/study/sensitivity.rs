@@ -16,8 +16,8 @@ use crate::study::common::{Study, sentence};
 use crate::study::edge::{Grid, Trial};
 use crate::study::edit::Edit;
 use crate::threads;
-use jred_machine::model::rule::Rule;
-use jred_machine::model::rules::{Limit, RuleSet};
+use jred_file::model::rule::Rule;
+use jred_file::model::rules::{Limit, RuleSet};
 
 /// One rule's dependence on one quantity.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -12,7 +12,7 @@ pub mod summary;
 
 use std::sync::Arc;
 
-use jred_machine::plain;
+use jred_file::plain;
 use miette::{Report, Result, miette};
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt as _, SeedableRng as _};
@@ -25,10 +25,10 @@ use crate::study::common::{PreparedMachine, Study, sentence};
 use crate::study::edit::Edit;
 use crate::study::header::{Header, digest};
 use crate::study::task::Task;
-use jred_machine::model::rule::Rule;
-use jred_machine::model::rules::Limit;
-use jred_machine::model::tolerance::{Shape, Tolerance};
-use jred_machine::text::problem::Problem;
+use jred_file::model::rule::Rule;
+use jred_file::model::rules::Limit;
+use jred_file::model::tolerance::{Shape, Tolerance};
+use jred_file::text::problem::Problem;
 
 /// One quantity that scatters.
 #[derive(Clone, Debug)]
@@ -152,7 +152,7 @@ fn twice(study: &Study, path: &str, both: [&Tolerance; 2]) -> Report {
     Report::new(problem.in_file(&study.name, &text))
 }
 
-jred_machine::words! {
+jred_file::words! {
     /// Result for a machine: the words of the column `verdict`.
     pub enum Verdict {
         /// Every rule is satisfied.
@@ -286,7 +286,7 @@ impl Task for Samples<'_> {
                 cells.extend(self.rules.iter().map(|rule| {
                     let finding = findings
                         .get(*rule)
-                        .filter(jred_machine::model::rules::Finding::is_known);
+                        .filter(jred_file::model::rules::Finding::is_known);
                     match finding.map(|finding| rules.use_shown(*rule, finding)) {
                         Some(used) if used.is_infinite() => Cell::Number(used),
                         used => used.into(),

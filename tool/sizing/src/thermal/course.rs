@@ -1,7 +1,7 @@
 //! The losses over a cycle, and the resulting temperatures.
 
 use super::network::{Change, Losses, Network, Rise};
-use jred_machine::model::operation::Operation;
+use jred_file::model::operation::Operation;
 
 /// The losses at an instant.
 #[derive(Clone, Copy, Debug, PartialEq)]

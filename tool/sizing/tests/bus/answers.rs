@@ -3,7 +3,7 @@
 mod cures;
 mod judged;
 
-use jred_machine::model::supply::{BrakeResistor, Supply};
+use jred_file::model::supply::{BrakeResistor, Supply};
 use jred_sizing::bus::answer::{Answer, Axis};
 use jred_sizing::bus::curve::PowerCurve;
 use jred_sizing::bus::supply::BusData;

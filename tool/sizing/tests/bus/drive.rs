@@ -2,13 +2,13 @@
 
 use std::path::Path;
 
-use jred_machine::analysis::duty::Duty;
-use jred_machine::model::rule::Rule;
-use jred_machine::model::rules::RuleSet;
-use jred_machine::model::rules::Verdict;
-use jred_machine::model::site::Site;
-use jred_machine::model::supply::{BrakeResistor, Supply};
-use jred_machine::read;
+use jred_analysis::checked;
+use jred_analysis::duty::Duty;
+use jred_file::model::rule::Rule;
+use jred_file::model::rules::RuleSet;
+use jred_file::model::rules::Verdict;
+use jred_file::model::site::Site;
+use jred_file::model::supply::{BrakeResistor, Supply};
 use jred_sizing::bus;
 use jred_sizing::catalogue::Drive;
 use jred_sizing::catalogue::{Amplifier, Motor, Winding};
@@ -22,7 +22,7 @@ use super::{budget, near};
 use crate::support::press_text;
 
 fn cycle() -> Cycle {
-    let file = read::parse("press.toml", &press_text(), Path::new("")).unwrap();
+    let file = checked::parse("press.toml", &press_text(), Path::new("")).unwrap();
     Cycle::new(&Duty::new(&file, file.motion.as_ref().unwrap(), 1000).unwrap())
 }
 
@@ -284,7 +284,7 @@ fn the_course_of_the_voltage_reaches_the_judged_figure() {
 /// A motor that turns without torque in field weakening draws the loss of the weakening current.
 #[test]
 fn idling_in_the_weakened_field_is_not_free() {
-    let file = read::parse("press.toml", &press_text(), Path::new("")).unwrap();
+    let file = checked::parse("press.toml", &press_text(), Path::new("")).unwrap();
     let mut duty = Duty::new(&file, file.motion.as_ref().unwrap(), 100).unwrap();
     for instant in &mut duty.instants {
         (

@@ -1,6 +1,6 @@
 //! The search over phases: closed forms, brute force, and cycles that meet late or never.
 
-use jred_machine::model::supply::Supply;
+use jred_file::model::supply::Supply;
 use jred_sizing::bus::axes::{Axes, Goal};
 use jred_sizing::bus::curve::PowerCurve;
 use jred_sizing::bus::store::Bus;

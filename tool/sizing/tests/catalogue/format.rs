@@ -138,7 +138,7 @@ pub(super) fn open(files: &[(&str, &str)]) -> Result<Catalogue, String> {
 
 #[test]
 fn every_column_of_a_motor() {
-    let rpm = jred_machine::units::RPM;
+    let rpm = jred_file::units::RPM;
     let catalogue = open(&[("motors.csv", MOTORS)]).unwrap();
     let motor = &catalogue.motors[0];
     let winding = &motor.winding;
@@ -229,7 +229,7 @@ fn every_column_of_a_gearbox() {
     let catalogue = open(&[("motors.csv", MOTORS), ("gearboxes.csv", GEARBOXES)]).unwrap();
     let g = &catalogue.gearboxes[0];
     let arcmin = PI / (180.0 * 60.0);
-    let rpm = jred_machine::units::RPM;
+    let rpm = jred_file::units::RPM;
     let figures = [
         (Some(g.ratio), 5.0),
         (g.rated_torque, 50.0),

@@ -8,8 +8,8 @@ use std::path::Path;
 
 use crate::support::machines::braked_rotor;
 use crate::support::{budget, near, within};
-use jred_machine::analysis::duty::Duty;
-use jred_machine::read;
+use jred_analysis::checked;
+use jred_analysis::duty::Duty;
 use jred_sizing::cycle::Cycle;
 use jred_sizing::cycle::form::Coefficients;
 
@@ -26,7 +26,7 @@ const STEPS: usize = 302;
 
 fn duty(steps: usize) -> Duty {
     let text = braked_rotor(r#"law = "cycloidal""#);
-    let file = read::parse("rotor.toml", &text, Path::new("")).unwrap();
+    let file = checked::parse("rotor.toml", &text, Path::new("")).unwrap();
     Duty::new(&file, file.motion.as_ref().unwrap(), steps).unwrap()
 }
 
@@ -114,7 +114,7 @@ fn a_drum_gives_back_what_it_takes() {
     let text = "gravity = [\"0 m/s^2\", \"-9.81 m/s^2\"]\n[mechanism]\ntype = \"rotary-table\"\ntable = { diameter = \"500 mm\", mass = \"20 kg\" }\n\
                 [[mass]]\non = \"table\"\nmass = \"3 kg\"\nat = [\"200 mm\", \"0 mm\"]\n[motion]\ntype = \"cycle\"\n[[motion.segment]]\n\
                 law = \"constant-speed\"\nmove = \"36000 deg\"\nspeed = \"600 rpm\"\n";
-    let file = read::parse("drum.toml", text, Path::new("")).unwrap();
+    let file = checked::parse("drum.toml", text, Path::new("")).unwrap();
     let most = 3.0 * 9.81 * 0.2;
     for steps in [16, 2000] {
         let duty = Duty::new(&file, file.motion.as_ref().unwrap(), steps).unwrap();
@@ -174,7 +174,7 @@ fn the_one_turn_that_differs_has_the_peak() {
              [[motion.segment]]\nlaw = \"constant-speed\"\nmove = \"36000 deg\"\nspeed = \"600 rpm\"\n\
              [[motion.segment]]\nlaw = \"constant-speed\"\nmove = \"360 deg\"\nspeed = \"600 rpm\"\n"
         );
-        let file = read::parse("drum.toml", &text, Path::new("")).unwrap();
+        let file = checked::parse("drum.toml", &text, Path::new("")).unwrap();
         for steps in [16, 2000] {
             let duty = Duty::new(&file, file.motion.as_ref().unwrap(), steps).unwrap();
             let cycle = Cycle::new(&duty);

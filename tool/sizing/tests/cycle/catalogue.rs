@@ -2,13 +2,13 @@
 
 use std::path::Path;
 
-use jred_machine::analysis::duty::Duty;
-use jred_machine::model::rule::Rule;
-use jred_machine::model::rules::Finding;
-use jred_machine::model::rules::RuleSet;
-use jred_machine::model::rules::Verdict;
-use jred_machine::model::site::Site;
-use jred_machine::read;
+use jred_analysis::checked;
+use jred_analysis::duty::Duty;
+use jred_file::model::rule::Rule;
+use jred_file::model::rules::Finding;
+use jred_file::model::rules::RuleSet;
+use jred_file::model::rules::Verdict;
+use jred_file::model::site::Site;
 use jred_sizing::catalogue::Catalogue;
 use jred_sizing::cycle::Cycle;
 use jred_sizing::judge::{Context, Outcome};
@@ -54,7 +54,7 @@ pub(crate) fn with_more_ratios() -> Catalogue {
 
 /// The press and the built-in catalogue with many more ratios: enough suitable and unsuitable drives.
 fn ready() -> Ready {
-    let file = read::parse("press.toml", &press_text(), Path::new("")).unwrap();
+    let file = checked::parse("press.toml", &press_text(), Path::new("")).unwrap();
     let duty = brute::sampled(Duty::new(&file, file.motion.as_ref().unwrap(), 400).unwrap());
     let catalogue = with_more_ratios();
     let site = Site::default();

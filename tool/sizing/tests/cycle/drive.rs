@@ -5,8 +5,8 @@ use std::path::Path;
 use super::runner;
 use crate::brute;
 use crate::support::{budget, near, press_text, within};
-use jred_machine::analysis::duty::{Duty, Instant};
-use jred_machine::read;
+use jred_analysis::checked;
+use jred_analysis::duty::{Duty, Instant};
 use jred_sizing::catalogue::{Brake, Drive, Gearbox, Motor};
 use jred_sizing::cycle::Cycle;
 use jred_sizing::cycle::form::Coefficients;
@@ -14,7 +14,7 @@ use jred_sizing::cycle::form::Coefficients;
 use super::random::{coefficients, duty};
 
 fn press() -> Duty {
-    let file = read::parse("press.toml", &press_text(), Path::new("")).unwrap();
+    let file = checked::parse("press.toml", &press_text(), Path::new("")).unwrap();
     brute::sampled(Duty::new(&file, file.motion.as_ref().unwrap(), 1000).unwrap())
 }
 

@@ -3,8 +3,8 @@
 use std::sync::LazyLock;
 
 use jred::machine::TorqueTerms;
-use jred_machine::analysis::duty::{Duty, Instant, Smooth};
-use jred_machine::analysis::mechanics::Mechanics;
+use jred_analysis::duty::mechanics::Mechanics;
+use jred_analysis::duty::{Duty, Instant, Smooth};
 use jred_sizing::catalogue::Commutation;
 use jred_sizing::catalogue::{Catalogue, Motor, Winding};
 use jred_sizing::cycle::form::Coefficients;

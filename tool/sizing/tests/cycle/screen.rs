@@ -3,13 +3,13 @@
 use std::cell::Cell;
 use std::cmp::Ordering;
 
-use jred_machine::analysis::duty::Duty;
-use jred_machine::model::rule::Rule;
-use jred_machine::model::rules::Verdict;
-use jred_machine::model::rules::{Limit, RuleSet};
-use jred_machine::model::site::Site;
-use jred_machine::model::supply::BrakeResistor;
-use jred_machine::read;
+use jred_analysis::checked;
+use jred_analysis::duty::Duty;
+use jred_file::model::rule::Rule;
+use jred_file::model::rules::Verdict;
+use jred_file::model::rules::{Limit, RuleSet};
+use jred_file::model::site::Site;
+use jred_file::model::supply::BrakeResistor;
 use jred_sizing::catalogue::Drive;
 use jred_sizing::catalogue::{Amplifier, Catalogue, Gearbox, Motor};
 use jred_sizing::cycle::Cycle;
@@ -197,7 +197,7 @@ fn survey(selection: &Selection, fit: &[(String, Outcome)]) {
 
 /// The same duty scaled to this largest torque and speed (N·m, rad/s).
 fn scaled(mut duty: Duty, [torque, speed]: [f64; 2]) -> Duty {
-    let most = |of: fn(&jred_machine::analysis::duty::Instant) -> f64| {
+    let most = |of: fn(&jred_analysis::duty::Instant) -> f64| {
         let largest = duty
             .instants
             .iter()
@@ -252,7 +252,7 @@ fn random_cycles_are_screened_as_in_full() {
 fn sets() -> [RuleSet; 3] {
     let with = |rules: &str| {
         let text = format!("{}\n{rules}", press_text());
-        let file = read::parse("press.toml", &text, std::path::Path::new("")).unwrap();
+        let file = checked::parse("press.toml", &text, std::path::Path::new("")).unwrap();
         file.rules
     };
     [
@@ -266,7 +266,7 @@ fn sets() -> [RuleSet; 3] {
 #[test]
 fn drives_on_amplifiers_are_screened_as_in_full() {
     let text = press_text();
-    let file = read::parse("press.toml", &text, std::path::Path::new("")).unwrap();
+    let file = checked::parse("press.toml", &text, std::path::Path::new("")).unwrap();
     let duty = Duty::new(&file, file.motion.as_ref().unwrap(), 300).unwrap();
     let cycle = Cycle::new(&duty);
     let mut catalogue = with_more_ratios();
@@ -304,7 +304,7 @@ fn drives_on_amplifiers_are_screened_as_in_full() {
 #[test]
 fn a_resistor_is_screened_as_in_full() {
     let text = press_text();
-    let file = read::parse("press.toml", &text, std::path::Path::new("")).unwrap();
+    let file = checked::parse("press.toml", &text, std::path::Path::new("")).unwrap();
     let duty = Duty::new(&file, file.motion.as_ref().unwrap(), 300).unwrap();
     let cycle = Cycle::new(&duty);
     let [small, large] = [15.0, 25.0].map(|resistance| {
@@ -327,7 +327,7 @@ fn a_resistor_is_screened_as_in_full() {
 #[test]
 fn a_voltage_is_screened_as_in_full() {
     let text = press_text();
-    let file = read::parse("press.toml", &text, std::path::Path::new("")).unwrap();
+    let file = checked::parse("press.toml", &text, std::path::Path::new("")).unwrap();
     let duty = Duty::new(&file, file.motion.as_ref().unwrap(), 300).unwrap();
     let cycle = Cycle::new(&duty);
     let [small, large] = [1e-6, 1.0].map(|capacitance| {
@@ -346,7 +346,7 @@ fn a_voltage_is_screened_as_in_full() {
 #[test]
 fn a_drive_is_the_same_as_itself_alone() {
     let text = press_text();
-    let file = read::parse("press.toml", &text, std::path::Path::new("")).unwrap();
+    let file = checked::parse("press.toml", &text, std::path::Path::new("")).unwrap();
     let duty = Duty::new(&file, file.motion.as_ref().unwrap(), 100).unwrap();
     let cycle = Cycle::new(&duty);
     let catalogue = Catalogue::load(None, None).unwrap();
@@ -374,7 +374,7 @@ fn a_drive_is_the_same_as_itself_alone() {
 #[test]
 fn equal_drives_stand_in_the_order_of_the_catalogue() {
     let text = press_text();
-    let file = read::parse("press.toml", &text, std::path::Path::new("")).unwrap();
+    let file = checked::parse("press.toml", &text, std::path::Path::new("")).unwrap();
     let duty = Duty::new(&file, file.motion.as_ref().unwrap(), 100).unwrap();
     let cycle = Cycle::new(&duty);
     let mut all = Catalogue::load(None, None).unwrap();
@@ -394,7 +394,7 @@ fn equal_drives_stand_in_the_order_of_the_catalogue() {
 /// Motors with a thousandth of the torque, in an equally small duty: no bound may assume a certain size of torque.
 #[test]
 fn small_motors_are_screened_as_in_full() {
-    let file = read::parse("press.toml", &press_text(), std::path::Path::new("")).unwrap();
+    let file = checked::parse("press.toml", &press_text(), std::path::Path::new("")).unwrap();
     let duty = Duty::new(&file, file.motion.as_ref().unwrap(), 200).unwrap();
     let mut catalogue = Catalogue::load(None, None).unwrap();
     catalogue.amplifiers.clear();

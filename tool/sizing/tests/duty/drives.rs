@@ -1,10 +1,10 @@
 //! Drives against the duty: brute force, limits of the motor, ranking.
 
-use jred_machine::analysis::duty::Duty;
-use jred_machine::model::rule::Rule;
-use jred_machine::model::rules::RuleSet;
-use jred_machine::model::rules::Verdict;
-use jred_machine::model::site::Site;
+use jred_analysis::duty::Duty;
+use jred_file::model::rule::Rule;
+use jred_file::model::rules::RuleSet;
+use jred_file::model::rules::Verdict;
+use jred_file::model::site::Site;
 use jred_sizing::catalogue::Drive;
 use jred_sizing::catalogue::{Catalogue, Gearbox, Motor};
 use jred_sizing::cycle::Cycle;

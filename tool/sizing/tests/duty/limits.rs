@@ -1,6 +1,6 @@
 //! The torque-speed limits of motors, and assumptions for missing data.
 
-use jred_machine::model::site::Site;
+use jred_file::model::site::Site;
 use jred_sizing::catalogue::{Catalogue, Motor};
 use jred_sizing::cycle::Cycle;
 use jred_sizing::judge::Context;

@@ -1,6 +1,6 @@
 //! The winding's limits against a search over all currents.
 
-use jred_machine::model::site::Site;
+use jred_file::model::site::Site;
 use jred_sizing::catalogue::Commutation;
 use jred_sizing::catalogue::{Motor, Winding};
 use jred_sizing::motor::envelope::{Envelope, Prepared};

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use jred_machine::model::site::Site;
+use jred_file::model::site::Site;
 use jred_sizing::catalogue::Commutation;
 use jred_sizing::catalogue::Winding;
 use jred_sizing::motor::envelope::Prepared;

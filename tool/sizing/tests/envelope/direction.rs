@@ -1,7 +1,7 @@
 //! Quadrants: the current depends on driving or braking, not on the direction; and constant torque.
 
-use jred_machine::model::site::Site;
-use jred_machine::units::RPM;
+use jred_file::model::site::Site;
+use jred_file::units::RPM;
 use jred_sizing::catalogue::Motor;
 use jred_sizing::motor::envelope::{Envelope, Limit, Piece, Prepared};
 

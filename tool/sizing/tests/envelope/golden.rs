@@ -2,7 +2,7 @@
 
 use std::ops::RangeInclusive;
 
-use jred_machine::model::site::Site;
+use jred_file::model::site::Site;
 use jred_sizing::catalogue::Commutation;
 use jred_sizing::catalogue::{Motor, Thermal, Winding};
 use jred_sizing::motor::envelope::{Envelope, Prepared};

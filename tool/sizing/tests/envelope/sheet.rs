@@ -1,6 +1,6 @@
 //! Envelopes from a data sheet's figures and points, and the effect of another voltage or an amplifier.
 
-use jred_machine::model::site::Site;
+use jred_file::model::site::Site;
 use jred_sizing::catalogue::Motor;
 use jred_sizing::motor::envelope::Envelope;
 

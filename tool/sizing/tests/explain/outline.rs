@@ -4,11 +4,11 @@ use std::cell::{Cell, RefCell};
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
-use jred_machine::analysis::duty::Duty;
-use jred_machine::model::machine::MachineFile;
-use jred_machine::model::rule::Rule;
-use jred_machine::model::rules::{InertiaOf, Limit, RuleSet, Verdict};
-use jred_machine::read;
+use jred_analysis::checked;
+use jred_analysis::duty::Duty;
+use jred_file::model::machine::MachineFile;
+use jred_file::model::rule::Rule;
+use jred_file::model::rules::{InertiaOf, Limit, RuleSet, Verdict};
 use jred_sizing::catalogue::{Amplifier, Drive, Gearbox, Motor, Winding};
 use jred_sizing::cycle::Cycle;
 use jred_sizing::explain::{Alteration, Altered};
@@ -229,7 +229,7 @@ fn moves_between_two_weighted_instants_count() {
     let text = press_text();
     let (machine, _) = text.split_once("[motion]").unwrap();
     let text = format!("{machine}\n[motion]\ntype = \"profile\"\nfile = \"swing.csv\"\n");
-    let file = read::parse("m.toml", &text, folder.path("")).unwrap();
+    let file = checked::parse("m.toml", &text, folder.path("")).unwrap();
     // Eleven times there and back, in sixteen steps.
     let duty = Duty::new(&file, file.motion.as_ref().unwrap(), 16).unwrap();
     let moves = duty.mechanics.moves;

@@ -2,10 +2,10 @@
 
 use std::f64::consts::PI;
 
-use jred_machine::analysis::duty::Duty;
-use jred_machine::model::rule::Rule;
-use jred_machine::model::rules::Verdict;
-use jred_machine::model::rules::{Limit, RuleSet};
+use jred_analysis::duty::Duty;
+use jred_file::model::rule::Rule;
+use jred_file::model::rules::Verdict;
+use jred_file::model::rules::{Limit, RuleSet};
 use jred_sizing::catalogue::Catalogue;
 use jred_sizing::catalogue::Drive;
 use jred_sizing::cycle::Cycle;

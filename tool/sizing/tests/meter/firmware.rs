@@ -3,10 +3,10 @@
 use jred::Reducible as _;
 use jred::duty::{Meter, Verdict, Window};
 use jred::mechanism::TrainOutput;
-use jred_machine::model::machine::MachineFile;
-use jred_machine::model::rule::Rule;
-use jred_machine::model::rules::Verdict as Sized;
-use jred_machine::read;
+use jred_analysis::checked;
+use jred_file::model::machine::MachineFile;
+use jred_file::model::rule::Rule;
+use jred_file::model::rules::Verdict as Sized;
 use jred_sizing::cycle::form::Coefficients;
 use jred_sizing::judge::check::Check;
 
@@ -54,7 +54,7 @@ fn metered(file: &MachineFile, c: &Coefficients, ratio: f64, ticks: u32) -> Mete
 
 #[test]
 fn the_meter_reads_what_was_sized() {
-    let file = read::read(&press_file()).unwrap();
+    let file = checked::read(&press_file()).unwrap();
     with_limits(&file, |context, _| {
         let meter = metered(&file, &context.coefficients, context.ratio, 20_000);
         let (found, sized) = (meter.figures(), limits::SIZED);
@@ -110,7 +110,7 @@ fn the_meter_reads_what_was_sized() {
 /// The figures and the verdicts of the rules that the meter covers.
 #[test]
 fn the_meter_judges_as_sizing_does() {
-    let file = read::read(&press_file()).unwrap();
+    let file = checked::read(&press_file()).unwrap();
     with_limits(&file, |context, _| {
         let meter = metered(&file, &context.coefficients, context.ratio, 20_000);
         let (figures, verdicts) = (meter.figures(), meter.verdicts());
@@ -119,7 +119,7 @@ fn the_meter_judges_as_sizing_does() {
             let found = checks.iter().find(|check| check.id == rule);
             found.unwrap_or_else(|| panic!("no {rule:?}"))
         };
-        let rpm = jred_machine::units::RPM;
+        let rpm = jred_file::units::RPM;
         let pairs = [
             (
                 Rule::RmsTorque,

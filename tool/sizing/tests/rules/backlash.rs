@@ -1,7 +1,7 @@
 //! Play at the tool: the tool moved through the play by hand.
 
-use jred_machine::model::rule::Rule;
-use jred_machine::model::rules::Verdict;
+use jred_file::model::rule::Rule;
+use jred_file::model::rules::Verdict;
 
 use super::{Stand, near, press_text};
 

@@ -1,7 +1,7 @@
 //! A stronger motor with the same rotor is never judged worse by a rule about torque.
 
-use jred_machine::model::rule::Rule;
-use jred_machine::model::rules::Verdict;
+use jred_file::model::rule::Rule;
+use jred_file::model::rules::Verdict;
 use jred_sizing::catalogue::{Catalogue, Motor, Winding};
 
 use super::Stand;

@@ -1,7 +1,7 @@
 //! The holding brake: its factor, and the stop that it makes alone.
 
-use jred_machine::model::rule::Rule;
-use jred_machine::model::rules::{RuleSet, Verdict};
+use jred_file::model::rule::Rule;
+use jred_file::model::rules::{RuleSet, Verdict};
 use jred_sizing::catalogue::Brake;
 
 use super::{Stand, near};

@@ -1,8 +1,8 @@
 //! The emergency stop: the hull against every state, the formula against the equations of motion.
 
-use jred_machine::analysis::duty::Duty;
-use jred_machine::analysis::mechanics::{Braking, Stop};
-use jred_machine::model::rule::Rule;
+use jred_analysis::duty::Duty;
+use jred_analysis::duty::mechanics::{Braking, Stop};
+use jred_file::model::rule::Rule;
 use proptest::prelude::*;
 
 use super::{Stand, budget, near, within};

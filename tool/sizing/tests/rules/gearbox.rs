@@ -1,8 +1,8 @@
 //! T2B with shock factors, the mean torque, the speeds.
 
-use jred_machine::model::rule::Rule;
-use jred_machine::model::rules::Verdict;
-use jred_machine::units::RPM;
+use jred_file::model::rule::Rule;
+use jred_file::model::rules::Verdict;
+use jred_file::units::RPM;
 
 use super::{Stand, budget, edited, near, press_text};
 

@@ -1,8 +1,8 @@
 //! Torque at rest, and torque that flows back through a gearbox.
 
-use jred_machine::model::operation::Operation;
-use jred_machine::model::rule::Rule;
-use jred_machine::model::rules::{RuleSet, Verdict};
+use jred_file::model::operation::Operation;
+use jred_file::model::rule::Rule;
+use jred_file::model::rules::{RuleSet, Verdict};
 use jred_sizing::catalogue::Drive;
 use jred_sizing::cycle::form::Coefficients;
 use proptest::prelude::*;
@@ -154,7 +154,7 @@ fn constant_torque() {
         .fold(0.0, f64::max);
     let motor_speed = fastest * 3.0 * 5.0;
     let own = 0.3 + 0.15 + 0.002 * motor_speed;
-    let fanuc = jred_machine::read::rule_set("fanuc", std::path::Path::new("")).unwrap();
+    let fanuc = jred_file::read::rule_set("fanuc", std::path::Path::new("")).unwrap();
     let found = stand.finding(true, &fanuc, Rule::ConstantTorque).unwrap();
     // A process moment is not a constant load: only friction resists, most at full speed.
     let resisting = (7.0 + 0.5 * fastest) / (3.0 * 0.96);
@@ -258,7 +258,7 @@ fn the_torque_at_rest_is_explained() {
 fn a_load_that_drives_is_constant_too() {
     let mut stand = hoist();
     stand.motor.friction = [0.3, 0.002];
-    let fanuc = jred_machine::read::rule_set("fanuc", std::path::Path::new("")).unwrap();
+    let fanuc = jred_file::read::rule_set("fanuc", std::path::Path::new("")).unwrap();
     let fastest = stand.cycle.peak_speed();
     for [resisting, driving] in [[1.0, 60.0], [40.0, 60.0], [0.0, 9.0]] {
         stand.duty.mechanics.constant = [resisting, driving];

@@ -1,7 +1,7 @@
 //! The inertia ratio: the judged figure of the curve λ(φ), and limits by moves per minute.
 
-use jred_machine::model::rule::Rule;
-use jred_machine::model::rules::Verdict;
+use jred_file::model::rule::Rule;
+use jred_file::model::rules::Verdict;
 
 use super::{Stand, budget, edited, near, press_text};
 
@@ -9,8 +9,7 @@ use super::{Stand, budget, edited, near, press_text};
 fn the_judged_figure_is_chosen() {
     let plain = Stand::press();
     let duty = &plain.duty;
-    let lambda =
-        |i: &jred_machine::analysis::duty::Instant| (i.input_inertia / 25.0 + 0.8e-4) / 8e-4;
+    let lambda = |i: &jred_analysis::duty::Instant| (i.input_inertia / 25.0 + 0.8e-4) / 8e-4;
     let total = duty.duration;
     let mean = duty.integral(lambda) / total;
     let expected = [
@@ -67,7 +66,7 @@ fn the_judged_figure_is_chosen() {
 /// 3 above 100 moves per minute, 5 above 60, and below that the data sheet's, which is missing here.
 #[test]
 fn limits_by_moves_per_minute() {
-    let set = jred_machine::read::rule_set("mitsubishi-mr-j2s", std::path::Path::new("")).unwrap();
+    let set = jred_file::read::rule_set("mitsubishi-mr-j2s", std::path::Path::new("")).unwrap();
     for (pause, moves, limit) in [
         ("100 ms", 120.0, Some(3.0)),
         ("400 ms", 75.0, Some(5.0)),

@@ -1,6 +1,6 @@
 //! A judged drive: assumptions, use of limits, and the keys of missing data.
 
-use jred_machine::model::rules::{Limit, Verdict};
+use jred_file::model::rules::{Limit, Verdict};
 use jred_sizing::catalogue::Amplifier;
 use jred_sizing::judge::{Judged, Outcome, cure};
 

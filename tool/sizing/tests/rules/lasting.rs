@@ -1,7 +1,7 @@
 //! The holding torque: weight lasts without end, a process load for its dwell.
 
-use jred_machine::model::rule::Rule;
-use jred_machine::model::rules::RuleSet;
+use jred_file::model::rule::Rule;
+use jred_file::model::rules::RuleSet;
 
 use super::{Stand, near};
 

@@ -136,9 +136,8 @@ fn a_move_over_the_end_of_the_cycle_is_one() {
     }
     folder.file("over.csv", csv);
     let text = format!("{TABLE}\n[motion]\ntype = \"profile\"\nfile = \"over.csv\"\n");
-    let file = jred_machine::read::parse("m.toml", &text, folder.path("")).unwrap();
-    let duty = jred_machine::analysis::duty::Duty::new(&file, file.motion.as_ref().unwrap(), 2000)
-        .unwrap();
+    let file = jred_analysis::checked::parse("m.toml", &text, folder.path("")).unwrap();
+    let duty = jred_analysis::duty::Duty::new(&file, file.motion.as_ref().unwrap(), 2000).unwrap();
     assert_eq!(duty.mechanics.moves, 1);
     near("moves a second", duty.mechanics.move_rate, 1.0, 1e-12);
     // 0.6 s, except for the overshoot of the interpolated curve at its ends.

@@ -1,7 +1,7 @@
 //! The overload of an amplifier: known only with the motor's currents and the amplifier's time at peak current.
 
-use jred_machine::model::rule::Rule;
-use jred_machine::model::rules::Finding;
+use jred_file::model::rule::Rule;
+use jred_file::model::rules::Finding;
 use jred_sizing::catalogue::{Amplifier, Drive};
 use jred_sizing::judge::Context;
 use jred_sizing::motor::envelope::Prepared;

@@ -2,8 +2,8 @@
 
 use std::f64::consts::TAU;
 
-use jred_machine::model::rule::Rule;
-use jred_machine::model::rules::Verdict;
+use jred_file::model::rule::Rule;
+use jred_file::model::rules::Verdict;
 
 use super::{Stand, budget, near, press_text};
 

@@ -1,8 +1,8 @@
 //! Temperature and altitude: S1 torque and currents by formulas of the makers, and their ranges.
 
-use jred_machine::model::rule::Rule;
-use jred_machine::model::rules::{RuleSet, Verdict};
-use jred_machine::model::surroundings::Surroundings;
+use jred_file::model::rule::Rule;
+use jred_file::model::rules::{RuleSet, Verdict};
+use jred_file::model::surroundings::Surroundings;
 use jred_sizing::catalogue::{Amplifier, Derating, Motor, Thermal};
 
 use super::{Stand, edited, near, press_text};

@@ -3,8 +3,8 @@
 use std::f64::consts::SQRT_2;
 
 use super::{Context, Finding, Rule, RuleSet, Stand, budget, near, press_text, read};
-use jred_machine::model::rules::Verdict;
-use jred_machine::model::site::Site;
+use jred_file::model::rules::Verdict;
+use jred_file::model::site::Site;
 use jred_sizing::bus::supply::BusData;
 use jred_sizing::catalogue::{Amplifier, Basis, Catalogue, Drive, Motor};
 use jred_sizing::motor::envelope::{Envelope, Prepared};

@@ -1,8 +1,8 @@
 //! Every rule as text: unit, reference of the limit, and missing data.
 
-use jred_machine::model::rules::Verdict;
-use jred_machine::model::supply::BrakeResistor;
-use jred_machine::units::RPM;
+use jred_file::model::rules::Verdict;
+use jred_file::model::supply::BrakeResistor;
+use jred_file::units::RPM;
 use jred_sizing::catalogue::{Amplifier, Motor};
 use jred_sizing::motor::envelope::Prepared;
 

@@ -4,12 +4,12 @@
 use std::cmp::Ordering;
 use std::path::{Path, PathBuf};
 
-use jred_machine::analysis::duty::Duty;
-use jred_machine::model::machine::MachineFile;
-use jred_machine::model::rule::Rule;
-use jred_machine::model::rules::Verdict;
-use jred_machine::model::supply::BrakeResistor;
-use jred_machine::read;
+use jred_analysis::checked;
+use jred_analysis::duty::Duty;
+use jred_file::model::machine::MachineFile;
+use jred_file::model::rule::Rule;
+use jred_file::model::rules::Verdict;
+use jred_file::model::supply::BrakeResistor;
 use jred_sizing::catalogue::{Catalogue, Drive, Sources};
 use jred_sizing::cycle::Cycle;
 use jred_sizing::judge::check::Check;
@@ -40,7 +40,7 @@ fn folder() -> PathBuf {
 fn machine(name: &str, more: &str) -> MachineFile {
     let folder = folder();
     let text = std::fs::read_to_string(folder.join(name).with_extension("toml")).unwrap();
-    read::parse(name, &(text + more), &folder).unwrap()
+    checked::parse(name, &(text + more), &folder).unwrap()
 }
 
 fn catalogue() -> Catalogue {

@@ -2,8 +2,8 @@
 
 use super::{case, catalogue, priced};
 use crate::support::{near, press_text};
-use jred_machine::model::rule::Rule;
-use jred_machine::model::rules::Limit;
+use jred_file::model::rule::Rule;
+use jred_file::model::rules::Limit;
 use jred_sizing::catalogue::{Catalogue, MotorKind};
 use jred_sizing::select::fit::{fit_input, input_kind};
 use jred_sizing::select::pareto::Front;
@@ -167,7 +167,7 @@ fn motors_are_of_the_kind_of_the_input() {
         (screw, MotorKind::Rotary),
     ] {
         let file =
-            jred_machine::read::parse("machine.toml", &text, std::path::Path::new("")).unwrap();
+            jred_analysis::checked::parse("machine.toml", &text, std::path::Path::new("")).unwrap();
         assert_eq!(input_kind(&file), kind, "{text}");
         let mut rotary = catalogue();
         rotary.keep_kind(MotorKind::Rotary);

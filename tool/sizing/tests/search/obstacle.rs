@@ -1,8 +1,8 @@
 //! Why no ratio satisfies every rule.
 
-use jred_machine::model::rule::Rule;
-use jred_machine::model::rules::Limit;
-use jred_machine::model::rules::Verdict;
+use jred_file::model::rule::Rule;
+use jred_file::model::rules::Limit;
+use jred_file::model::rules::Verdict;
 use jred_sizing::select::ratio::Moments;
 use jred_sizing::select::ratio::obstacle::Obstacle;
 use jred_sizing::select::ratio::ranges::Trial;

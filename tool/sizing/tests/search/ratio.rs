@@ -2,9 +2,9 @@
 
 use super::{RACK, case, catalogue};
 use crate::support::{budget, near, press_text};
-use jred_machine::analysis::duty::Instant;
-use jred_machine::model::rule::Rule;
-use jred_machine::model::rules::Verdict;
+use jred_analysis::duty::Instant;
+use jred_file::model::rule::Rule;
+use jred_file::model::rules::Verdict;
 use jred_sizing::catalogue::Drive;
 use jred_sizing::catalogue::{Catalogue, Gearbox, Motor};
 use jred_sizing::cycle::form::{Coefficients, loads};

@@ -2,9 +2,9 @@
 
 use super::{RACK, study};
 use crate::support::{near, within};
-use jred_machine::model::rule::Rule;
-use jred_machine::model::tolerance::Tolerance;
-use jred_machine::units::RPM;
+use jred_file::model::rule::Rule;
+use jred_file::model::tolerance::Tolerance;
+use jred_file::units::RPM;
 use jred_sizing::select::filter::Filter;
 use jred_sizing::study::cell::Cell;
 use jred_sizing::study::chosen::ChosenDrive;

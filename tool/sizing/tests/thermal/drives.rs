@@ -2,13 +2,13 @@
 
 use std::path::Path;
 
-use jred_machine::analysis::duty::Duty;
-use jred_machine::model::operation::Operation;
-use jred_machine::model::rule::Rule;
-use jred_machine::model::rules::RuleSet;
-use jred_machine::model::rules::Verdict;
-use jred_machine::model::site::Site;
-use jred_machine::read;
+use jred_analysis::checked;
+use jred_analysis::duty::Duty;
+use jred_file::model::operation::Operation;
+use jred_file::model::rule::Rule;
+use jred_file::model::rules::RuleSet;
+use jred_file::model::rules::Verdict;
+use jred_file::model::site::Site;
 use jred_sizing::catalogue::Drive;
 use jred_sizing::catalogue::{Amplifier, Gearbox, Motor, Thermal, Winding};
 use jred_sizing::cycle::Cycle;
@@ -22,7 +22,7 @@ use super::{budget, near};
 use crate::support::press_text;
 
 fn cycle() -> Cycle {
-    let file = read::parse("press.toml", &press_text(), Path::new("")).unwrap();
+    let file = checked::parse("press.toml", &press_text(), Path::new("")).unwrap();
     Cycle::new(&Duty::new(&file, file.motion.as_ref().unwrap(), 1000).unwrap())
 }
 
@@ -155,7 +155,7 @@ fn every_model_that_data_allow() {
     near("one body", found, one, budget::SLOW_HOUSING);
 
     let fixed = Site {
-        surroundings: jred_machine::model::surroundings::Surroundings {
+        surroundings: jred_file::model::surroundings::Surroundings {
             resistance_at: Some(120.0),
             ..site.surroundings
         },
@@ -272,7 +272,7 @@ fn what_is_missing_is_said() {
         found.note
     );
     let cold = Site {
-        duty: jred_machine::model::operation::Duty {
+        duty: jred_file::model::operation::Duty {
             operation: Operation::Short { operating: 60.0 },
             kind: Some(2),
         },
@@ -406,7 +406,7 @@ fn a_stated_duty_type_is_compared() {
 #[test]
 fn a_housing_of_unknown_time_does_not_follow_the_rests() {
     let site = Site {
-        duty: jred_machine::model::operation::Duty {
+        duty: jred_file::model::operation::Duty {
             operation: Operation::Intermittent {
                 operating: 3600.0,
                 rest: 3600.0,

@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use jred_machine::analysis::duty::Duty;
-use jred_machine::read;
+use jred_analysis::checked;
+use jred_analysis::duty::Duty;
 use jred_sizing::cycle::Cycle;
 use jred_sizing::cycle::form::Coefficients;
 use jred_sizing::thermal::classify::{DutyType, Features};
@@ -32,7 +32,7 @@ on = "shaft-1"
 }
 
 fn duty_of(text: &str) -> Duty {
-    let file = read::parse("machine.toml", text, Path::new("")).unwrap();
+    let file = checked::parse("machine.toml", text, Path::new("")).unwrap();
     Duty::new(&file, file.motion.as_ref().unwrap(), 800).unwrap()
 }
 

@@ -1,8 +1,8 @@
 //! Mean losses against plain loops over the samples: random cycles, S1 curves of every kind, saturating iron.
 
-use jred_machine::analysis::duty::{Duty, Instant};
-use jred_machine::model::site::Site;
-use jred_machine::model::surroundings::Surroundings;
+use jred_analysis::duty::{Duty, Instant};
+use jred_file::model::site::Site;
+use jred_file::model::surroundings::Surroundings;
 use jred_sizing::catalogue::Commutation;
 use jred_sizing::catalogue::{Motor, Winding};
 use jred_sizing::cycle::Cycle;

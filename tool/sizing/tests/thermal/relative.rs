@@ -2,11 +2,11 @@
 
 use std::path::Path;
 
-use jred_machine::analysis::duty::Duty;
-use jred_machine::model::operation::Operation;
-use jred_machine::model::site::Site;
-use jred_machine::model::surroundings::Surroundings;
-use jred_machine::read;
+use jred_analysis::checked;
+use jred_analysis::duty::Duty;
+use jred_file::model::operation::Operation;
+use jred_file::model::site::Site;
+use jred_file::model::surroundings::Surroundings;
 use jred_sizing::catalogue::{Drive, Motor, Thermal};
 use jred_sizing::cycle::Cycle;
 use jred_sizing::motor::envelope::Prepared;
@@ -21,7 +21,7 @@ use crate::support::press_text;
 /// after a time t the rise is that of one body, mean·(1 − e^(−t/τ)).
 #[test]
 fn the_rise_is_the_mean_of_the_shares() {
-    let file = read::parse("press.toml", &press_text(), Path::new("")).unwrap();
+    let file = checked::parse("press.toml", &press_text(), Path::new("")).unwrap();
     let cycle = Cycle::new(&Duty::new(&file, file.motion.as_ref().unwrap(), 1000).unwrap());
     let motor = |time| Motor {
         rated_torque: Some(30.0),

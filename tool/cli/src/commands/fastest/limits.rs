@@ -11,14 +11,14 @@ use crate::options::fastest::Fastest as Options;
 use crate::options::retime::Ends;
 use jred::Domain;
 use jred::machine::Mechanism as _;
-use jred_machine::analysis::reduce::joints_with_force;
-use jred_machine::model::axis::Axis;
-use jred_machine::model::coordinate::Coordinate;
-use jred_machine::model::machine::MachineFile;
-use jred_machine::number::rounding::short;
-use jred_machine::number::words::counted;
-use jred_machine::plain;
-use jred_machine::read;
+use jred_analysis::reduce::joints_with_force;
+use jred_file::argument;
+use jred_file::model::axis::Axis;
+use jred_file::model::coordinate::Coordinate;
+use jred_file::model::machine::MachineFile;
+use jred_file::number::rounding::short;
+use jred_file::number::words::counted;
+use jred_file::plain;
 use jred_motion::fastest::tool_speed::MOST;
 use jred_motion::fastest::{JointForces, Limits, ToolSpeed, ToolSpeeds};
 
@@ -54,24 +54,24 @@ pub(super) fn limits(
     gearbox: &Limits,
 ) -> Result<(Limits, Vec<String>)> {
     let axis = file.axis();
-    let read = |name: &str, text: &Option<String>, read: read::Reader| {
+    let read = |name: &str, text: &Option<String>, read: argument::Reader| {
         rate(name, text.as_deref(), read, &axis)
     };
     let acceleration = read(
         "max-acceleration",
         &options.max_acceleration,
-        read::largest_acceleration,
+        argument::largest_acceleration,
     )?;
     let deceleration = read(
         "max-deceleration",
         &options.max_deceleration,
-        read::largest_acceleration,
+        argument::largest_acceleration,
     )?;
-    let jerk = read("max-jerk", &options.max_jerk, read::largest_jerk)?;
+    let jerk = read("max-jerk", &options.max_jerk, argument::largest_jerk)?;
     let torque_rate = quantity(
         "max-torque-rate",
         options.max_torque_rate.as_deref(),
-        read::largest_effort_rate,
+        argument::largest_effort_rate,
         motor_coordinate(file),
     )?;
     let has_rates = jerk.is_some() || torque_rate.is_some();
@@ -83,7 +83,7 @@ pub(super) fn limits(
     }
     let (tool, words) = tool_speeds(&options.max_tool_speed, file)?;
     let limits = Limits {
-        speed: read("max-speed", &options.max_speed, read::largest_speed)?,
+        speed: read("max-speed", &options.max_speed, argument::largest_speed)?,
         tool,
         forces: forces(&options.max_reaction, file)?,
         acceleration,
@@ -118,7 +118,7 @@ fn forces(texts: &[String], file: &MachineFile) -> Result<JointForces> {
                 plain::quoted(name)
             ));
         };
-        let force = read::drive_effort(force.trim(), Coordinate::Length)
+        let force = argument::drive_effort(force.trim(), Coordinate::Length)
             .map_err(|why| miette!("{given} cannot be used: {why}"))?;
         if !named.insert(*joint) {
             return Err(miette!(
@@ -158,7 +158,7 @@ fn part(
     axis: &Axis,
 ) -> Result<([f64; 2], bool), String> {
     let both = |axes: [&Axis; 2]| {
-        let one = |text: &str| read::drive_positions(text, domain, axes).map(|all| all[0]);
+        let one = |text: &str| argument::drive_positions(text, domain, axes).map(|all| all[0]);
         Ok([one(from)?, one(to)?])
     };
     if domain != Domain::Turn {
@@ -168,9 +168,9 @@ fn part(
         Ok(between) => Ok((between, true)),
         Err(why) if axis.coordinate == drive.coordinate => Err(why),
         Err(_) => {
-            let lengths = read::drive_positions(from, domain, [axis, axis]);
+            let lengths = argument::drive_positions(from, domain, [axis, axis]);
             let between = both([drive, axis])?;
-            if lengths.is_err() || read::drive_positions(to, domain, [axis, axis]).is_err() {
+            if lengths.is_err() || argument::drive_positions(to, domain, [axis, axis]).is_err() {
                 return Err("one position is an angle, the other a length; write both as angles of the drive link, which repeat every turn, or both as lengths".to_owned());
             }
             Ok((between, false))
@@ -206,7 +206,7 @@ fn tool_speed(text: &str, file: &MachineFile) -> Result<(ToolSpeed, String)> {
         ));
     };
     let refused = |why: String| miette!("{given} cannot be used: {why}");
-    let most = read::largest_speed(speed, Coordinate::Length).map_err(refused)?;
+    let most = argument::largest_speed(speed, Coordinate::Length).map_err(refused)?;
     let domain = mechanism.domain();
     let turns = domain == Domain::Turn;
     let drive = Axis::of_drive(mechanism.coordinate());

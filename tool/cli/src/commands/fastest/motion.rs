@@ -2,8 +2,8 @@
 
 use miette::{Result, miette};
 
-use jred_machine::model::machine::MachineFile;
-use jred_machine::number::rounding::short;
+use jred_file::model::machine::MachineFile;
+use jred_file::number::rounding::short;
 use jred_motion::fastest::cycle::{Cycle, cycle, endless, single};
 use jred_motion::fastest::{Limits, NoMotion, Rms, Task};
 use jred_motion::moves::{Chain, NoMoves, Part, chain};

@@ -5,9 +5,9 @@ use miette::{Result, miette};
 use super::Chosen;
 use crate::options::fastest::Fastest as Options;
 use crate::output;
-use jred_machine::number::rounding::short;
-use jred_machine::plain;
-use jred_machine::read;
+use jred_file::argument;
+use jred_file::number::rounding::short;
+use jred_file::plain;
 use jred_motion::fastest::winding::{Unknown, Winding};
 use jred_sizing::catalogue::MotorKind;
 
@@ -23,8 +23,8 @@ pub(super) fn limit<'a>(
         return Ok(None);
     };
     let given = format!("--max-winding-temperature {}", plain::quoted(text));
-    let limit =
-        read::temperature_argument(text).map_err(|why| miette!("{given} cannot be used: {why}"))?;
+    let limit = argument::temperature_argument(text)
+        .map_err(|why| miette!("{given} cannot be used: {why}"))?;
     let Some(winding) = &chosen.winding else {
         return Err(miette!(
             help = "name a motor of the catalogue with --drive, or limit the RMS torque with --max-rms",

@@ -1,6 +1,6 @@
 //! Cures where no motion exists.
 
-use jred_machine::number::rounding::short;
+use jred_file::number::rounding::short;
 
 use super::NoMotion;
 use crate::fastest::field::Binding;

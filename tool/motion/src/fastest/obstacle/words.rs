@@ -3,7 +3,7 @@
 use crate::fastest::leg::MOST_STEPS;
 use std::fmt;
 
-use jred_machine::number::rounding::{short, told_apart};
+use jred_file::number::rounding::{short, told_apart};
 
 use super::super::field::Binding;
 use super::{Empty, NoMotion};

@@ -1,7 +1,7 @@
 //! The motion over time for w(u), and the check of its limits with the machine itself.
 
 use jred::Error;
-use jred_machine::number::quadrature::GAUSS_5;
+use jred_file::number::quadrature::GAUSS_5;
 
 use super::borders::{Met, strongest};
 use super::limits::Margins;

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::answer::schema::Data;
-use jred_machine::model::rule::Sense;
+use jred_file::model::rule::Sense;
 use jred_sizing::bus::answer::Answer as Bus;
 use jred_sizing::bus::axes::{Bounds, Worst};
 use jred_sizing::bus::cure::{Bound, Change, Cure};

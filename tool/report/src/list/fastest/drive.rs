@@ -2,8 +2,8 @@
 
 use std::fmt::Write as _;
 
-use jred_machine::number::rounding::{percent, short, shown};
-use jred_machine::units::Vocabulary;
+use jred_file::number::rounding::{percent, short, shown};
+use jred_file::units::Vocabulary;
 use jred_motion::fastest::joint_force::Reached;
 use jred_motion::fastest::winding::Temperatures;
 use jred_motion::fastest::{KeptPart, Reserve};

@@ -3,8 +3,8 @@
 use std::fmt::Write as _;
 
 use crate::table::reading::Reading;
-use jred_machine::model::machine::MachineFile;
-use jred_machine::number::rounding::{percent, short, shown, told_apart};
+use jred_file::model::machine::MachineFile;
+use jred_file::number::rounding::{percent, short, shown, told_apart};
 use jred_motion::fastest::cycle::{Cost, MORE, Made};
 use jred_motion::fastest::{Binding, Phase};
 use jred_sizing::select::fit::input_kind;

@@ -1,7 +1,7 @@
 //! Verdicts of the sizing rules on the motion, and the limits lowered for them.
 
-use jred_machine::model::rule::Rule;
-use jred_machine::number::rounding::{percent, short};
+use jred_file::model::rule::Rule;
+use jred_file::number::rounding::{percent, short};
 use jred_motion::fastest::ruled::{Cap, Judged};
 use jred_sizing::judge::check::Check;
 

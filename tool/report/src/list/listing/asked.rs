@@ -6,9 +6,9 @@ use miette::Result;
 
 use super::explained;
 use super::text::kilowatts;
-use jred_machine::model::rules::Verdict;
-use jred_machine::number::rounding::short;
-use jred_machine::number::words::counted;
+use jred_file::model::rules::Verdict;
+use jred_file::number::rounding::short;
+use jred_file::number::words::counted;
 use jred_sizing::select::size::{Candidate, Selection};
 
 /// A drive and its place.

@@ -3,7 +3,7 @@
 use miette::{Result, miette};
 
 use crate::table::screen::Screen;
-use jred_machine::units::closest;
+use jred_file::units::closest;
 use jred_sizing::catalogue::Drive;
 use jred_sizing::select::size::{Candidate, Selection};
 
@@ -97,7 +97,7 @@ pub fn explained<'c>(
             "write MOTOR+GEARBOX, or MOTOR for a direct drive, with the keys that `jred size --all` lists{near}"
         ),
         "there is no drive {} in the catalogue",
-        jred_machine::plain::quoted(name)
+        jred_file::plain::quoted(name)
     ))
 }
 

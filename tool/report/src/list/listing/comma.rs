@@ -1,7 +1,7 @@
 //! A selection as comma-separated values.
 
 use super::{Asked, List};
-use jred_machine::number::csv;
+use jred_file::number::csv;
 use jred_sizing::judge::Judged;
 use jred_sizing::select::size::{Candidate, Certainty, Selection};
 

@@ -6,10 +6,10 @@ use jred::Error;
 use serde::Serialize;
 
 use crate::table::output::text_table;
-use jred_machine::analysis::duty::Duty;
-use jred_machine::model::machine::MachineFile;
-use jred_machine::number::rounding::{percent, short, shown};
-use jred_machine::units::Vocabulary;
+use jred_analysis::duty::Duty;
+use jred_file::model::machine::MachineFile;
+use jred_file::number::rounding::{percent, short, shown};
+use jred_file::units::Vocabulary;
 use jred_sizing::explain::{Altered, Breakdown, InertiaShare, Remedies, Share};
 use jred_sizing::select::size::{Candidate, Selection};
 

@@ -5,8 +5,8 @@ use serde::Serialize;
 
 use super::View;
 use crate::answer::schema::Data;
-use jred_machine::analysis::simulate::{Impacts, Rest, Stop};
-use jred_machine::model::axis::Axis;
+use jred_analysis::simulate::{Impacts, Rest, Stop};
+use jred_file::model::axis::Axis;
 use jred_motion::driven::{Loads, Peak};
 
 /// The form of the JSON.

@@ -1,11 +1,11 @@
 //! Events of a simulated motion, one sentence each.
 
-use jred_machine::analysis::simulate::{BRIEFEST_FLIGHT, Rest, Stop, beside_name};
-use jred_machine::model::axis::Axis;
-use jred_machine::model::coordinate::Coordinate;
-use jred_machine::model::machine::MachineFile;
-use jred_machine::number::rounding::{short, shown};
-use jred_machine::units::RPM;
+use jred_analysis::simulate::{BRIEFEST_FLIGHT, Rest, Stop, beside_name};
+use jred_file::model::axis::Axis;
+use jred_file::model::coordinate::Coordinate;
+use jred_file::model::machine::MachineFile;
+use jred_file::number::rounding::{short, shown};
+use jred_file::units::RPM;
 use jred_motion::driven::{Loads, Peak};
 
 use super::View;

@@ -2,10 +2,10 @@
 
 use crate::answer::Answer;
 use crate::list::driven::{Turns, driven};
-use jred_machine::analysis::steady::{Cycle, Figures, Held, Level, Start};
-use jred_machine::model::coordinate::Coordinate;
-use jred_machine::number::rounding::{percent, short};
-use jred_machine::units::RPM;
+use jred_analysis::steady::{Cycle, Figures, Held, Level, Start};
+use jred_file::model::coordinate::Coordinate;
+use jred_file::number::rounding::{percent, short};
+use jred_file::units::RPM;
 
 /// A cycle in lines.
 pub(super) fn describe(answer: &mut Answer, cycle: &Cycle) {

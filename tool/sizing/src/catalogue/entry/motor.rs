@@ -5,7 +5,7 @@ use super::super::motor::{Brake, Motor, MotorKind, Thermal, Winding};
 use super::super::row::{Read, Row};
 use super::{derating, from_maker, mains_voltage};
 use crate::catalogue::Commutation;
-use jred_machine::model::supply::rectified;
+use jred_file::model::supply::rectified;
 
 /// The columns of a motor that depend on its kind: torque and inertia, or force and mass.
 struct Efforts {

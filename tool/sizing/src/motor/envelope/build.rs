@@ -7,8 +7,8 @@ use super::{Envelope, voltage};
 use crate::catalogue::Commutation;
 use crate::catalogue::{Amplifier, Motor, VOLTAGE_CLASS};
 use crate::motor::winding::{CurrentCurve, REFERENCE_TEMPERATURE};
-use jred_machine::model::site::Site;
-use jred_machine::units::{Sentence, Vocabulary};
+use jred_file::model::site::Site;
+use jred_file::units::{Sentence, Vocabulary};
 
 /// Motor data from which an envelope is built.
 pub(super) struct Builder<'a> {

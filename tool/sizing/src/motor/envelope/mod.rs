@@ -14,12 +14,12 @@
 use crate::catalogue::{Amplifier, Catalogue, Motor};
 use crate::motor::supply::Voltages;
 use crate::motor::winding::CurrentCurve;
-use jred_machine::model::rule::Rule;
-use jred_machine::model::rules::{RuleSet, Verdict};
-use jred_machine::model::site::Site;
-use jred_machine::model::surroundings::Surroundings;
-use jred_machine::number::rounding::short;
-use jred_machine::units::{Sentence, Vocabulary};
+use jred_file::model::rule::Rule;
+use jred_file::model::rules::{RuleSet, Verdict};
+use jred_file::model::site::Site;
+use jred_file::model::surroundings::Surroundings;
+use jred_file::number::rounding::short;
+use jred_file::units::{Sentence, Vocabulary};
 
 mod bound;
 mod build;

@@ -5,10 +5,10 @@ use std::convert::Infallible;
 use super::Range;
 use super::ranges::{Trial, tried};
 use crate::judge::Findings;
-use jred_machine::model::rule::Rule;
-use jred_machine::model::rules::Verdict;
-use jred_machine::number::numerics::edge;
-use jred_machine::number::rounding::significant;
+use jred_file::model::rule::Rule;
+use jred_file::model::rules::Verdict;
+use jred_file::number::numerics::edge;
+use jred_file::number::rounding::significant;
 
 /// Parts into which a step of the grid of ratios is cut where the use of a limit is least.
 const FINER: u32 = 200;

@@ -8,10 +8,10 @@ use crate::cycle::Cycle;
 use crate::judge::broken;
 use crate::judge::{Context, Findings};
 use crate::motor::envelope::Prepared;
-use jred_machine::model::rule::Rule;
-use jred_machine::model::rules::RuleSet;
-use jred_machine::model::site::Site;
-use jred_machine::number::numerics::edge;
+use jred_file::model::rule::Rule;
+use jred_file::model::rules::RuleSet;
+use jred_file::model::site::Site;
+use jred_file::number::numerics::edge;
 
 /// Range of ratios that is searched.
 const LOOKED_AT: Range = [0.01, 10_000.0];

@@ -6,7 +6,7 @@ use super::Candidate;
 use crate::catalogue::{Drive, DriveId};
 use crate::judge::Outcome;
 
-jred_machine::words! {
+jred_file::words! {
     /// How certain it is that a drive that violates no rule can be bought as it is. The more certain drives come first in any ranking.
     #[derive(PartialOrd, Ord, Hash)]
     pub enum Certainty {

@@ -3,7 +3,7 @@
 use super::group::Unranked;
 use super::order::Certainty;
 use crate::judge::Outcome;
-use jred_machine::model::rule::Rule;
+use jred_file::model::rule::Rule;
 
 /// Counts of suitable drives, updated while drives are checked.
 #[derive(Clone, Debug)]

@@ -2,7 +2,7 @@
 
 use super::Verdict;
 use crate::study::cell::Cell;
-use jred_machine::number::words::Word as _;
+use jred_file::number::words::Word as _;
 
 /// Two-sided 95 % of the normal distribution.
 const Z: f64 = 1.959_963_984_540_054;

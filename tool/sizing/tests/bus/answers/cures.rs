@@ -1,6 +1,6 @@
 //! Each change alone is sufficient, and slightly less is not.
 
-use jred_machine::model::supply::{BrakeResistor, Supply};
+use jred_file::model::supply::{BrakeResistor, Supply};
 use jred_sizing::bus::cure::{Bound, Change, Cure, share};
 use jred_sizing::bus::curve::PowerCurve;
 use jred_sizing::bus::verdict::Judged;

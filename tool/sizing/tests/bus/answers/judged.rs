@@ -1,6 +1,6 @@
 //! Judged figures, requested data, and the text about them.
 
-use jred_machine::model::supply::{BrakeResistor, Supply};
+use jred_file::model::supply::{BrakeResistor, Supply};
 use jred_sizing::bus::conflict::Conflict;
 use jred_sizing::bus::curve::PowerCurve;
 use jred_sizing::bus::verdict::{BusCheck, Judged};

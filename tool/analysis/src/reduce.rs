@@ -1,0 +1,407 @@
+//! `jred reduce`: the reduced link over a turn or a stroke, the motion of every point and link, the force in every joint,
+//! and the drive torque of the motion.
+
+use jred::machine::motion::State;
+use jred::machine::{Frames, Mechanism as _};
+use jred::{Domain, Error, Machine, Reducible as _};
+
+use jred_file::model::coordinate::{Coordinate, positions};
+use jred_file::model::machine::{MachineFile, Machines};
+use jred_file::model::mechanism::AnyMechanism;
+use jred_file::model::motion::Motion;
+use jred_file::model::schedule::Now;
+use jred_file::number::columns::{Column, Columns, Quantity};
+
+mod carriages;
+mod curves;
+mod energy;
+mod largest;
+mod points;
+mod reactions;
+
+pub use jred_file::model::axis::At;
+pub(crate) use largest::between_edges;
+pub use largest::{Largest, largest};
+pub use reactions::joints_with_force;
+
+jred_file::words! {
+    /// Variable that the rows run over.
+    pub enum Over default Angle {
+        /// Equal steps of the drive link's position over one turn or over its stroke.
+        Angle = "angle",
+        /// Equal time steps over the motion.
+        Time = "time",
+    }
+}
+
+/// Columns other than the position.
+#[derive(Clone, Copy, Debug, Default)]
+#[expect(
+    clippy::struct_excessive_bools,
+    reason = "each set is there or not, whatever the others"
+)]
+pub struct Sets {
+    /// The reduced link and the motion's drive torque.
+    pub curves: bool,
+    /// Each link's share of J_red, with the curves.
+    pub links: bool,
+    /// The terms of the drive torque, which are also part of the curves.
+    pub torques: bool,
+    /// Points and links: positions, transfer functions, velocities and accelerations.
+    pub points: bool,
+    /// Forces by d'Alembert's principle.
+    pub reactions: bool,
+    /// Energies and generalised forces.
+    pub energy: bool,
+}
+
+/// The request.
+#[derive(Clone, Copy, Debug)]
+pub struct Request {
+    /// Variable that the rows run over.
+    pub over: Over,
+    /// Number of rows.
+    pub positions: usize,
+    /// The columns.
+    pub sets: Sets,
+    /// Speed and acceleration of the drive link at every position instead of those of the motion (rad/s, rad/s², or m/s,
+    /// m/s²).
+    pub state: Option<[f64; 2]>,
+}
+
+/// One row: the position of the machine, and its motion there, if known.
+struct Place {
+    now: Now,
+    phi: f64,
+    frames: Frames,
+    state: Option<State<f64>>,
+}
+
+/// Data for the columns.
+struct Source<'f> {
+    file: &'f MachineFile,
+    /// The machine with its drive train, without its schedule.
+    machine: Machine<AnyMechanism>,
+    /// The machines of the schedule.
+    machines: Machines<'f>,
+    coordinate: Coordinate,
+}
+
+impl<'f> Source<'f> {
+    fn new(file: &'f MachineFile) -> Result<Self, Error> {
+        Ok(Self {
+            file,
+            machine: file.with_drive_train()?,
+            machines: Machines::of(file)?,
+            coordinate: file.machine.mechanism().coordinate(),
+        })
+    }
+}
+
+/// The column of times.
+fn time_column() -> Column {
+    Column::new(Quantity::Time, "t", "s")
+}
+
+/// The loads and payloads that some rows of the request omit, because these have no time of the motion, or no direction.
+pub fn not_contained(file: &MachineFile, request: &Request) -> Vec<String> {
+    not_in(file, || rows(file, request))
+}
+
+/// The same for [`reduce_at`].
+pub fn not_contained_at(file: &MachineFile, request: &Request, at: &[At]) -> Vec<String> {
+    not_in(file, || rows_at(file, request, at))
+}
+
+fn not_in<R: Iterator<Item = Row>>(file: &MachineFile, rows: impl FnOnce() -> R) -> Vec<String> {
+    if file.schedule.is_empty() {
+        return Vec::new();
+    }
+    let (mut timed, mut directed) = (true, true);
+    for row in rows() {
+        timed &= row.now.t.is_some();
+        directed &= row.now.omega.is_some();
+    }
+    let missing = file.scheduled_where(|when| {
+        (when.spans.is_some() && !timed) || (when.travel.is_some() && !directed)
+    });
+    let carriages = file.carriages().filter(|_| !timed);
+    missing.chain(carriages.map(|item| item.what)).collect()
+}
+
+/// A set of columns.
+trait Set {
+    /// Their headers.
+    fn heads(&self, source: &Source) -> Vec<Column>;
+
+    /// Their values, one for each header.
+    fn values(&self, source: &Source, place: &Place) -> Result<Vec<Option<f64>>, Error>;
+}
+
+/// The requested columns at every position.
+///
+/// # Errors
+/// Errors of the machine.
+pub fn reduce(file: &MachineFile, request: &Request) -> Result<Columns, Error> {
+    let moves = file.motion.is_some() || request.state.is_some();
+    let in_time = request.over == Over::Time || request.state.is_some();
+    // Rows at given states have no time, so the position of a carriage is unknown.
+    let of_motion = request.state.is_none();
+    columns(
+        file,
+        request,
+        [moves, in_time, of_motion],
+        rows(file, request),
+    )
+}
+
+/// The requested columns at these positions, in their order. Without a given state they use that of the request, or of the motion if it passes each
+/// position once.
+///
+/// # Errors
+/// Errors of the machine.
+pub fn reduce_at(file: &MachineFile, request: &Request, at: &[At]) -> Result<Columns, Error> {
+    let given = at.iter().any(|at| at.state.is_some()) || request.state.is_some();
+    let moves = file.motion.is_some() || given;
+    columns(
+        file,
+        request,
+        [moves, given, !given],
+        rows_at(file, request, at),
+    )
+}
+
+fn rows_at(file: &MachineFile, request: &Request, at: &[At]) -> impl Iterator<Item = Row> {
+    let state = state_at(file, request.state);
+    at.iter().map(move |at| match at.state {
+        Some(own) => row_at(at.phi, Some(own), None),
+        None => state(at.phi),
+    })
+}
+
+/// The columns of these rows. The flags: some rows have a motion; some have velocities and accelerations in time; the motion is that of the file.
+fn columns(
+    file: &MachineFile,
+    request: &Request,
+    [moves, in_time, of_motion]: [bool; 3],
+    rows: impl Iterator<Item = Row>,
+) -> Result<Columns, Error> {
+    let source = Source::new(file)?;
+    let mut sets = sets(&source, request.sets, [moves, in_time])?;
+    if of_motion && file.schedule.flows() {
+        let shares = request.sets.curves && request.sets.links;
+        sets.push(Box::new(carriages::Carriages { shares }));
+    }
+    let mut heads = match request.over {
+        Over::Angle => vec![],
+        Over::Time => vec![time_column()],
+    };
+    heads.push(source.coordinate.column());
+    heads.extend(sets.iter().flat_map(|set| set.heads(&source)));
+    let mut columns = Columns::new(heads);
+    for row in rows {
+        let mut cells: Vec<Option<f64>> = row.time.into_iter().map(Some).collect();
+        cells.push(Some(source.coordinate.shown(row.phi)));
+        cells.extend(values(&source, &sets, &row)?);
+        columns.push(cells);
+    }
+    Ok(columns)
+}
+
+/// The requested sets. The flags: some rows have a motion; some have velocities and accelerations in time.
+fn sets(
+    source: &Source,
+    sets: Sets,
+    [moves, in_time]: [bool; 2],
+) -> Result<Vec<Box<dyn Set>>, Error> {
+    let Sets {
+        curves,
+        links,
+        torques,
+        points,
+        reactions,
+        energy,
+    } = sets;
+    let mut sets: Vec<Box<dyn Set>> = Vec::new();
+    if curves {
+        sets.push(Box::new(curves::Curves { links, moves }));
+    } else if moves {
+        sets.push(Box::new(curves::Motion));
+    }
+    if torques {
+        sets.push(Box::new(curves::Torques { sum: !reactions }));
+    }
+    if points {
+        sets.push(Box::new(points::Points { in_time }));
+    }
+    if reactions {
+        sets.push(Box::new(reactions::Reactions::new(source)?));
+    }
+    if energy {
+        sets.push(Box::new(energy::Energy));
+    }
+    Ok(sets)
+}
+
+/// The values of the sets in a row.
+fn values(source: &Source, sets: &[Box<dyn Set>], row: &Row) -> Result<Vec<Option<f64>>, Error> {
+    let place = Place {
+        now: row.now,
+        phi: row.phi,
+        frames: source.machine.mechanism().frames(row.phi)?,
+        state: row.state,
+    };
+    let mut values = Vec::new();
+    for set in sets {
+        values.extend(set.values(source, &place)?);
+    }
+    Ok(values)
+}
+
+/// Adds the columns of these sets to rows of a motion, each with its instant and φ, ω and α of the drive link, under names with the given `prefix`.
+///
+/// # Errors
+/// Errors of the machine.
+pub fn add_columns(
+    file: &MachineFile,
+    columns: &Columns,
+    states: &[(Now, [f64; 3])],
+    (asked, prefix): (Sets, &str),
+) -> Result<Columns, Error> {
+    let source = Source::new(file)?;
+    let sets = sets(&source, asked, [false, true])?;
+    let heads = sets.iter().flat_map(|set| set.heads(&source));
+    let heads = heads.map(|head| Column {
+        part: format!("{prefix}{}", head.part),
+        name: format!("{prefix}{}", head.name),
+        ..head
+    });
+    let mut wider = Columns::new(columns.heads().iter().cloned().chain(heads));
+    for (row, (now, [phi, omega, alpha])) in columns.rows().iter().zip(states) {
+        let state = Row {
+            now: *now,
+            ..row_at(*phi, Some([*omega, *alpha]), None)
+        };
+        let more = values(&source, &sets, &state)?;
+        wider.push(row.iter().copied().chain(more));
+    }
+    Ok(wider)
+}
+
+/// Time (over time only), instant, position and state of a row.
+struct Row {
+    time: Option<f64>,
+    now: Now,
+    phi: f64,
+    state: Option<State<f64>>,
+}
+
+/// The rows, in order.
+fn rows<'f>(file: &'f MachineFile, request: &Request) -> Box<dyn Iterator<Item = Row> + 'f> {
+    if let (Over::Time, Some(motion)) = (request.over, &file.motion) {
+        let last = (request.positions - 1).max(1) as f64;
+        let row = move |k: usize| {
+            let t = motion.duration() * k as f64 / last;
+            let state = motion.at(t);
+            Row {
+                time: Some(t),
+                now: Now::of(t, state.omega),
+                phi: state.phi,
+                state: Some(state),
+            }
+        };
+        return Box::new((0..request.positions).map(row));
+    }
+    let state = state_at(file, request.state);
+    let domain = file.machine.domain();
+    Box::new(positions(domain, request.positions).map(state))
+}
+
+/// The row of a position: with the given state, or with that of the motion, if it passes each position once.
+fn state_at(file: &MachineFile, given: Option<[f64; 2]>) -> impl Fn(f64) -> Row {
+    let pass = match &file.motion {
+        Some(motion) if given.is_none() => Pass::of(motion, file.machine.domain()),
+        _ => None,
+    };
+    move |phi| row_at(phi, given, pass.as_ref())
+}
+
+fn row_at(phi: f64, given: Option<[f64; 2]>, pass: Option<&Pass>) -> Row {
+    let (t, state) = if let Some([omega, alpha]) = given {
+        (None, Some(State { phi, omega, alpha }))
+    } else {
+        let at = pass.and_then(|pass| pass.at(phi));
+        (at.map(|(t, _)| t), at.map(|(_, state)| state))
+    };
+    let omega = state.map(|state| state.omega);
+    Row {
+        time: None,
+        now: Now {
+            t,
+            omega,
+            ..Now::default()
+        },
+        phi,
+        state,
+    }
+}
+
+/// A motion that passes every position at most once: in one direction, through exactly one turn or within the stroke. Dwells count once, at rest.
+struct Pass<'m> {
+    motion: &'m Motion,
+    start: f64,
+    way: f64,
+    length: f64,
+    turn: bool,
+}
+
+impl<'m> Pass<'m> {
+    fn of(motion: &'m Motion, domain: Domain) -> Option<Self> {
+        let (start, end) = (motion.at(0.0).phi, motion.at(motion.duration()).phi);
+        let way = (end - start).signum();
+        let length = (end - start).abs();
+        let turn = domain == Domain::Turn;
+        let one_turn = !turn || (length - domain.span()).abs() < 1e-9;
+        let one_way = (0..=1000).all(|k| {
+            let t = motion.duration() * f64::from(k) / 1000.0;
+            motion.at(t).omega * way >= -1e-12
+        });
+        (one_turn && one_way).then_some(Self {
+            motion,
+            start,
+            way,
+            length,
+            turn,
+        })
+    }
+
+    /// Time and state at which the motion passes the position `phi`, for a turn modulo 2π.
+    fn at(&self, phi: f64) -> Option<(f64, State<f64>)> {
+        let motion = self.motion;
+        let ahead = (phi - self.start) * self.way;
+        let distance = if self.turn {
+            ahead.rem_euclid(std::f64::consts::TAU)
+        } else {
+            ahead
+        };
+        // The ends of a stroke are positions too, and rounding must not exclude them.
+        let slack = 1e-12 * self.length;
+        if !self.turn && !(-slack..=self.length + slack).contains(&distance) {
+            return None;
+        }
+        let (mut early, mut late) = (0.0, motion.duration());
+        for _ in 0..60 {
+            let middle = 0.5 * (early + late);
+            if (motion.at(middle).phi - self.start) * self.way < distance {
+                early = middle;
+            } else {
+                late = middle;
+            }
+        }
+        let state = State {
+            phi,
+            ..motion.at(late)
+        };
+        Some((late, state))
+    }
+}

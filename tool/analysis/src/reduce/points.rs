@@ -1,0 +1,118 @@
+//! Named points, centres of mass and links as columns: positions, transfer functions, velocities and accelerations.
+
+use jred::Error;
+use jred::machine::motion::State;
+use jred::machine::{Frames, Mechanism as _};
+use jred::number::Transfer;
+
+use super::{Place, Set, Source};
+use jred_file::model::coordinate::Coordinate;
+use jred_file::model::mechanism::AnyMechanism;
+use jred_file::number::columns::{Column, Quantity};
+
+/// Every named point, every link's centre of mass (for links with a mass), and every link's angle.
+pub(super) struct Points {
+    /// Also velocities and accelerations in time.
+    pub(super) in_time: bool,
+}
+
+/// The points: the named ones, then the centres of mass.
+fn points(mechanism: &AnyMechanism) -> Vec<(String, usize, [f64; 2])> {
+    let named = mechanism.points().iter();
+    let named = named.map(|point| (point.name.clone(), point.link, point.at));
+    let links = mechanism.link_names().iter().zip(mechanism.links());
+    let centres = links
+        .enumerate()
+        .filter(|(_, (_, link))| link.mass() > 0.0)
+        .map(|(k, (name, link))| (format!("{name} com"), k, link.com()));
+    named.chain(centres).collect()
+}
+
+fn place_of(frames: &Frames, link: usize, at: [f64; 2]) -> [Transfer; 2] {
+    frames
+        .get(link)
+        .map_or([Transfer::default(); 2], |frame| frame.point(at))
+}
+
+impl Set for Points {
+    fn heads(&self, source: &Source) -> Vec<Column> {
+        let per = source.coordinate.per();
+        let ratio = match source.coordinate {
+            Coordinate::Angle => ["rad/rad", "rad/rad^2"],
+            Coordinate::Length => ["rad/m", "rad/m^2"],
+        };
+        let mechanism = source.machine.mechanism();
+        let mut heads = Vec::new();
+        for (name, ..) in points(mechanism) {
+            let slope = format!("m/{per}");
+            let bend = format!("m/{per}^2");
+            let mut add =
+                |quantity, symbol, unit| heads.push(Column::of(quantity, &name, symbol, unit));
+            add(Quantity::Coordinate, "x", "m");
+            add(Quantity::Coordinate, "y", "m");
+            add(Quantity::XSlope, "x'", &slope);
+            add(Quantity::YSlope, "y'", &slope);
+            add(Quantity::Other, "x''", &bend);
+            add(Quantity::Other, "y''", &bend);
+            if self.in_time {
+                add(Quantity::Other, "v_x", "m/s");
+                add(Quantity::Other, "v_y", "m/s");
+                add(Quantity::Speed, "v", "m/s");
+                add(Quantity::Other, "a_x", "m/s^2");
+                add(Quantity::Other, "a_y", "m/s^2");
+                add(Quantity::Acceleration, "a", "m/s^2");
+            }
+        }
+        for link in mechanism.link_names() {
+            let mut add =
+                |quantity, symbol, unit| heads.push(Column::of(quantity, link, symbol, unit));
+            add(Quantity::Other, "psi", "deg");
+            add(Quantity::AngleSlope, "psi'", ratio[0]);
+            add(Quantity::Other, "psi''", ratio[1]);
+            if self.in_time {
+                add(Quantity::AngularSpeed, "omega", "rad/s");
+                add(Quantity::AngularAcceleration, "alpha", "rad/s^2");
+            }
+        }
+        heads
+    }
+
+    fn values(&self, source: &Source, place: &Place) -> Result<Vec<Option<f64>>, Error> {
+        let mechanism = source.machine.mechanism();
+        let mut values = Vec::new();
+        for (_, link, at) in points(mechanism) {
+            let point = place_of(&place.frames, link, at);
+            values.extend(point.map(|c| Some(c.value)));
+            values.extend(point.map(|c| Some(c.d1)));
+            values.extend(point.map(|c| Some(c.d2)));
+            if self.in_time {
+                values.extend(with_size(place.state, |s| {
+                    point.map(|c| c.velocity(s.omega))
+                }));
+                values.extend(with_size(place.state, |s| {
+                    point.map(|c| c.acceleration(s.omega, s.alpha))
+                }));
+            }
+        }
+        for frame in place.frames.iter().take(mechanism.own_links()) {
+            values.extend([frame.psi.value.to_degrees(), frame.psi.d1, frame.psi.d2].map(Some));
+            if self.in_time {
+                let state = place.state;
+                values.push(state.map(|s| frame.psi.velocity(s.omega)));
+                values.push(state.map(|s| frame.psi.acceleration(s.omega, s.alpha)));
+            }
+        }
+        Ok(values)
+    }
+}
+
+/// Both components and the magnitude of a vector that depends on the motion.
+fn with_size(
+    state: Option<State<f64>>,
+    vector: impl Fn(State<f64>) -> [f64; 2],
+) -> [Option<f64>; 3] {
+    let Some([x, y]) = state.map(vector) else {
+        return [None; 3];
+    };
+    [Some(x), Some(y), Some(x.hypot(y))]
+}

@@ -1,0 +1,172 @@
+//! The motor during a simulation, and its observers.
+
+use crate::simulate::simulated::{Effort, Following, TorqueLimit};
+use jred_file::number::columns::Column;
+use jred_file::number::numerics;
+
+/// Number of evaluations of the motor per step of the integrator.
+pub(super) const PARTS: u32 = 4;
+
+/// The motor at an instant.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Working {
+    /// Position of the drive link (rad, or m).
+    pub phi: f64,
+    /// Speed of the motor (rad/s).
+    pub speed: f64,
+    /// Its torque (N·m).
+    pub torque: f64,
+    /// The torque requested by a controller; without a controller, its torque.
+    pub asked: f64,
+    /// Torque at the input of the drive train, behind the motor's gearbox (N·m). At rest, where friction takes an unknown share, the whole motor
+    /// torque.
+    pub input_torque: f64,
+    /// Reference less position (rad, or m), under a controller.
+    pub error: Option<f64>,
+}
+
+impl Working {
+    /// Whether it gives less than requested.
+    pub fn is_limited(&self) -> bool {
+        self.torque.total_cmp(&self.asked).is_ne()
+    }
+}
+
+/// Follows a motor through a simulation, piece by piece, and adds columns to its rows.
+pub trait Observer {
+    /// The columns.
+    fn columns(&self) -> Vec<Column>;
+
+    /// A piece so short that everything is nearly linear: from one time (s) to the next.
+    fn pass(&mut self, from: (f64, Working), to: (f64, Working));
+
+    /// The figures at the end of the last piece, as many as columns; `now` is the motor's state there.
+    fn figures(&self, now: &Working) -> Vec<f64>;
+}
+
+/// No observer.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Nobody;
+
+impl Observer for Nobody {
+    fn columns(&self) -> Vec<Column> {
+        Vec::new()
+    }
+    fn pass(&mut self, _: (f64, Working), _: (f64, Working)) {}
+    fn figures(&self, _: &Working) -> Vec<f64> {
+        Vec::new()
+    }
+}
+
+/// Sums of the motor's effort, step by step.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Giving {
+    torque: [f64; 2],
+    power: [f64; 2],
+    speed: [f64; 2],
+    /// ∫T² dt.
+    squares: f64,
+    time: f64,
+}
+
+impl Giving {
+    /// A step of the integrator from its start, evaluated in equal parts.
+    pub(super) fn pass(&mut self, [from, to]: [f64; 2], seen: &[Working; PARTS as usize + 1]) {
+        let length = to - from;
+        for (k, working) in seen.iter().enumerate() {
+            let t = from + length * k as f64 / f64::from(PARTS);
+            let most = |most: &mut [f64; 2], value: f64| {
+                if value > most[0] {
+                    *most = [value, t];
+                }
+            };
+            most(&mut self.torque, working.torque.abs());
+            most(&mut self.power, working.torque * working.speed);
+            most(&mut self.speed, working.speed.abs());
+        }
+        // Boole's rule.
+        let squares = seen.map(|working| working.torque * working.torque);
+        let [a, b, c, d, e] = squares;
+        self.squares += length / 90.0 * (7.0 * (a + e) + 32.0 * (b + d) + 12.0 * c);
+        self.time += length;
+    }
+
+    /// The total; `None` if no time has passed.
+    pub(super) fn effort(&self) -> Option<Effort> {
+        (self.time > 0.0).then(|| Effort {
+            torque: self.torque,
+            rms: (self.squares / self.time).sqrt(),
+            power: self.power,
+            speed: self.speed,
+        })
+    }
+}
+
+/// Time of a controlled motor at its torque limit, and the following error of the machine.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Controlling {
+    pub(super) limit: Option<TorqueLimit>,
+    pub(super) following: Option<Following>,
+    limited: bool,
+}
+
+impl Controlling {
+    /// A piece between two instants; `at` gives the states inside, by their share of it.
+    pub(super) fn pass<E>(
+        &mut self,
+        [start, end]: [f64; 2],
+        [from, to]: [Working; 2],
+        at: impl Fn(f64) -> Result<Working, E>,
+    ) -> Result<(), E> {
+        self.follow(start, &from);
+        self.follow(end, &to);
+        let (share, limited) = match [from, to].map(|working| working.is_limited()) {
+            [false, false] => {
+                self.limited = false;
+                return Ok(());
+            }
+            [true, true] => ([0.0, 1.0], true),
+            [false, true] => {
+                let free = |share: f64| Ok(!at(share)?.is_limited());
+                ([numerics::edge(free, 0.0, 1.0)?, 1.0], true)
+            }
+            [true, false] => {
+                let limited = |share: f64| Ok(at(share)?.is_limited());
+                ([0.0, numerics::edge(limited, 0.0, 1.0)?], false)
+            }
+        };
+        let [begin, stop] = share.map(|share| start + share * (end - start));
+        let again = self.limited && from.is_limited();
+        let phi = if share[0] > 0.0 {
+            at(share[0])?.phi
+        } else {
+            from.phi
+        };
+        let limit = self.limit.get_or_insert(TorqueLimit {
+            time: begin,
+            position: phi,
+            count: 0,
+            duration: 0.0,
+        });
+        limit.count += u32::from(!again);
+        limit.duration += stop - begin;
+        self.limited = limited;
+        Ok(())
+    }
+
+    fn follow(&mut self, t: f64, working: &Working) {
+        let Some(error) = working.error else { return };
+        let largest = self.following.get_or_insert(Following {
+            time: t,
+            position: working.phi,
+            error,
+        });
+        if error.abs() > largest.error.abs() {
+            *largest = Following {
+                time: t,
+                position: working.phi,
+                error,
+            };
+        }
+    }
+}

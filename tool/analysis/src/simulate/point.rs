@@ -1,0 +1,131 @@
+//! The reduced link of each machine at an instant, including its second axes.
+
+use jred::machine::{Frames, Mechanism as _};
+use jred::{Error, Reduction};
+
+use super::clock::Moment;
+use super::geared::Geared;
+use jred_file::model::carriage::Carriage;
+
+/// The reduced link of a machine at an instant.
+pub(super) struct Point<'a> {
+    /// Without the motion of carriages along their guides.
+    pub(super) reduction: Reduction,
+    /// b and c of the motion-opposing loads that do process work; they are contained in those of the reduction.
+    pub(super) working: [f64; 2],
+    /// Torque of carriages by that motion, against the drive link (N·m).
+    resists: f64,
+    carried: Option<Carried<'a>>,
+}
+
+/// The carriages of a machine at an instant.
+struct Carried<'a> {
+    carriages: &'a [Carriage],
+    frames: Frames,
+    /// Time of the motion (s).
+    t: f64,
+    omega: f64,
+    gravity: [f64; 2],
+}
+
+/// The sign of a direction; 0 at rest.
+pub(super) fn sign(direction: f64) -> f64 {
+    if direction == 0.0 {
+        0.0
+    } else {
+        direction.signum()
+    }
+}
+
+impl<'a> Point<'a> {
+    /// The reduced link of a machine at this position and speed of the first drive link.
+    pub(super) fn new(
+        machine: &Geared<'a>,
+        moment: &Moment,
+        [phi, omega]: [f64; 2],
+    ) -> Result<Self, Error> {
+        let [phi, omega, _] = machine.state([phi, omega, 0.0]);
+        let file = machine.file;
+        let now = moment.now(machine, omega);
+        let own = file.machine_at(&now, phi)?;
+        let (reduction, resists) = file.apart(&own, own.bare_reduction(phi)?, phi)?;
+        let carried = match now.t.filter(|_| file.schedule.flows()) {
+            Some(t) => Some(Carried {
+                carriages: file.schedule.carriages(),
+                frames: own.mechanism().frames(phi)?,
+                t,
+                omega: now.omega.unwrap_or(0.0),
+                gravity: own.gravity(),
+            }),
+            None => None,
+        };
+        Ok(Self {
+            working: file.working(&own, phi)?,
+            reduction,
+            resists,
+            carried,
+        })
+    }
+
+    /// The torque at the drive link that keeps its speed; only the sign of the direction counts.
+    pub(super) fn resisting(&self, direction: f64, omega: f64) -> f64 {
+        let point = &self.reduction;
+        let load = point.load_torque() - point.viscous * omega - point.coulomb * sign(direction);
+        let load = load - self.resists;
+        0.5 * point.inertia_slope * omega * omega - load
+    }
+
+    /// Power of the second axes, F·ṡ (W), at this acceleration of the drive link.
+    pub(super) fn carriage_power(&self, alpha: f64) -> f64 {
+        self.each_carriage(|carriage, carried| {
+            let frame = carried.frames.get(carriage.mass.link)?;
+            let state = [carried.omega, alpha];
+            let effort = carriage.effort(frame, carried.t, state, carried.gravity);
+            Some(effort * carriage.at(carried.t).omega)
+        })
+    }
+
+    /// Kinetic energy (J) beyond ½·J·ω²: that of carriages along their guides.
+    pub(super) fn kinetic_beyond(&self) -> f64 {
+        self.each_carriage(|carriage, carried| {
+            let frame = carried.frames.get(carriage.mass.link)?;
+            Some(carriage.energy(frame, carried.t, carried.omega))
+        })
+    }
+
+    fn each_carriage(&self, value: impl Fn(&Carriage, &Carried) -> Option<f64>) -> f64 {
+        let all = self.carried.iter().flat_map(|carried| {
+            let carriages = carried.carriages.iter();
+            carriages.filter_map(|carriage| value(carriage, carried))
+        });
+        all.sum()
+    }
+}
+
+/// The reduced links of all machines, at an instant.
+pub(super) struct Points<'a> {
+    first: (Geared<'a>, Point<'a>),
+    beside: Vec<(Geared<'a>, Point<'a>)>,
+}
+
+impl<'a> Points<'a> {
+    /// The reduced links of these machines, at this position and speed of the first drive link.
+    pub(super) fn new(
+        first: Geared<'a>,
+        beside: &[Geared<'a>],
+        moment: &Moment,
+        link: [f64; 2],
+    ) -> Result<Self, Error> {
+        let beside = beside.iter();
+        let beside = beside.map(|machine| Ok((*machine, Point::new(machine, moment, link)?)));
+        Ok(Self {
+            first: (first, Point::new(&first, moment, link)?),
+            beside: beside.collect::<Result<_, Error>>()?,
+        })
+    }
+
+    pub(super) fn all(&self) -> impl Iterator<Item = (Geared<'a>, &Point<'a>)> {
+        let all = std::iter::once(&self.first).chain(&self.beside);
+        all.map(|(machine, point)| (*machine, point))
+    }
+}

@@ -1,0 +1,74 @@
+//! Passes the motor's state to the observers.
+
+use super::{Plant, Run};
+use crate::simulate::SimulationError;
+use crate::simulate::clock::Moment;
+use crate::simulate::observe::{PARTS, Working};
+use crate::simulate::watch::between;
+use jred_file::number::numerics;
+use jred_file::number::numerics::dormand_prince::Point;
+
+impl<P> Run<'_, P> {
+    /// Passes the motor's state to the observers, from one step to the next.
+    pub(super) fn observe<const N: usize>(
+        &mut self,
+        from: &Point<N>,
+        to: &Point<N>,
+    ) -> Result<(), SimulationError>
+    where
+        P: Plant<N>,
+    {
+        let plant = self.plant;
+        let (direction, length) = (self.direction, to.0 - from.0);
+        let Some(first) = plant.working(&self.moment(from.0), &from.1)? else {
+            return Ok(());
+        };
+        let ends = [self.at(from.0, &from.1)?, self.at(to.0, &to.1)?];
+        let (inside, way) = (self.inside, between(ends));
+        let at = |share: f64| -> Result<Working, SimulationError> {
+            let t = (from.0 + share * length).max(inside[0]).min(inside[1]);
+            let y = std::array::from_fn(|i| from.1[i] + share * (to.1[i] - from.1[i]));
+            let y = plant.with_link(t, &y, way(share))?;
+            let working = plant.working(&Moment::new(t, direction), &y)?;
+            Ok(working.unwrap_or(first))
+        };
+        let part = |k: u32| f64::from(k) / f64::from(PARTS);
+        let mut seen = [first; PARTS as usize + 1];
+        for k in 1..=PARTS {
+            seen[k as usize] = at(part(k))?;
+        }
+        if self.halt.is_none() {
+            self.giving.pass([from.0, to.0], &seen);
+        }
+        if let Some(speed) = self.speed_to_reach() {
+            let reaches = |omega: f64| omega.abs() >= speed;
+            let [_, omega, _] = ends[1].state;
+            if reaches(omega) {
+                let slow = |share: f64| Ok::<_, SimulationError>(!reaches(way(share)[1]));
+                let share = if slow(0.0)? {
+                    numerics::edge(slow, 0.0, 1.0)?
+                } else {
+                    0.0
+                };
+                let t = from.0 + share * length;
+                self.reached = Some([t, way(share)[0]]);
+            }
+        }
+        for k in 1..=PARTS {
+            let shares = [part(k - 1), part(k)];
+            let [before, after] = [seen[k as usize - 1], seen[k as usize]];
+            let times = shares.map(|share| from.0 + share * length);
+            let pair = [before, after];
+            self.controlling.pass(times, pair, |share| {
+                at(shares[0] + share * (shares[1] - shares[0]))
+            })?;
+            self.observer.pass((times[0], before), (times[1], after));
+        }
+        Ok(())
+    }
+
+    /// The speed to report when it is reached, until then.
+    fn speed_to_reach(&self) -> Option<f64> {
+        self.to_speed.filter(|_| self.reached.is_none())
+    }
+}

@@ -1,0 +1,63 @@
+//! Setup of a run.
+
+use std::cell::Cell;
+
+use super::edges::Edges;
+use super::{MOST_STEPS, Run};
+use crate::simulate::geared::Together;
+use crate::simulate::observe::{Controlling, Giving, Observer};
+use crate::simulate::watch::Watch;
+use jred_file::model::simulation::Simulation;
+use jred_file::number::numerics::dormand_prince::Accuracy;
+
+impl<'a, P> Run<'a, P> {
+    /// The initial state of a run.
+    pub(super) fn new(
+        plant: &'a P,
+        machines: &Together<'a>,
+        simulation: &Simulation,
+        observer: &'a mut dyn Observer,
+    ) -> Self {
+        let file = machines.first;
+        let [has_payloads, _] = machines.guests();
+        Self {
+            plant,
+            file,
+            accuracy: Accuracy {
+                tolerance: simulation.tolerance,
+                most_steps: MOST_STEPS,
+            },
+            watch: Watch::new(machines),
+            stops: simulation.end_stops,
+            ends: simulation.ends(file).map(|[from, to]| {
+                // The end of a stroke may be exceeded by rounding.
+                let slack = if simulation.end_stops.is_some() {
+                    0.0
+                } else {
+                    1e-9 * (to - from)
+                };
+                [from - slack, to + slack]
+            }),
+            impacts: None,
+            turned: None,
+            begin: None,
+            direction: 0.0,
+            inside: [f64::NEG_INFINITY, f64::INFINITY],
+            edges: Edges::of(machines),
+            edge: f64::INFINITY,
+            steps: Cell::new(0),
+            halt: None,
+            driven: None,
+            rest: None,
+            turned_back: None,
+            stuck: None,
+            controlling: Controlling::default(),
+            has_payloads,
+            giving: Giving::default(),
+            to_speed: simulation.to_speed,
+            reached: None,
+            held: None,
+            observer,
+        }
+    }
+}

@@ -1,0 +1,238 @@
+//! The search for the requested table, and its result.
+
+use crc::{CRC_32_ISO_HDLC, Crc};
+use jred::image::identify;
+use jred::{Domain, Phase, Reducible as _};
+
+use crate::candidate::{Answer, Candidate, Made};
+use crate::choice::{LayoutChoice, LayoutName, Number};
+use crate::cost::{self, Core};
+use crate::fault::NotReached;
+use crate::pieces::{self, Searches};
+use crate::search::Goal;
+use crate::slider_crank;
+use crate::task::{Failure, Task};
+use crate::ticks;
+use crate::ways::BothWays;
+use jred_file::model::by_motion::ByMotion;
+use jred_file::model::coordinate::Coordinate;
+use jred_file::model::machine::MachineFile;
+use jred_file::number::rounding::short;
+
+/// Smallest piece as a share of the range: [`Pieces`](jred::Pieces) accepts no shorter one.
+const SHORTEST: f64 = 1.0 / 65_536.0;
+
+/// Most cells of all pieces together: their tables of every type and layout take 130 MB.
+const MOST_CELLS: usize = 1 << 19;
+
+/// A table ready to be written, and the results of the other types and layouts.
+#[derive(Clone, Debug)]
+pub struct Export {
+    pub(crate) title: String,
+    /// Whether the drive link turns or slides.
+    pub coordinate: Coordinate,
+    pub(crate) domain: Domain,
+    /// Whether the range is cut; a turn with one edge has one piece, which begins there.
+    pub(crate) in_pieces: bool,
+    pub(crate) task: Task,
+    /// Identifier of the machine.
+    pub(crate) machine: u32,
+    /// Branches of the drive train, whose losses and friction are in no table.
+    pub(crate) branches: Vec<String>,
+    /// Whether loads depend on the direction of travel.
+    pub(crate) by_direction: bool,
+    /// Size of every number type and layout.
+    pub answers: Vec<(Number, LayoutName, Answer)>,
+    /// Index of the chosen one.
+    pub chosen: usize,
+}
+
+/// Refuses loads that depend on the motion.
+fn check_timeless(file: &MachineFile) -> Result<(), Failure> {
+    if let Some(ByMotion { what, cure }) = file.not_by_direction().next() {
+        return Err(Failure::Impossible {
+            message: format!(
+                "{what}: that goes by [motion], and a table is over the position of the drive link alone"
+            ),
+            help: format!(
+                "{cure}, for this command, and give the firmware what acts in one part of the motion as a torque of its own; a payload that \
+                 comes and goes is a table each"
+            ),
+        });
+    }
+    Ok(())
+}
+
+impl Export {
+    /// Searches for the requested table and its alternatives.
+    ///
+    /// # Errors
+    /// The machine cannot be tabulated, or no table meets the request.
+    pub fn new(file: &MachineFile, task: Task) -> Result<Self, Failure> {
+        Self::found(file, task, false)
+    }
+
+    /// The same; `provable` excludes layouts that only `auto` would choose and that cannot be proven.
+    pub(crate) fn found(file: &MachineFile, task: Task, provable: bool) -> Result<Self, Failure> {
+        check_timeless(file)?;
+        let machine = BothWays::new(file, &task)?;
+        let coordinate = file.machine.mechanism().coordinate();
+        let goal = Goal {
+            torque_error: task.torque_error,
+            range: [task.omega, task.alpha],
+            max_cells: task.max_cells,
+            max_bytes: task.max_bytes.map(|most| most as usize),
+            reciprocal: task.reciprocal,
+        };
+        let domain = machine.domain();
+        let pieces = pieces::between(domain, &task.edges);
+        if let Some([from, to]) = pieces
+            .iter()
+            .find(|[from, to]| to - from < SHORTEST * domain.span() * (1.0 - 1e-9))
+        {
+            return Err(Failure::Impossible {
+                message: format!(
+                    "the piece from {} to {} is shorter than {} {}, 1/65536 of the range",
+                    coordinate.place(*from),
+                    coordinate.place(*to),
+                    short(coordinate.shown(SHORTEST * domain.span())),
+                    coordinate.unit()
+                ),
+                help: "make the load's ramp longer, or name positions that are farther apart with --pieces"
+                    .to_owned(),
+            });
+        }
+        if pieces.len() * task.max_cells as usize > MOST_CELLS {
+            return Err(Failure::Impossible {
+                message: format!(
+                    "{} pieces of up to {} cells are too many cells; at most {MOST_CELLS}",
+                    pieces.len(),
+                    task.max_cells
+                ),
+                help: format!("use --max-cells {} or fewer", MOST_CELLS / pieces.len()),
+            });
+        }
+        // A closed form covers the whole turn.
+        let crank = slider_crank::plain(machine.same());
+        if let (LayoutChoice::SliderCrank, Err(why)) = (task.layout, &crank) {
+            return Err(why.failure(file));
+        }
+        let left_out = provable && task.layout == LayoutChoice::Auto;
+        let crank = crank.ok().filter(|_| pieces.is_empty() && !left_out);
+        let search = Searches::new(&machine, crank, &pieces, goal)?;
+        let mut answers = Vec::new();
+        for number in Number::ALL {
+            for &layout in number.layouts() {
+                // Harmonics are only searched on request.
+                if layout == LayoutName::Harmonic && task.layout != LayoutChoice::Harmonic {
+                    continue;
+                }
+                if layout == LayoutName::SliderCrank && search.crank.is_none() {
+                    continue;
+                }
+                answers.push((number, layout, search.answer(number, layout)?));
+            }
+        }
+        let Some(chosen) = choose(&task, &answers) else {
+            return Err(NotReached {
+                file,
+                coordinate,
+                task: &task,
+                search: &search,
+                answers: &answers,
+            }
+            .failure()?);
+        };
+        let id = task.machine.unwrap_or_else(|| identifier(&file.title));
+        let tables = answers
+            .iter_mut()
+            .filter_map(|(_, _, answer)| match answer {
+                Answer::Meets(candidate) => Some(&mut candidate.tables),
+                _ => None,
+            });
+        for table in tables.flatten() {
+            identify(&mut table.words, id).map_err(ticks::refusal)?;
+        }
+        Ok(Self {
+            title: file.title.clone(),
+            coordinate,
+            domain,
+            in_pieces: !pieces.is_empty(),
+            task,
+            machine: id,
+            branches: (file.drive_train.branches().iter())
+                .map(|branch| branch.name.clone())
+                .collect(),
+            by_direction: machine.same().is_none(),
+            answers,
+            chosen,
+        })
+    }
+
+    /// The core that it was chosen for.
+    pub const fn core(&self) -> Core {
+        self.task.core
+    }
+
+    /// The chosen table.
+    ///
+    /// # Panics
+    /// Never: the chosen answer is a table.
+    pub fn chosen(&self) -> &Candidate {
+        let answer = self.answers.get(self.chosen).map(|(_, _, answer)| answer);
+        match answer {
+            Some(Answer::Meets(candidate)) => candidate,
+            _ => unreachable!("only what meets the request is chosen"),
+        }
+    }
+
+    /// The table, if it covers the whole range.
+    pub(crate) fn whole(&self) -> Option<&Made> {
+        let table = self.chosen().tables.first();
+        table.filter(|_| !self.in_pieces)
+    }
+
+    /// The phase at which a table's range begins.
+    pub fn start(&self, table: &Made) -> Phase {
+        self.domain.phase(table.range[0])
+    }
+
+    /// The largest drive link speed of the request.
+    pub const fn omega(&self) -> f64 {
+        self.task.omega
+    }
+}
+
+/// The identifier of a machine with this title: its CRC-32, as in the image. Machines without a title have no identifier.
+pub fn identifier(title: &str) -> u32 {
+    Crc::<u32>::new(&CRC_32_ISO_HDLC).checksum(title.as_bytes())
+}
+
+/// The fastest table that meets the error: of those with up to a tenth more instructions than the fastest on the core, the one with the fewest bytes.
+/// With a limit of bytes, the fewest bytes; without a required error, the least error. Of equal ones, the more accurate.
+fn choose(task: &Task, answers: &[(Number, LayoutName, Answer)]) -> Option<usize> {
+    let own = answers.iter().enumerate().filter_map(|(k, answer)| {
+        let (number, layout, Answer::Meets(candidate)) = answer else {
+            return None;
+        };
+        let asked = *number == task.number && task.layout.allows(*layout);
+        let cost = task.core.instructions(*number, *layout);
+        asked.then(|| (k, candidate, cost.unwrap_or(u32::MAX)))
+    });
+    let own: Vec<_> = own.collect();
+    let by_cost = task.torque_error.is_some() && task.max_bytes.is_none();
+    let fastest = own.iter().map(|(.., cost)| *cost).min()?;
+    let fast = own
+        .iter()
+        .filter(|(.., cost)| !by_cost || *cost <= cost::as_fast(fastest));
+    let rank = |candidate: &Candidate| {
+        let bytes = match task.torque_error {
+            Some(_) => candidate.bytes(),
+            None => 0,
+        };
+        (bytes, candidate.error())
+    };
+    fast.map(|(k, candidate, _)| (k, rank(candidate)))
+        .min_by(|(_, a), (_, b)| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)))
+        .map(|(k, _)| *k)
+}

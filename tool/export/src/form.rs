@@ -1,0 +1,152 @@
+//! Output formats of an export.
+
+use std::fmt::Write as _;
+
+use jred::Domain;
+
+use crate::candidate::Made;
+use crate::export::Export;
+use crate::figures::full_rust_arguments;
+use crate::name::Name;
+
+jred_file::words! {
+    /// Output format of an export.
+    pub enum Form default Image {
+        /// The binary image, for `include_image!` or a flash region.
+        Image = "image",
+        /// A Rust source file with the image as a `static` array of words.
+        Rust = "rust",
+        /// A C or C++ source file with the image as a `const` array of words, and the functions of `jred.h`.
+        C = "c",
+        /// JSON: the words, all properties of the table, and its alternatives.
+        Json = "json",
+    }
+}
+
+const INDENT: &str = "    ";
+
+impl Export {
+    /// The table in one of the forms; `None` for several pieces as one image. In C its names begin with `name`, or with the name of the file `out`.
+    /// In Rust it is in a module `name`, or at the top level of its file.
+    pub fn write(&self, form: Form, name: Option<&Name>, out: &str) -> Option<Vec<u8>> {
+        let tables = &self.chosen().tables;
+        let named = name.cloned().unwrap_or_else(|| Name::of_file(out));
+        Some(match (form, self.whole()) {
+            (Form::Image, Some(table)) => {
+                table.words.iter().flat_map(|w| w.to_le_bytes()).collect()
+            }
+            (Form::Image, None) => return None,
+            (Form::Rust, Some(table)) => self.source(&module(name, &self.rust_whole(table))),
+            (Form::Rust, None) => self.source(&module(name, &self.rust_pieces(tables))),
+            (Form::C, Some(table)) => self.source(&self.c_table(table, &named)),
+            (Form::C, None) => self.source(&self.c_pieces(tables, &named)),
+            (Form::Json, _) => format!("{:#}\n", serde_json::json!(self.data())).into_bytes(),
+        })
+    }
+
+    /// A source text, with the summary as its comment.
+    fn source(&self, code: &str) -> Vec<u8> {
+        let mut text = String::new();
+        for line in self.summary().lines() {
+            let _ = writeln!(text, "// {line}");
+        }
+        text.push_str(code);
+        text.into_bytes()
+    }
+
+    /// A table with the type of its model, which the compiler checks.
+    fn rust_whole(&self, table: &Made) -> String {
+        let arguments = full_rust_arguments(self.chosen());
+        format!(
+            "/// Identifier of the machine: `Image::of_machine` refuses the image of another.\n\
+             #[allow(dead_code)]\n\
+             pub const MACHINE: u32 = 0x{:08x};\n\n\
+             /// The machine.\n\
+             #[allow(dead_code)]\n\
+             pub type TableModel = jred::Model<'static, {arguments}>;\n\n\
+             // A table of another type or with other curves does not compile.\n\
+             const _: () = assert!(jred::Image::is_of::<{arguments}>(&TABLE));\n\n\
+             /// Checks the table.\n\
+             #[allow(dead_code)]\n\
+             pub fn model() -> Result<TableModel, jred::ImageError> {{\n\
+             {INDENT}jred::Image::new(&TABLE)?.of_machine(MACHINE)?.model()\n\
+             }}\n\n{}",
+            self.machine,
+            rust_table("TABLE", &table.words)
+        )
+    }
+
+    /// A table for each piece, and a function that combines them.
+    fn rust_pieces(&self, tables: &[Made]) -> String {
+        let arguments = full_rust_arguments(self.chosen());
+        let mut text = format!(
+            "/// Identifier of the machine: `Image::of_machine` refuses the image of another.\n\
+             pub const MACHINE: u32 = 0x{:08x};\n\n\
+             /// The machine in pieces.\n\
+             pub type PiecewiseModel = jred::Pieces<'static, {arguments}, {}>;\n\n\
+             /// Checks the tables and puts them together.\n\
+             pub fn pieces() -> Result<PiecewiseModel, jred::ImageError> {{\n\
+             {INDENT}fn piece(start: u32, words: &'static [u32]) -> Result<(jred::Phase, jred::Model<'static, {arguments}>), jred::ImageError> {{\n\
+             {INDENT}{INDENT}Ok((jred::Phase::from_bits(start), jred::Image::new(words)?.of_machine(MACHINE)?.model()?))\n\
+             {INDENT}}}\n\
+             {INDENT}jred::Pieces::new({}, [\n",
+            self.machine,
+            tables.len(),
+            match self.domain {
+                Domain::Turn => "jred::Domain::Turn".to_owned(),
+                Domain::Stroke { from, to } => {
+                    format!("jred::Domain::Stroke {{ from: {from:?}, to: {to:?} }}")
+                }
+            }
+        );
+        for (number, table) in (1..).zip(tables) {
+            let start = self.start(table).to_bits();
+            let _ = writeln!(text, "        piece(0x{start:08x}, &TABLE_{number})?,");
+        }
+        text += "    ])\n    .map_err(jred::ImageError::Table)\n}\n";
+        for (number, table) in (1..).zip(tables) {
+            let _ = write!(
+                text,
+                "\n{}",
+                rust_table(&format!("TABLE_{number}"), &table.words)
+            );
+        }
+        text
+    }
+}
+
+// Arrays are as aligned as with `include_image!`, so that rows of a power of two do not cross cache lines.
+
+/// Rust code as a module of this name.
+fn module(name: Option<&Name>, code: &str) -> String {
+    let Some(name) = name else {
+        return code.to_owned();
+    };
+    let mut text = format!("pub mod {} {{\n", name.as_str());
+    for line in code.lines() {
+        if line.is_empty() {
+            text.push('\n');
+        } else {
+            let _ = writeln!(text, "{INDENT}{line}");
+        }
+    }
+    text + "}\n"
+}
+
+pub(crate) fn rust_table(name: &str, words: &[u32]) -> String {
+    format!(
+        "pub static {name}: [u32; {}] = [\n{}];\n",
+        words.len(),
+        rows(words, "")
+    )
+}
+
+/// Words in hexadecimal, each with this suffix.
+pub(crate) fn rows(words: &[u32], suffix: &str) -> String {
+    let mut text = String::new();
+    for row in words.chunks(8) {
+        let words: Vec<String> = row.iter().map(|w| format!("0x{w:08x}{suffix}")).collect();
+        let _ = writeln!(text, "    {},", words.join(", "));
+    }
+    text
+}

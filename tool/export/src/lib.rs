@@ -1,0 +1,47 @@
+//! The table for the firmware: the smallest one that meets a torque error, or the best one for its bytes, as an image or as source code.
+//!
+//! One of the packages behind the command `jred`, on [`jred_file`], which reads machine files, and [`jred_enclosure`], which proves errors. Each module
+//! knows those before it; [`Export`] is the result of the search:
+//!
+//! 1. `choice`, `cost`, `task`: number types, layouts, cores; the request.
+//! 2. `ways`, `reference`, `ticks`, `search`, `pieces`: the machine's exact curves, and the sizes that are tried.
+//! 3. `export`: the chosen table. `enclose` and `proof`: the machine's curves in intervals, and a bound of the error at every position.
+//! 4. `form`, [`data`]: the table as image, Rust, C, JSON.
+#![forbid(unsafe_code)]
+
+mod c_source;
+mod candidate;
+mod choice;
+mod cost;
+pub mod data;
+mod enclose;
+mod export;
+mod fault;
+mod figures;
+mod form;
+mod harmonic;
+mod name;
+mod pieces;
+mod place;
+mod plan;
+mod proof;
+mod proven;
+mod reference;
+mod search;
+mod slider_crank;
+mod task;
+mod ticks;
+mod ways;
+
+pub use c_source::plan_c_source;
+pub use candidate::{Answer, Candidate, Made};
+pub use choice::{Choice, LayoutChoice, LayoutName, Number};
+pub use cost::Core;
+pub use export::{Export, identifier};
+pub use form::Form;
+pub use name::Name;
+pub use plan::plan_source;
+pub use proven::Proven;
+pub use search::EXHAUSTIVE;
+pub use task::{Failure, Task};
+pub use ticks::Ticks;

@@ -1,0 +1,260 @@
+//! The error of an exported table, proven over every position.
+
+use jred::image::{encode, identify};
+use jred::table::Format;
+use jred::{
+    Cubic, Domain, Error, Image, Q31, Quadratic, Reducible as _, Rows16, Spline, Spline16, Validity,
+};
+use jred_enclosure::{Goal, Proof, Unproven, prove};
+
+use crate::candidate::{Answer, Made};
+use crate::choice::{LayoutName, Number};
+use crate::enclose::Enclosed;
+use crate::export::Export;
+use crate::proven::Proven;
+use crate::search::rounded_up;
+use crate::task::{Failure, Task};
+use crate::ticks;
+use jred_file::model::machine::MachineFile;
+use jred_file::number::rounding::{bound, rounded};
+
+/// Share of the allowed torque error below which refinement is unnecessary.
+const NEGLIGIBLE: f64 = 1e-3;
+/// The same without an allowed error, as a share of the largest torque.
+const SHARE: f64 = 1e-9;
+
+/// How often the required table error is reduced because the proven one exceeds the allowed one.
+const ATTEMPTS: u32 = 4;
+
+impl Export {
+    /// As [`new`](Self::new), with a proof of the table's error. A slider-crank in closed form is used only on request, because it cannot be proven.
+    /// If the proven error of a table exceeds the allowed one, the search is repeated with a smaller required error; the last table is returned.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn proven(
+        file: &MachineFile,
+        task: &Task,
+        watch: &mut dyn FnMut(f64) -> bool,
+    ) -> Result<Self, Failure> {
+        let allowed = task.torque_error;
+        let (mut asked, mut last) = (allowed, None);
+        for _ in 0..ATTEMPTS {
+            let smaller = Task {
+                torque_error: asked,
+                ..task.clone()
+            };
+            let mut export = match (Self::found(file, smaller, true), last) {
+                (Ok(export), _) => export,
+                // No table meets the smaller error.
+                (Err(_), Some(last)) => return Ok(last),
+                (Err(why), None) => return Err(why),
+            };
+            export.task.torque_error = allowed;
+            export.prove(file, watch)?;
+            let above = export.excess();
+            let (Some(error), Some(above)) = (asked, above) else {
+                return Ok(export);
+            };
+            asked = Some(error / above * 0.999);
+            last = Some(export);
+        }
+        last.ok_or_else(|| Failure::NotReached(String::new()))
+    }
+
+    /// Ratio of the proven and the allowed error, if larger than 1.
+    pub fn excess(&self) -> Option<f64> {
+        let above = self.proof()?.bound()? / self.task.torque_error?;
+        (above > 1.0).then_some(above)
+    }
+
+    /// Proves the error of the chosen table, or of each of its pieces, and writes the proven error into its images. `watch` receives the completed
+    /// share, and returns whether to continue.
+    ///
+    /// # Errors
+    /// Errors of the machine; never for an exported one.
+    pub fn prove(
+        &mut self,
+        file: &MachineFile,
+        watch: &mut dyn FnMut(f64) -> bool,
+    ) -> Result<(), Error> {
+        if self.by_direction {
+            let why = "loads go by the direction of travel, and the proof is of one machine";
+            if let Some((_, _, Answer::Meets(candidate))) = self.answers.get_mut(self.chosen) {
+                for made in &mut candidate.tables {
+                    made.proof = Some(Proven::Open(Unproven::Part(why.to_owned())));
+                }
+            }
+            return Ok(());
+        }
+        let machine = self.task.whole_machine(file)?;
+        let (number, layout) = self.kind();
+        let range = [self.task.omega, self.task.alpha];
+        let edges: Vec<f64> = (0..).map_while(|k| machine.edge(k)).collect();
+        let enclosed = Enclosed::new(&machine);
+        let (id, allowed, domain) = (self.machine, self.task.torque_error, self.domain);
+        let Some((_, _, Answer::Meets(candidate))) = self.answers.get_mut(self.chosen) else {
+            return Ok(());
+        };
+        let count = candidate.tables.len() as f64;
+        for (index, made) in (0..).zip(&mut candidate.tables) {
+            let negligible = allowed.map_or(SHARE * made.ticks.peak_torque, |a| NEGLIGIBLE * a);
+            let goal = Goal {
+                start: made.range[0],
+                span: made.range[1] - made.range[0],
+                edges: &edges,
+                turns: domain == Domain::Turn,
+                omega: range[0],
+                alpha: range[1],
+                known: made.found.torque_error,
+                negligible,
+            };
+            let mut of_all = |share: f64| watch((f64::from(index) + share) / count);
+            let found = match &enclosed {
+                Ok(enclosed) => of_type(number, layout, made, &goal, enclosed, &mut of_all)?,
+                Err(why) => Err(why.clone()),
+            };
+            made.proof = Some(match found {
+                Ok(proof) => Proven::Bounded(proof),
+                Err(why) => Proven::Open(why),
+            });
+            if let Some(bound) = made.proof.as_ref().and_then(Proven::bound) {
+                state(number, layout, made, bound)?;
+                identify(&mut made.words, id).map_err(ticks::refusal)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// The proof of all tables together: the largest bounds, or the reason for their absence.
+    pub fn proof(&self) -> Option<Proven> {
+        let all = self.chosen().tables.iter().map(|table| table.proof.clone());
+        all.reduce(|a, b| {
+            Some(match (a?, b?) {
+                (Proven::Bounded(a), Proven::Bounded(b)) => {
+                    let worse = if b.bound > a.bound { b } else { a };
+                    Proven::Bounded(Proof {
+                        ticked: a.ticked.zip(b.ticked).map(|(a, b)| a.max(b)),
+                        least: a.least.max(b.least),
+                        stretches: a.stretches + b.stretches,
+                        ..worse
+                    })
+                }
+                (open @ Proven::Open(_), _) | (_, open) => open,
+            })
+        })?
+    }
+}
+
+/// Messages.
+impl Export {
+    /// The proof of the error, if requested.
+    pub(crate) fn proof_text(&self) -> String {
+        let (coordinate, word) = (self.coordinate, self.effort());
+        let effort = coordinate.effort_unit();
+        match self.proof() {
+            None => String::new(),
+            Some(Proven::Open(why)) => format!("not proven: {why}\n"),
+            Some(Proven::Bounded(proof)) => {
+                let ticks = match proof.ticked {
+                    Some(ticked) => format!("ticks within {} {effort}", bound(ticked)),
+                    None => "the arithmetic of its ticks is not proven".to_owned(),
+                };
+                format!(
+                    "proven over every position: {word} error of the table within {} {effort}, largest near {} {}; {ticks}\n",
+                    bound(proof.bound),
+                    rounded(coordinate.shown(proof.worst)),
+                    coordinate.unit(),
+                )
+            }
+        }
+    }
+
+    /// A message that the proven error exceeds the allowed one, with the position.
+    pub fn exceeded(&self) -> String {
+        let coordinate = self.coordinate;
+        let effort = coordinate.effort_unit();
+        match (self.proof(), self.task.torque_error) {
+            (Some(found @ Proven::Bounded(proof)), Some(allowed)) => format!(
+                "the proven {} error, {} {effort} near {} {}, is above the {} {effort} allowed",
+                self.effort(),
+                bound(found.bound().unwrap_or(proof.bound)),
+                rounded(coordinate.shown(proof.worst)),
+                coordinate.unit(),
+                rounded(allowed)
+            ),
+            _ => String::new(),
+        }
+    }
+}
+
+/// The error of a table of this type and layout.
+fn of_type(
+    number: Number,
+    layout: LayoutName,
+    made: &Made,
+    goal: &Goal<'_>,
+    enclosed: &Enclosed<'_>,
+    watch: &mut dyn FnMut(f64) -> bool,
+) -> Result<Result<Proof, Unproven>, Error> {
+    match (number, layout) {
+        (_, LayoutName::Harmonic | LayoutName::SliderCrank) => Ok(Err(Unproven::Layout {
+            layout: layout.name(),
+        })),
+        (Number::F32, LayoutName::Cubic) => of::<Cubic<f32>>(made, goal, enclosed, watch),
+        (Number::F32, LayoutName::Quadratic) => of::<Quadratic<f32>>(made, goal, enclosed, watch),
+        (Number::F32, _) => of::<Spline<f32>>(made, goal, enclosed, watch),
+        (Number::I32, LayoutName::Spline16) => of::<Spline16>(made, goal, enclosed, watch),
+        (Number::I32, LayoutName::Cubic) => of::<Cubic<Q31>>(made, goal, enclosed, watch),
+        (Number::I32, LayoutName::Quadratic) => of::<Quadratic<Q31>>(made, goal, enclosed, watch),
+        (Number::I32, _) => of::<Spline<Q31>>(made, goal, enclosed, watch),
+        (Number::I16, _) => of::<Rows16>(made, goal, enclosed, watch),
+    }
+}
+
+/// The error of a table of this format, as contained in its image.
+fn of<F: Format>(
+    made: &Made,
+    goal: &Goal<'_>,
+    enclosed: &Enclosed<'_>,
+    watch: &mut dyn FnMut(f64) -> bool,
+) -> Result<Result<Proof, Unproven>, Error> {
+    let image = Image::new(&made.words).map_err(ticks::refusal)?;
+    let table = image.table::<F>().map_err(ticks::refusal)?;
+    let curves = |stretch| enclosed.curves(stretch);
+    // Without rounding of the tick's sums, which is not an error of the table.
+    let rounding = F::TICK_ROUNDING * f64::from(table.scale().torque());
+    let goal = Goal {
+        known: (goal.known - rounding).max(0.0),
+        ..*goal
+    };
+    Ok(prove(&table, &goal, &curves, watch))
+}
+
+/// Writes the proven error into the image.
+fn state(number: Number, layout: LayoutName, made: &mut Made, error: f64) -> Result<(), Error> {
+    match (number, layout) {
+        (Number::F32, LayoutName::Cubic) => stated::<Cubic<f32>>(made, error),
+        (Number::F32, LayoutName::Quadratic) => stated::<Quadratic<f32>>(made, error),
+        (Number::F32, _) => stated::<Spline<f32>>(made, error),
+        (Number::I32, LayoutName::Spline16) => stated::<Spline16>(made, error),
+        (Number::I32, LayoutName::Cubic) => stated::<Cubic<Q31>>(made, error),
+        (Number::I32, LayoutName::Quadratic) => stated::<Quadratic<Q31>>(made, error),
+        (Number::I32, _) => stated::<Spline<Q31>>(made, error),
+        (Number::I16, _) => stated::<Rows16>(made, error),
+    }
+}
+
+fn stated<F: Format>(made: &mut Made, error: f64) -> Result<(), Error> {
+    let image = Image::new(&made.words).map_err(ticks::refusal)?;
+    let table = image.table::<F>().map_err(ticks::refusal)?;
+    let validity = Validity {
+        torque_error: rounded_up(error),
+        ..image.validity()
+    };
+    let mut words = vec![0; made.words.len()];
+    let written = encode(&table, validity, &mut words)?.len();
+    words.truncate(written);
+    made.words = words;
+    Ok(())
+}

@@ -1,0 +1,183 @@
+//! A slider-crank in closed form, if the machine is one.
+
+use jred::harmonic::measure;
+use jred::image::{encode, image_len};
+use jred::machine::Mechanism as _;
+use jred::mechanism::SliderCrank;
+use jred::slider_crank::{SliderCrankError, form, set_in_use};
+use jred::table::{Shape, Usage, words_len};
+use jred::tabulate::{Request, Tabulated};
+use jred::{
+    Domain, Error, Image, Machine, Reducible as _, Scale, SliderCrankForm, Table, Validity,
+};
+
+use crate::candidate::{Answer, Made};
+use crate::search::Search;
+use crate::search::rounded_up;
+use crate::task::Failure;
+use crate::ticks;
+use jred_file::model::machine::MachineFile;
+use jred_file::model::mechanism::AnyMechanism;
+
+type F = SliderCrankForm;
+
+/// Places per turn, besides those of the reference; an odd number.
+const PLACES: u32 = 4097;
+
+/// Why a machine has no closed form.
+pub(crate) enum Not {
+    /// Another mechanism, by its name in machine files.
+    Mechanism(&'static str),
+    /// A part of the turn.
+    Stroke,
+    /// Loads that depend on the direction of travel.
+    ByDirection,
+    /// A curve over the position.
+    Curve(String),
+    /// A load or a spring that it does not support.
+    Part(SliderCrankError),
+}
+
+/// The machine as a slider-crank, if the closed form can represent all of it.
+pub(crate) fn plain(machine: Option<&Machine<AnyMechanism>>) -> Result<Machine<SliderCrank>, Not> {
+    let machine = machine.ok_or(Not::ByDirection)?;
+    let any = machine.mechanism();
+    if any.kind() == "slider-crank" && any.domain() != Domain::Turn {
+        return Err(Not::Stroke);
+    }
+    let Some(mechanism) = any.inner::<SliderCrank>() else {
+        return Err(match any.names().get(any.own_links()) {
+            Some(curve) if any.kind() == "slider-crank" => Not::Curve(curve.clone()),
+            _ => Not::Mechanism(any.kind()),
+        });
+    };
+    let copy = || -> Result<Machine<SliderCrank>, Error> {
+        let mut copy = Machine::new(mechanism.clone())
+            .with_gravity(machine.gravity())?
+            .with_flywheel(machine.flywheel())?;
+        for load in machine.loads() {
+            copy = copy.with_load(*load)?;
+        }
+        for element in machine.elements() {
+            copy = copy.with_element(*element)?;
+        }
+        Ok(copy)
+    };
+    // Accepted before, so accepted again.
+    let copy = copy().map_err(|_| Not::Mechanism(any.kind()))?;
+    set_in_use(&copy).map(|_| copy).map_err(Not::Part)
+}
+
+impl Not {
+    /// The obstacle and the cure.
+    pub(crate) fn failure(&self, file: &MachineFile) -> Failure {
+        let table = "remove --layout: a table holds any load";
+        let load = |k: &usize| {
+            let name = file.loads.get(*k).map(|load| load.name.as_str());
+            format!("load {:?}", name.unwrap_or_default())
+        };
+        let (what, help) = match self {
+            Self::Mechanism(kind) => (
+                format!("the mechanism is of type {kind:?}"),
+                "remove --layout: a table holds any mechanism; --layout harmonic a smooth one that turns",
+            ),
+            Self::Stroke => (
+                "the crank has a stroke, and the closed form is of the whole turn".to_owned(),
+                table,
+            ),
+            Self::ByDirection => ("loads go by the direction of travel".to_owned(), table),
+            Self::Curve(name) => (format!("{name:?} is a curve over the position"), table),
+            Self::Part(SliderCrankError::Window(k)) => (
+                format!("{} acts in a part of the turn", load(k)),
+                "remove --layout: a table holds any load; --pieces auto makes one for each piece between its edges",
+            ),
+            Self::Part(SliderCrankError::RubbingRod(k)) => (
+                format!("{} rubs on the rod between its pins", load(k)),
+                table,
+            ),
+            Self::Part(SliderCrankError::Element(k)) => {
+                let name = file.elements.get(*k).map(|element| element.name.as_str());
+                (
+                    format!("{:?} is a spring or a damper", name.unwrap_or_default()),
+                    "take --layout harmonic, or remove --layout",
+                )
+            }
+            Self::Part(error) => (error.to_string(), table),
+        };
+        Failure::Impossible {
+            message: format!(
+                "layout slider-crank holds a slider-crank with constant loads and friction only, but {what}"
+            ),
+            help: help.to_owned(),
+        }
+    }
+}
+
+impl Search<'_> {
+    /// The closed form of this machine, and the accuracy of its ticks.
+    ///
+    /// # Errors
+    /// Errors of the machine.
+    pub(crate) fn slider_crank(
+        &self,
+        machine: &Machine<SliderCrank>,
+    ) -> Result<Answer<Made>, Error> {
+        let set = set_in_use(machine)?;
+        let bytes = 4 * image_len::<F>(0, set);
+        if self.goal.max_bytes.is_some_and(|most| bytes > most) {
+            return Ok(Answer::TooLarge(bytes));
+        }
+        let mut words = vec![0.0; words_len::<F>(0, set)];
+        form(machine, set, &mut words)?;
+        let table = Table::<F>::new(&words, Shape::slider_crank(set)).and_then(|table| {
+            let usage = Usage::of(&table)?;
+            jred::AnyModel::new(table).map(|_| (table, usage))
+        });
+        let (table, usage) = match table {
+            Ok(table) => table,
+            Err(error) => return Ok(Answer::Refused(error.into())),
+        };
+        let [omega, alpha] = self.goal.range;
+        let request = Request::new(self.goal.torque_error.unwrap_or(f64::INFINITY))
+            .with_omega(omega)
+            .with_alpha(alpha);
+        let (measured, worst) = measure(machine, &table, &request, PLACES)?;
+        let domain = self.machine.domain();
+        let all = (0, f64::INFINITY);
+        let read = |phase| table.si(phase, domain);
+        let (looked, _) = self.reference.error(read, self.goal.range, all);
+        let mut image = vec![0; image_len::<F>(0, set)];
+        let mut written = |error: f64| {
+            let validity = Validity {
+                omega: omega as f32,
+                alpha: alpha as f32,
+                torque_error: rounded_up(error),
+            };
+            encode(&table, validity, &mut image).map(<[u32]>::to_vec)
+        };
+        let made = written(looked)?;
+        let made = Image::new(&made).map_err(ticks::refusal)?;
+        let ticks = ticks::measure::<F>(&made, &self.reference, self.goal.range)?;
+        let error = measured.max(looked).max(ticks.torque);
+        let mut found = Tabulated::default();
+        found.cells = words.len() as u32;
+        (found.torque_error, found.bound, found.worst) = (measured, measured.max(looked), worst);
+        let made = Box::new(Made {
+            range: self.machine.ends(),
+            curves: set,
+            found,
+            error,
+            looked,
+            ticks,
+            usage,
+            scale: Scale::SI,
+            row_bytes: size_of_val(table.words()),
+            proof: None,
+            words: written(error)?,
+        });
+        Ok(match self.goal.torque_error {
+            Some(allowed) if error > allowed => Answer::Misses(made),
+            _ => Answer::Meets(made),
+        })
+    }
+}

@@ -1,0 +1,11 @@
+//! The one test program of the package.
+#![allow(clippy::disallowed_methods, reason = "tests show paths that they made")]
+
+mod between_places;
+mod proven_export;
+#[path = "../../support/reading.rs"]
+mod reading;
+#[path = "../../support/mod.rs"]
+mod support;
+
+use jred_analysis::checked as reader;

@@ -1,0 +1,297 @@
+//! Machine files: TOML in, a checked [`MachineFile`] in SI units out.
+//!
+//! `docs/machine-file.md` lists all keys. Every error shows the line, names the quantity, its value and the limit, and gives a cure.
+
+mod carriage;
+mod curve_file;
+mod drive_link;
+mod drive_train;
+mod duty_type;
+mod effect;
+mod elements;
+mod law;
+mod load_table;
+mod loads;
+mod mass;
+mod mechanism;
+mod motion;
+mod names;
+mod profile;
+mod rules;
+mod schedule;
+mod simulation;
+mod stage;
+mod stiffness;
+mod supply;
+mod surroundings;
+mod tolerance;
+mod tool;
+mod variator;
+mod window;
+
+pub use mechanism::mechanism_types;
+
+use std::ops::Range;
+use std::path::Path;
+
+use jred::Machine;
+use miette::{Report, miette};
+
+use crate::model::axis::Axis;
+use crate::model::machine::{MachineFile, OverRange};
+use crate::model::mechanism::{AnyMechanism, NamedElement, NamedLoad};
+use crate::model::rules::RuleSet;
+use crate::plain;
+use crate::text::file::{self, Files};
+use crate::units::kind::{ACCELERATION, ANGLE};
+
+use crate::text::problem::{Problem, Result};
+use crate::text::section::Section;
+use crate::text::tree;
+use drive_link::DriveLink;
+
+/// The largest machine file (bytes).
+const MAX_SIZE: u64 = 1 << 20;
+
+/// Cure for a machine file above the limit.
+const LARGE: &str =
+    "put recorded motions into a separate CSV file and name it with `file` in [motion]";
+
+/// The built-in rule set of this name.
+pub fn built_in_rules(name: &str) -> Option<RuleSet> {
+    rules::built_in(name)?.ok()
+}
+
+/// The names of the built-in rule sets.
+pub fn rule_set_names() -> impl Iterator<Item = &'static str> {
+    rules::BUILT_IN.iter().map(|(name, _)| *name)
+}
+
+/// The rule set of this name, or of a file if `word` ends in `.toml` or contains a slash.
+///
+/// # Errors
+/// An unknown name, a file that cannot be read, or the first fault in it, with its place.
+pub fn rule_set(word: &str, files: impl Files) -> std::result::Result<RuleSet, Report> {
+    rules::named_or_file(word, &files).map_err(|problem| problem.into_report(word, ""))
+}
+
+/// The rules of a machine file applied on top of another set.
+///
+/// # Errors
+/// The machine file contradicts the set.
+pub fn rules_based_on(rules: &RuleSet, set: RuleSet) -> std::result::Result<RuleSet, Report> {
+    let word = set.name.clone();
+    rules.based_on(set).map_err(|contradiction| {
+        miette!(
+            help = contradiction.help,
+            "[rules] in the machine file contradicts the set \"{word}\": {}",
+            contradiction.message
+        )
+    })
+}
+
+/// The text of the machine file at `path`.
+///
+/// # Errors
+/// A file that cannot be read.
+#[cfg(feature = "fs")]
+pub fn text(path: &Path) -> std::result::Result<String, Report> {
+    let name = plain::path(path);
+    crate::text::disk::read(path, MAX_SIZE).map_err(|fault| {
+        let help = match fault.help.as_str() {
+            file::LARGE => LARGE,
+            help => help,
+        };
+        Problem::new(format!(
+            "cannot read the machine file {name}: {}",
+            fault.message
+        ))
+        .help(help)
+        .into_report(&name, "")
+    })
+}
+
+/// The folder of a machine file: files that it names are relative to it.
+pub fn folder(path: &Path) -> &Path {
+    path.parent().unwrap_or(Path::new(""))
+}
+
+/// A machine file as read: its values are checked one by one, its mechanics are not. `jred_analysis::checked` gives the checked file.
+#[derive(Debug)]
+pub struct Unchecked {
+    file: MachineFile,
+    mechanism: Range<usize>,
+    motion: Range<usize>,
+}
+
+impl Unchecked {
+    /// The machine file, for a text whose mechanics are known to pass the checks.
+    pub fn trusted(self) -> MachineFile {
+        self.file
+    }
+
+    /// The machine file, to be checked.
+    pub const fn file(&self) -> &MachineFile {
+        &self.file
+    }
+
+    /// Marks the header of the mechanism.
+    pub fn in_mechanism(&self, problem: Problem, label: &str) -> Problem {
+        problem.at(self.mechanism.clone(), label)
+    }
+
+    /// Marks the header of the motion.
+    pub fn in_motion(&self, problem: Problem, label: &str) -> Problem {
+        problem.at(self.motion.clone(), label)
+    }
+}
+
+/// Reads a machine file from its `text`. `name` is its name in messages; `files` provides the files that it names, for example a profile's CSV.
+///
+/// # Errors
+/// The first fault in the file, with its place and a cure.
+pub fn parse(name: &str, text: &str, files: impl Files) -> std::result::Result<Unchecked, Report> {
+    machine(name, text, &files).map_err(|problem| problem.into_report(name, text))
+}
+
+/// Gravity (m/s²) for a file that gives only the inclination.
+const GRAVITY: f64 = 9.81;
+
+/// `gravity`: its components, or the inclination of the x axis.
+fn gravity(root: &Section) -> Result<[f64; 2]> {
+    let item = root.require(
+        "gravity",
+        "gravity = [\"9.81 m/s^2\", \"0 m/s^2\"], its x and y components; gravity = [\"0 m/s^2\", \"0 m/s^2\"] for \
+         a machine that moves in a horizontal plane",
+    )?;
+    if !item.is_table() {
+        return Ok(item
+            .pair([&ACCELERATION, &ACCELERATION])?
+            .map(|value| value.si));
+    }
+    let section = item.section("gravity".to_owned())?;
+    let inclination = section.quantity("inclination", &ANGLE)?.si;
+    let size = match section.optional("acceleration", &ACCELERATION)? {
+        Some(value) => value.not_negative()?,
+        None => GRAVITY,
+    };
+    section.finish()?;
+    let (sin, cos) = inclination.sin_cos();
+    Ok([-size * sin, -size * cos])
+}
+
+/// The mechanism with its loads, springs and dampers.
+fn loaded(
+    mechanism: AnyMechanism,
+    loads: &[NamedLoad],
+    elements: &[NamedElement],
+) -> std::result::Result<Machine<AnyMechanism>, jred::Error> {
+    let mut machine = Machine::new(mechanism);
+    for named in loads {
+        machine = machine.with_load(named.load)?;
+    }
+    for named in elements {
+        machine = machine.with_element(named.element)?;
+    }
+    Ok(machine)
+}
+
+fn machine(name: &str, text: &str, files: &dyn Files) -> Result<Unchecked> {
+    if text.len() as u64 > MAX_SIZE {
+        let why = file::too_large(&file::size(text.len() as u64), MAX_SIZE);
+        return Err(
+            Problem::new(format!("cannot read the machine file {name}: {why}")).help(LARGE),
+        );
+    }
+    let tree = tree::parse(text)?;
+    if tree.get_ref().is_empty() {
+        return Err(Problem::new(format!("the machine file {name} is empty")).help(
+            "a machine file needs at least gravity = [\"9.81 m/s^2\", \"0 m/s^2\"] and a [mechanism] with a type, for example type = \"slider-crank\"",
+        ));
+    }
+    let root = Section::new(String::new(), 0..0, tree.get_ref());
+    let title = match root.get("title") {
+        Some(item) => item.text("Servo press")?.to_owned(),
+        None => Path::new(name)
+            .file_name()
+            .map_or_else(|| name.to_owned(), plain::path),
+    };
+    let gravity = gravity(&root)?;
+    let section = root.section("mechanism")?;
+    let (mechanism, flywheel) = mechanism::read(&section, gravity, files)?;
+    let drive_link =
+        DriveLink::of(&mechanism).map_err(|error| section.error(error, "in this mechanism"))?;
+    if let (true, Some(item)) = (
+        drive_link.slides() && flywheel > 0.0,
+        section.peek("flywheel"),
+    ) {
+        return Err(item
+            .problem("is for a rotating drive link, but the drive link of this mechanism slides", "nothing turns with it")
+            .help("add a mass that slides with the drive link to its body; rotating parts belong to a stage of [[drive_train]]"));
+    }
+    let mechanism = mass::read(&root, mechanism)?;
+    let (mechanism, tables, table_turns) =
+        load_table::read(&root, mechanism, drive_link, gravity, files)?;
+    let (mut loads, entries) = loads::read(&root, &mechanism, drive_link, &tables)?;
+    let elements = elements::read(&root, &mechanism, drive_link.coordinate)?;
+    let drive_train = drive_train::read(&root, drive_link)?;
+    let variator = variator::read(&root, drive_link)?;
+    let machine = loaded(mechanism, &loads, &elements)
+        .and_then(|m| Ok(m.with_gravity(gravity)?.with_flywheel(flywheel)?))
+        .map_err(|error| section.error(error, "in this machine"))?;
+    let motion = motion::read(&root, files, drive_link, (&machine, &loads))?;
+    let moved = motion.as_ref();
+    let (machine, carriages) = carriage::read(&root, files, machine, &mut loads, moved)?;
+    let schedule = schedule::read(&root, (&entries, carriages), &loads, &machine, moved)?;
+    let machine = schedule.at_no_time().cloned().unwrap_or(machine);
+    let around = simulation::Around {
+        drive: drive_link,
+        axis: Axis::of(motion.as_ref(), machine.mechanism()),
+        drive_train: &drive_train,
+        motion: motion.as_ref(),
+        variator: variator.is_some(),
+    };
+    let simulation = simulation::read(&root, around)?;
+    let rules = rules::read(&root, files)?;
+    let stiffness = stiffness::read(&root, drive_link, &drive_train)?;
+    let tool = tool::read(&root, machine.mechanism())?;
+    let tolerances = tolerance::read(&root)?;
+    let mut site = crate::model::site::Site::default();
+    supply::read(&root, &mut site)?;
+    surroundings::read(&root, &mut site)?;
+    duty_type::read(&root, &mut site)?;
+    root.finish()?;
+
+    let file = MachineFile {
+        name: name.to_owned(),
+        title,
+        machine,
+        schedule,
+        flywheel,
+        loads,
+        table_turns,
+        elements,
+        drive_train,
+        variator,
+        motion,
+        simulation,
+        rules,
+        tolerances,
+        site: crate::model::site::Site {
+            shaft_stiffness: stiffness.shaft,
+            train_play: stiffness.play,
+            tool,
+            ..site
+        },
+        over_range: OverRange::default(),
+    };
+    let motion = match root.peek("motion") {
+        Some(_) => root.section("motion")?.header(),
+        None => root.header(),
+    };
+    Ok(Unchecked {
+        file,
+        mechanism: section.header(),
+        motion,
+    })
+}

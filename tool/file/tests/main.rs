@@ -1,0 +1,18 @@
+//! The one test program of the package.
+#![allow(clippy::disallowed_methods, reason = "tests show paths that they made")]
+
+mod formula;
+mod import;
+mod linkage_file;
+mod machine_file;
+mod mechanisms;
+mod motion;
+mod names;
+mod reader;
+#[path = "../../support/reading.rs"]
+mod reading;
+mod rules;
+mod spline;
+mod supply;
+#[path = "../../support/mod.rs"]
+mod support;

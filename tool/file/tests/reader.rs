@@ -1,0 +1,22 @@
+//! Machine files as these tests read them: without the checks of their mechanics, which are tested with `jred-analysis`.
+
+use std::path::Path;
+
+use jred_file::model::machine::MachineFile;
+use jred_file::read::{self, Unchecked};
+use jred_file::text::file::Files;
+use miette::Report;
+
+/// The machine file of a text.
+pub(crate) fn parse(name: &str, text: &str, files: impl Files) -> Result<MachineFile, Report> {
+    read::parse(name, text, files).map(Unchecked::trusted)
+}
+
+/// The machine file at a path.
+pub(crate) fn read(path: &Path) -> Result<MachineFile, Report> {
+    parse(
+        &jred_file::plain::path(path),
+        &read::text(path)?,
+        read::folder(path),
+    )
+}

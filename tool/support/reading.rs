@@ -1,0 +1,152 @@
+//! Machine texts read, and the report on one that is refused; the packages that use it name their `reader`.
+#![allow(dead_code)]
+
+use std::path::{Path, PathBuf};
+
+use jred_file::model::machine::MachineFile;
+use miette::{GraphicalReportHandler, GraphicalTheme, Report};
+
+use crate::reader;
+use crate::support::edited;
+
+/// The folder of the tests' own files.
+pub(crate) fn data() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../file/tests/data")
+}
+
+/// A file of `machines/`.
+pub(crate) fn machine_path(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("../../machines")
+        .join(name)
+}
+
+/// A file of `machines/`, read.
+pub(crate) fn machine(name: &str) -> MachineFile {
+    reader::read(&machine_path(name)).unwrap_or_else(|report| panic!("{}", rendered(&report)))
+}
+
+/// Its text.
+pub(crate) fn text_of(name: &str) -> String {
+    std::fs::read_to_string(machine_path(name)).unwrap()
+}
+
+/// Reads a text as a file of [`data`].
+pub(crate) fn parse(text: &str) -> Result<MachineFile, Report> {
+    parse_in(text, &data())
+}
+
+pub(crate) fn parse_as(name: &str, text: &str) -> Result<MachineFile, Report> {
+    reader::parse(name, text, data())
+}
+
+/// Reads a text as a file of `folder`.
+pub(crate) fn parse_in(text: &str, folder: &Path) -> Result<MachineFile, Report> {
+    reader::parse("machine.toml", text, folder)
+}
+
+/// Reads a text with files beside it; the report without graphics.
+pub(crate) fn parse_with(machine: &str, files: &[(&str, &str)]) -> Result<MachineFile, String> {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, text) in files {
+        std::fs::write(folder.path().join(name), text).unwrap();
+    }
+    reader::parse("machine.toml", machine, folder.path()).map_err(|report| {
+        let mut text = String::new();
+        miette::NarratableReportHandler::new()
+            .render_report(&mut text, report.as_ref())
+            .unwrap();
+        text
+    })
+}
+
+#[track_caller]
+pub(crate) fn read(text: &str) -> MachineFile {
+    parse(text).unwrap_or_else(|report| panic!("{}", rendered(&report)))
+}
+
+/// The report as a user sees it, without colours and line breaks.
+pub(crate) fn rendered(report: &Report) -> String {
+    rendered_in(report, 1000)
+}
+
+pub(crate) fn rendered_in(report: &Report, width: usize) -> String {
+    let mut text = String::new();
+    GraphicalReportHandler::new_themed(GraphicalTheme::unicode_nocolor())
+        .with_width(width)
+        .render_report(&mut text, report.as_ref())
+        .unwrap();
+    text
+}
+
+/// Checks that `text` is refused with every one of `words`.
+#[track_caller]
+pub(crate) fn refuses(text: &str, words: &[&str]) {
+    let report = match parse(text) {
+        Err(report) => rendered(&report),
+        Ok(_) => panic!("accepted, though the report should contain {words:?}"),
+    };
+    says(&report, words);
+}
+
+/// Reads `base` with the first `from` replaced by `to`, and checks that the report contains every one of `words`.
+#[track_caller]
+pub(crate) fn refuses_edit(base: &str, from: &str, to: &str, words: &[&str]) {
+    refuses(&edited(base, from, to), words);
+}
+
+/// Checks that a report contains every one of `words`; `SHOW_REPORTS=1` prints it.
+#[track_caller]
+pub(crate) fn says(report: &str, words: &[&str]) {
+    if std::env::var_os("SHOW_REPORTS").is_some() {
+        println!("{report}");
+    }
+    for word in words {
+        assert!(report.contains(word), "{word:?} is not in\n{report}");
+    }
+}
+
+/// A table of an inertia (kg·m²) and a friction (N·m) behind a pair of gears, of which 20 teeth drive so many; what is left of the stage and of the file
+/// follows.
+pub(crate) fn table_behind_gears(
+    [inertia, friction]: [f64; 2],
+    driven: u32,
+    rest: &str,
+) -> MachineFile {
+    parse(&format!(
+        r#"
+gravity = ["0 m/s^2", "0 m/s^2"]
+[mechanism]
+type = "rotary-table"
+[mechanism.table]
+mass = "1 kg"
+inertia = "{inertia} kg m^2"
+[[load]]
+on = "table"
+opposing_moment = "{friction} N m"
+[[drive_train]]
+type = "gear-train"
+[[drive_train.stage]]
+driver = {{ teeth = 20, inertia = "0 kg m^2" }}
+driven = {{ teeth = {driven}, inertia = "0 kg m^2" }}
+{rest}"#
+    ))
+    .unwrap()
+}
+
+/// All files of `machines/`.
+pub(crate) fn machines() -> Vec<(PathBuf, MachineFile)> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../machines");
+    let mut paths: Vec<PathBuf> = std::fs::read_dir(folder)
+        .unwrap()
+        .map(|entry| entry.unwrap().path())
+        .filter(|path| path.extension().is_some_and(|e| e == "toml"))
+        .collect();
+    paths.sort();
+    assert!(paths.len() >= 5, "{paths:?}");
+    let read = |path: PathBuf| {
+        let file = reader::read(&path).unwrap_or_else(|e| panic!("{}: {e:?}", path.display()));
+        (path, file)
+    };
+    paths.into_iter().map(read).collect()
+}
