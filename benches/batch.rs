@@ -292,8 +292,8 @@ fn table<F: Format>(
 ) -> Result<(), Error> {
     let set = curves::LOAD;
     let request = Request::new(share * peak)
-        .with_omega(OMEGA)
-        .with_alpha(ALPHA)
+        .with_max_speed(OMEGA)
+        .with_max_acceleration(ALPHA)
         .with_max_cells(MOST);
     let mut scratch = vec![0.0; scratch_len(MOST, set)];
     let mut words = vec![F::Word::default(); words_len::<F>(MOST, set)];
@@ -330,8 +330,8 @@ where
     const SET: Set = curves::LOAD | terms::SYMMETRIC;
     const MOST: u32 = 16;
     let request = Request::new(share * peak)
-        .with_omega(OMEGA)
-        .with_alpha(ALPHA)
+        .with_max_speed(OMEGA)
+        .with_max_acceleration(ALPHA)
         .with_max_cells(MOST);
     let mut scratch = [0.0; harmonic::scratch_len(MOST)];
     let mut words = vec![T::default(); words_len::<Harmonic<T>>(MOST, SET)];

@@ -51,8 +51,8 @@ fn main() -> Result<(), Error> {
     let mut single = [0.0f32; words_len::<Harmonic<f64>>(16, SET)];
     for torque_error in [1e-3, 1e-5, 1e-7] {
         let request = Request::new(torque_error)
-            .with_omega(60.0)
-            .with_alpha(400.0)
+            .with_max_speed(60.0)
+            .with_max_acceleration(400.0)
             .with_max_cells(16);
         let found = fit(&machine, SET, &request, &mut scratch, &mut words)?;
         let what = format!(
@@ -65,8 +65,8 @@ fn main() -> Result<(), Error> {
         });
     }
     let request = Request::new(1e-4)
-        .with_omega(60.0)
-        .with_alpha(400.0)
+        .with_max_speed(60.0)
+        .with_max_acceleration(400.0)
         .with_max_cells(16);
     let found = fit(&machine, SET, &request, &mut scratch, &mut single)?;
     let single = single.get(..found.words).unwrap_or_default();

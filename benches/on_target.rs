@@ -33,7 +33,7 @@ mod target {
     use cortex_m_rt::entry;
     use cortex_m_semihosting::{debug, hprintln};
     use jred::axis::plan::{Errors, Knot, encode, image_len};
-    use jred::axis::{Follower, Plan, Rate};
+    use jred::axis::{Override, Plan, PlanFollower};
     use jred::duty::{Curve, Limits, Meter, Window};
     use jred::machine::Mechanism;
     use jred::tabulate::{fill, scratch_len};
@@ -200,11 +200,11 @@ mod target {
             }
         });
         report("plan-at", count / TICKS);
-        let mut follower = Follower::new(plan, 0.001, 2.0, &model).ok()?;
+        let mut follower = PlanFollower::new(plan, 0.001, 2.0, &model).ok()?;
         follower.start();
         let count = counter.count(|| {
             for k in 0..TICKS {
-                black_box(follower.next(black_box(Rate::percent(k & 128))));
+                black_box(follower.next(black_box(Override::percent(k & 128))));
             }
         });
         report("plan-next", count / TICKS);

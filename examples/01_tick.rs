@@ -32,8 +32,8 @@ fn run() -> Result<(), Failure> {
     );
     println!(
         "up to {} mrad/s and {} mrad/s2",
-        milli(validity.omega),
-        milli(validity.alpha)
+        milli(validity.max_speed),
+        milli(validity.max_acceleration)
     );
 
     // Every tick: a phase from the encoder's count, then one call.

@@ -43,8 +43,8 @@ const CELLS: u32 = 40;
 const WORDS: usize = words_len::<Spline<f32>>(CELLS, curves::LOAD);
 /// Its requirements.
 const DESIGN: Request = Request::new(0.02)
-    .with_omega(12.0)
-    .with_alpha(60.0)
+    .with_max_speed(12.0)
+    .with_max_acceleration(60.0)
     .with_max_cells(CELLS);
 
 type Words = [f32; WORDS];

@@ -15,8 +15,8 @@ mod support;
 use core::f32::consts::TAU;
 
 use jred::axis::{
-    Checked, Counter, Counting, Encoder, FeedForward, Gearbox, Limited, Motion, Mounting, Period,
-    Ramp, TorqueLimits, Tracker, Transmission,
+    CheckedTorque, Counter, Counting, Encoder, FeedForward, FrictionRamp, Gearbox, LimitedTorque,
+    MotionState, Mounting, Period, TorqueLimits, Tracker, Transmission,
 };
 use jred::machine::motion::{Law, Move};
 use jred::{Image, Model, Set, Spline, curves, include_image};
@@ -30,7 +30,7 @@ const ENCODER: Encoder = match Encoder::new(Mounting {
     counts_per_turn: 10_000,
     gear: [20, 1],
     counting: Counting::Down,
-    home: 1234,
+    homing_offset: 1234,
 }) {
     Ok(encoder) => encoder,
     Err(_) => panic!("the encoder's figures"),
@@ -56,7 +56,7 @@ struct Axis<'a> {
     tracker: Tracker,
     tick: Period<f32>,
     lead: Period<f32>,
-    ramp: Ramp<f32>,
+    ramp: FrictionRamp<f32>,
     press: FeedForward<'a, Spline<f32>, PRESS>,
     gearbox: Transmission<f32>,
     limits: TorqueLimits<f32>,
@@ -66,8 +66,8 @@ struct Axis<'a> {
 struct Found {
     count: i64,
     speed: f32,
-    needed: Checked<f32>,
-    motor: Limited<f32>,
+    needed: CheckedTorque<f32>,
+    motor: LimitedTorque<f32>,
 }
 
 impl<'a> Axis<'a> {
@@ -82,7 +82,7 @@ impl<'a> Axis<'a> {
                 .at(ENCODER.phase_wide(START)),
             tick: Period::new(TICK, &model).map_err(wrong)?,
             lead: Period::new(LEAD, &model).map_err(wrong)?,
-            ramp: Ramp::new(0.05, &model).map_err(wrong)?,
+            ramp: FrictionRamp::new(0.05, &model).map_err(wrong)?,
             press: FeedForward::new(model, image.validity()),
             gearbox: Transmission::new(GEARBOX, &model).map_err(wrong)?,
             limits: TorqueLimits::new(-6.0, 6.0).map_err(wrong)?,
@@ -95,13 +95,13 @@ impl<'a> Axis<'a> {
         let count = self.counter.extend(register.into());
         let tracked = self.tracker.update(ENCODER.phase_wide(count));
         let speed = self.tick.omega(tracked).value;
-        let reference = Motion {
+        let reference = MotionState {
             phase: tracked.phase,
             omega,
             alpha,
         };
         // Position of the machine when the torque acts; friction by the sign of the set-point.
-        let measured = Motion {
+        let measured = MotionState {
             omega: speed,
             ..reference
         };

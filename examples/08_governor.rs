@@ -13,7 +13,8 @@
 mod support;
 
 use jred::axis::{
-    AxisError, Braking, Direction, Envelope, Governor, Limit, Limits, LookAhead, Motion, Period,
+    AxisError, Braking, Direction, Envelope, Governor, Limit, Limits, LookAhead, MotionState,
+    Period,
 };
 use jred::{Image, Model, Phase, Q31, Set, Speed, Spline, curves, include_image};
 use support::{Failure, milli, println, program};
@@ -75,7 +76,7 @@ fn run() -> Result<(), Failure> {
     let governor = Governor::one_way(&ahead);
 
     let fast = scale.omega(20.0).value;
-    let mut motion = Motion::default();
+    let mut motion = MotionState::default();
     let (mut most, mut least, mut checksum) = (0.0_f32, 0.0_f32, 0_u32);
     let mut promised = Phase::default();
     println!("tick     at     speed    torque  limited by       stops at");
@@ -83,7 +84,7 @@ fn run() -> Result<(), Failure> {
         let commanded = if k < STOP { fast } else { Speed::default() };
         let governed = governor.govern(&limits, &press, &motion, commanded);
         motion.alpha = governed.alpha;
-        let torque = press.torque_with(motion.phase, motion.omega, motion.alpha, governed.sliding);
+        let torque = press.torque_with(motion.phase, motion.omega, motion.alpha, governed.friction);
         let stop = ahead.stop(motion.phase, motion.omega);
         if k == STOP {
             promised = stop.phase;

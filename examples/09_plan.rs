@@ -19,8 +19,8 @@
 mod support;
 
 use jred::axis::plan::PlanError;
-use jred::axis::{FeedForward, Follower, Plan, Rate, Stage};
-use jred::number::Sliding;
+use jred::axis::{FeedForward, Override, Plan, PlanFollower, PlanState};
+use jred::number::FrictionSign;
 use jred::{Image, Model, Phase, Q31, Set, Spline, curves, include_image};
 use support::{Failure, milli, println, program};
 
@@ -34,8 +34,8 @@ const RAMP: f32 = 0.13;
 const TICKS: u16 = 2000;
 
 /// The operator's command.
-fn commanded(tick: u16) -> Rate {
-    Rate::percent(match tick {
+fn commanded(tick: u16) -> Override {
+    Override::percent(match tick {
         330..600 => 40,
         600..800 => 0,
         _ => 100,
@@ -46,12 +46,12 @@ fn tenths(phase: Phase) -> u32 {
     ((u64::from(phase.to_bits()) * 3600) >> 32) as u32
 }
 
-const fn name(stage: Stage) -> &'static str {
+const fn name(stage: PlanState) -> &'static str {
     match stage {
-        Stage::Waiting => "waiting",
-        Stage::Running => "running",
-        Stage::Held => "held",
-        Stage::Done => "done",
+        PlanState::Waiting => "waiting",
+        PlanState::Running => "running",
+        PlanState::Held => "held",
+        PlanState::Done => "done",
     }
 }
 
@@ -63,7 +63,7 @@ fn run() -> Result<(), Failure> {
         .and_then(|plan| plan.of_machine(image.machine()))
         .map_err(wrong)?;
     let feed_forward = FeedForward::new(press, image.validity());
-    let mut follower = Follower::new(plan, TICK, RAMP, &press).map_err(wrong)?;
+    let mut follower = PlanFollower::new(plan, TICK, RAMP, &press).map_err(wrong)?;
     let scale = image.scale();
     println!(
         "{} rows, {} ms, up to {} mrad/s",
@@ -77,7 +77,7 @@ fn run() -> Result<(), Failure> {
     for tick in 0..TICKS {
         let planned = follower.next(commanded(tick));
         let motion = planned.motion;
-        let needed = feed_forward.at_reference(motion, Sliding::Against(motion.omega));
+        let needed = feed_forward.at_reference(motion, FrictionSign::OfSpeed(motion.omega));
         if planned.limited || !needed.status.is_valid() {
             return Err("a motion that the table was not made for".into());
         }
@@ -85,13 +85,13 @@ fn run() -> Result<(), Failure> {
         most = most.max(torque.abs());
         checksum = (checksum ^ motion.phase.to_bits() ^ needed.torque.to_bits().cast_unsigned())
             .wrapping_mul(16_777_619);
-        let ended = planned.stage == Stage::Done;
+        let ended = planned.state == PlanState::Done;
         if tick % 50 == 0 || ended {
             let (turns, tenths) = (planned.turns, tenths(motion.phase));
             println!(
                 "{:4}   {:7} {} turn {:3}.{} deg {:6} mrad/s {:4} N m",
                 tick,
-                name(planned.stage),
+                name(planned.state),
                 turns,
                 tenths / 10,
                 tenths % 10,

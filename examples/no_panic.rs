@@ -25,7 +25,7 @@ use jred::duty::{Curve, Limits, Meter, Verdicts, Window};
 use jred::harmonic::{Coefficient, terms};
 use jred::image::{encode, identify, image_len};
 use jred::machine::motion::{Law, Move};
-use jred::number::{Bases, Sliding};
+use jred::number::{Bases, FrictionSign};
 use jred::table::{AccelerationOf, Format, Shape, SpeedOf, TorqueOf, Usage, words_len};
 use jred::{
     AnyModel, Cubic, Domain, Harmonic, Image, ImageError, Model, Outcome, Phase, Pieces, Q15, Q31,
@@ -209,13 +209,13 @@ fn every_table<F: Format>(image: &Image<'_>, table: Table<'_, F>) {
 fn every_term(bytes: &'static [u8]) -> Result<(), ImageError> {
     let image = Image::from_bytes(black_box(bytes))?;
     let any = Image::any_model::<Spline<f32>>(&image)?;
-    let (phase, [omega, alpha], sliding) =
-        black_box((Phase::default(), [0.0; 2], Sliding::Share(0.5)));
-    black_box(AnyModel::torque_with(&any, phase, omega, alpha, sliding));
-    black_box(AnyModel::contributions(&any, phase, omega, alpha, sliding));
+    let (phase, [omega, alpha], friction) =
+        black_box((Phase::default(), [0.0; 2], FrictionSign::Scaled(0.5)));
+    black_box(AnyModel::torque_with(&any, phase, omega, alpha, friction));
+    black_box(AnyModel::torque_terms(&any, phase, omega, alpha, friction));
     let torques = [omega, alpha];
     black_box(AnyModel::acceleration_range_with(
-        &any, phase, omega, sliding, torques,
+        &any, phase, omega, friction, torques,
     ));
     black_box(Image::is_of::<Spline<f32>, PRESS>(black_box(&[0; 30])));
     black_box(Image::bytes_are_of::<Spline<f32>, PRESS>(black_box(bytes)));

@@ -74,7 +74,7 @@
 //!
 //!     // The smallest f32 table whose drive torque is right to 0.01 N·m up to 60 rad/s and 400 rad/s².
 //!     const MOST: u32 = 128;
-//!     let request = Request::new(0.01).with_omega(60.0).with_alpha(400.0).with_max_cells(MOST);
+//!     let request = Request::new(0.01).with_max_speed(60.0).with_max_acceleration(400.0).with_max_cells(MOST);
 //!     let mut scratch = [0.0; scratch_len(MOST, curves::LOAD)];
 //!     let mut words = [0.0; words_len::<Spline<f32>>(MOST, curves::LOAD)];
 //!     let found = tabulate::<Spline<f32>>(&machine, curves::LOAD, &request, &Scale::SI, &mut scratch, &mut words)?;
@@ -158,7 +158,7 @@ pub use number::quantity::{Acceleration, MotorTorque, Speed, Torque};
 pub use number::scalar::Outcome;
 pub use number::scale::Scale;
 pub use tick::{
-    AccelerationRange, AnyModel, Contributions, Image, ImageError, MachineUnits, Model, Pieces,
+    AccelerationRange, AnyModel, Image, ImageError, MachineUnits, Model, Pieces, TorqueTerms,
     Validity, duty,
 };
 
@@ -200,7 +200,7 @@ pub mod table {
 ///
 ///     const MOST: u32 = 16;
 ///     const SET: Set = curves::LOAD | terms::SYMMETRIC;
-///     let request = Request::new(0.001).with_omega(12.0).with_alpha(60.0).with_max_cells(MOST);
+///     let request = Request::new(0.001).with_max_speed(12.0).with_max_acceleration(60.0).with_max_cells(MOST);
 ///     let (mut scratch, mut words) = ([0.0; scratch_len(MOST)], [0.0; words_len::<Harmonic<f32>>(MOST, SET)]);
 ///     let found = fit(&machine, SET, &request, &mut scratch, &mut words)?;
 ///     assert!(found.torque_error <= 0.001 && found.bytes <= 80);

@@ -59,8 +59,8 @@ fn press() -> Machine<SliderCrank> {
 /// Its harmonics, with b = 0.2 N·m·s/rad and c = 3 N·m.
 fn truth() -> [f64; WORDS] {
     let request = Request::new(1e-6)
-        .with_omega(15.0)
-        .with_alpha(200.0)
+        .with_max_speed(15.0)
+        .with_max_acceleration(200.0)
         .with_max_cells(10);
     let mut scratch = vec![0.0; scratch_len(10)];
     let mut words = [0.0; WORDS];

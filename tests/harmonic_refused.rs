@@ -98,8 +98,11 @@ fn bad_requests_are_named() {
     assert_eq!(terms_of(&stroke, curves::ALL).unwrap_err(), error);
     for (bad, what) in [
         (request(1.0, 8).with_torque_error(0.0), "torque error"),
-        (request(1.0, 8).with_omega(-1.0), "largest speed"),
-        (request(1.0, 8).with_alpha(0.0), "largest acceleration"),
+        (request(1.0, 8).with_max_speed(-1.0), "largest speed"),
+        (
+            request(1.0, 8).with_max_acceleration(0.0),
+            "largest acceleration",
+        ),
     ] {
         let error = fitted::<f64, { terms::INERTIA_COS }>(&machine, &bad).unwrap_err();
         assert!(
@@ -107,7 +110,7 @@ fn bad_requests_are_named() {
             "{error:?}"
         );
     }
-    let nan = request(1.0, 8).with_alpha(f64::NAN);
+    let nan = request(1.0, 8).with_max_acceleration(f64::NAN);
     assert_eq!(
         fitted::<f64, { terms::INERTIA_COS }>(&machine, &nan).unwrap_err(),
         Error::Range(RangeError::NotFinite("largest acceleration"))

@@ -57,8 +57,8 @@ fn known_crc_and_layout() {
     found.cells = 12;
     found.torque_error = 0.01;
     let request = Request::new(0.02)
-        .with_omega(10.0)
-        .with_alpha(100.0)
+        .with_max_speed(10.0)
+        .with_max_acceleration(100.0)
         .with_max_cells(64);
     assert_eq!(found.validity(&request), VALIDITY);
 }

@@ -5,7 +5,7 @@ use crate::support::value;
 use jred::axis::{FeedForward, ImageSlot};
 use jred::harmonic::terms;
 use jred::image::{HEADER_WORDS, ImageCheck, encode, image_len};
-use jred::number::{Quantity, Sliding};
+use jred::number::{FrictionSign, Quantity};
 use jred::table::{Format, Shape, SpeedOf};
 use jred::{
     Cubic, Harmonic, Image, ImageError, Phase, Q31, Quadratic, Rows16, Set, Spline, Spline16,
@@ -102,7 +102,7 @@ fn torques<F: Format, const SET: Set>(found: &FeedForward<'_, F, SET>) -> Vec<(f
         let omega = scale.omega(0.1 * k as f32 - 5.0).value;
         let alpha = scale.alpha(k as f32 - 50.0).value;
         let model = found.model();
-        let torque = model.torque_with(phase, omega, alpha, Sliding::Against(omega));
+        let torque = model.torque_with(phase, omega, alpha, FrictionSign::OfSpeed(omega));
         let back = model.acceleration(phase, omega, torque).value;
         (value(torque), value(back))
     };

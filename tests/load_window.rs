@@ -87,8 +87,8 @@ fn a_narrow_load_is_not_stepped_over() {
         .abs();
     assert!(height > 100.0, "{height}");
     let request = Request::new(1.0)
-        .with_omega(10.0)
-        .with_alpha(10.0)
+        .with_max_speed(10.0)
+        .with_max_acceleration(10.0)
         .with_max_cells(CELLS);
     let mut scratch = vec![0.0; scratch_len(CELLS, SET)];
     let mut words = vec![0.0f64; words_len::<Spline<f64>>(CELLS, SET)];
@@ -154,8 +154,8 @@ fn a_narrow_load_does_not_loosen_the_bound() {
     let force = Load::new(SliderCrank::SLIDER, Action::Force([-0.01, 0.0])).unwrap();
     let machine = press().with_load(force.within(window)).unwrap();
     let request = Request::new(1.0)
-        .with_omega(0.1)
-        .with_alpha(0.1)
+        .with_max_speed(0.1)
+        .with_max_acceleration(0.1)
         .with_max_cells(CELLS);
     let mut scratch = vec![0.0; scratch_len(CELLS, SET)];
     let mut words = vec![0.0f64; words_len::<Spline<f64>>(CELLS, SET)];

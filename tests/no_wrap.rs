@@ -121,8 +121,8 @@ fn a_search_without_a_limit_ends() {
         }
     }
     let request = Request::new(1e-14)
-        .with_omega(1.0)
-        .with_alpha(1.0)
+        .with_max_speed(1.0)
+        .with_max_acceleration(1.0)
         .with_max_cells(u32::MAX);
     let (mut scratch, mut words) = (vec![0.0; 3000], vec![0.0f32; 3000]);
     let set = curves::LOAD;

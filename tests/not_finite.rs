@@ -346,8 +346,8 @@ fn scale(torque: f64, speed: f64, inertia: f64) -> Result<(), Error> {
 
 fn request(torque_error: f64, omega: f64, alpha: f64) -> Result<(), Error> {
     let request = Request::new(torque_error)
-        .with_omega(omega)
-        .with_alpha(alpha)
+        .with_max_speed(omega)
+        .with_max_acceleration(alpha)
         .with_max_cells(8);
     tabulate::<Spline<f32>>(
         &Wave::bare(1.0, 0.1),

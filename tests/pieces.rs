@@ -141,8 +141,8 @@ fn pieces_of<F: Format>(
 ) -> Vec<Rows<F>> {
     const MOST: u32 = 512;
     let request = Request::new(torque_error)
-        .with_omega(AT[0])
-        .with_alpha(AT[1])
+        .with_max_speed(AT[0])
+        .with_max_acceleration(AT[1])
         .with_max_cells(MOST);
     let ends = breaks.iter().skip(1).copied().chain([breaks[0] + TAU]);
     let pieces = breaks.iter().zip(ends).map(|(from, to)| {

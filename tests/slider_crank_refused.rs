@@ -230,8 +230,8 @@ fn damaged_coefficients_are_refused_or_ticked() {
     let (words, set) = words_of(&press()).unwrap();
     let model = model_of(&words, set).unwrap();
     let validity = Validity {
-        omega: 60.0,
-        alpha: 400.0,
+        max_speed: 60.0,
+        max_acceleration: 400.0,
         torque_error: 0.01,
     };
     let (mut accepted, mut refused) = (0, 0);

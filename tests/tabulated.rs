@@ -14,8 +14,8 @@ use jred::{
 
 fn request(torque_error: f64, max_cells: u32) -> Request {
     Request::new(torque_error)
-        .with_omega(8.0)
-        .with_alpha(20.0)
+        .with_max_speed(8.0)
+        .with_max_acceleration(20.0)
         .with_max_cells(max_cells)
 }
 

@@ -3,7 +3,7 @@
 use super::error::{positive, within};
 use super::{AxisError, Direction};
 use crate::curve::{AccelerationOf, Format, Set, SpeedOf};
-use crate::number::{Number, Quantity as _, Real as _, Sliding};
+use crate::number::{FrictionSign, Number, Quantity as _, Real as _};
 use crate::{Domain, Model, Phase};
 
 /// The drive's braking ability.
@@ -109,7 +109,7 @@ fn place<F: Format, const SET: Set>(
     // 1.0, the greatest number that a model takes in fixed point.
     let one = F::Number::per_unit(1.0, 1.0).value;
     let (omega, alpha) = (SpeedOf::<F>::of(one), AccelerationOf::<F>::of(one));
-    let terms = model.contributions(phase, omega, alpha, Sliding::Against(omega));
+    let terms = model.torque_terms(phase, omega, alpha, FrictionSign::OfSpeed(omega));
     let load = terms.load.to_si(1.0);
     let resistance = match way.direction {
         Direction::Forward => load,
@@ -121,7 +121,7 @@ fn place<F: Format, const SET: Set>(
         resistance.min(0.0)
     };
     let place = Place {
-        inertial: terms.inertial.to_si(1.0) / one.si(1.0),
+        inertial: terms.acceleration.to_si(1.0) / one.si(1.0),
         braking: braking.torque / model.table().scale().torque() + helping,
     };
     if place.braking > 0.0 {

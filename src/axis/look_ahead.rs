@@ -5,7 +5,7 @@ use core::marker::PhantomData;
 use super::braking::{Braking, Course, ONE, Way};
 use super::envelope::in_range;
 use super::error::{positive, within};
-use super::{AxisError, Motion, Period};
+use super::{AxisError, MotionState, Period};
 use crate::curve::{Format, Set};
 use crate::number::{Factor, Number, Quantity as _};
 use crate::{Model, Phase};
@@ -195,7 +195,7 @@ impl<N: Number, const NODES: usize> LookAhead<N, NODES> {
     #[inline]
     pub(super) fn greatest(
         &self,
-        motion: &Motion<N>,
+        motion: &MotionState<N>,
         [least, most]: [N::Acceleration; 2],
     ) -> (N::Acceleration, bool) {
         let (k, part) = self.way.cell(motion.phase);

@@ -194,10 +194,10 @@ pub(super) fn torque_error<F: Format>(
 /// Bound of the difference between the drive torques of a table and of the machine within the range of the request, as in the [module](super)'s head.
 pub fn torque_between(request: &Request, read: &CurveValues, exact: &Reduction) -> f64 {
     [
-        (read.inertia - exact.inertia) * request.alpha,
-        0.5 * (read.inertia_slope - exact.inertia_slope) * request.omega * request.omega,
+        (read.inertia - exact.inertia) * request.max_acceleration,
+        0.5 * (read.inertia_slope - exact.inertia_slope) * request.max_speed * request.max_speed,
         read.load - exact.load_torque(),
-        (read.viscous - exact.viscous) * request.omega,
+        (read.viscous - exact.viscous) * request.max_speed,
         read.coulomb - exact.coulomb,
     ]
     .iter()

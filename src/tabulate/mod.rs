@@ -48,14 +48,14 @@ pub const EXHAUSTIVE: u32 = 128;
 ///
 /// ```
 /// # use jred::tabulate::Request;
-/// let request = Request::new(0.01).with_omega(60.0).with_alpha(400.0).with_max_cells(128);
+/// let request = Request::new(0.01).with_max_speed(60.0).with_max_acceleration(400.0).with_max_cells(128);
 /// ```
 ///
 /// Later versions may add fields, so that a program cannot list them:
 ///
 /// ```compile_fail,E0639
 /// # use jred::tabulate::Request;
-/// let request = Request { torque_error: 0.01, omega: 60.0, alpha: 400.0, max_cells: 128 };
+/// let request = Request { torque_error: 0.01, max_speed: 60.0, max_acceleration: 400.0, max_cells: 128 };
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
@@ -63,22 +63,22 @@ pub struct Request {
     /// Largest error of the drive torque (N·m).
     pub torque_error: f64,
     /// Largest speed (rad/s).
-    pub omega: f64,
+    pub max_speed: f64,
     /// Largest acceleration (rad/s²).
-    pub alpha: f64,
+    pub max_acceleration: f64,
     /// Greatest number of cells or harmonics to try.
     pub max_cells: u32,
 }
 
 impl Request {
-    /// An error of the drive torque of at most `torque_error` (N·m). Add the range of the motion: [`with_omega`](Self::with_omega),
-    /// [`with_alpha`](Self::with_alpha).
+    /// An error of the drive torque of at most `torque_error` (N·m). Add the range of the motion: [`with_max_speed`](Self::with_max_speed),
+    /// [`with_max_acceleration`](Self::with_max_acceleration).
     #[must_use]
     pub const fn new(torque_error: f64) -> Self {
         Self {
             torque_error,
-            omega: 0.0,
-            alpha: 0.0,
+            max_speed: 0.0,
+            max_acceleration: 0.0,
             max_cells: MAX_CELLS,
         }
     }
@@ -92,16 +92,19 @@ impl Request {
         }
     }
 
-    /// Sets the largest speed `omega` (rad/s).
+    /// Sets the largest speed (rad/s).
     #[must_use]
-    pub const fn with_omega(self, omega: f64) -> Self {
-        Self { omega, ..self }
+    pub const fn with_max_speed(self, max_speed: f64) -> Self {
+        Self { max_speed, ..self }
     }
 
-    /// Sets the largest acceleration `alpha` (rad/s²).
+    /// Sets the largest acceleration (rad/s²).
     #[must_use]
-    pub const fn with_alpha(self, alpha: f64) -> Self {
-        Self { alpha, ..self }
+    pub const fn with_max_acceleration(self, max_acceleration: f64) -> Self {
+        Self {
+            max_acceleration,
+            ..self
+        }
     }
 
     /// Sets the greatest number of cells or harmonics.
@@ -117,8 +120,8 @@ impl Request {
 
     pub(crate) fn check(&self) -> Result<(), Error> {
         positive("torque error", self.torque_error)?;
-        positive("largest speed", self.omega)?;
-        positive("largest acceleration", self.alpha)?;
+        positive("largest speed", self.max_speed)?;
+        positive("largest acceleration", self.max_acceleration)?;
         Ok(())
     }
 }
@@ -152,8 +155,8 @@ impl Tabulated {
     #[must_use]
     pub fn validity(&self, request: &Request) -> Validity {
         Validity {
-            omega: request.omega as f32,
-            alpha: request.alpha as f32,
+            max_speed: request.max_speed as f32,
+            max_acceleration: request.max_acceleration as f32,
             torque_error: self.torque_error as f32,
         }
     }

@@ -100,8 +100,8 @@ mod tests {
     /// checks at all places of sizes beyond [`EXHAUSTIVE`].
     fn found(near: u32, all: u32, max_cells: u32) -> (Option<u32>, u32) {
         let request = Request::new(1.0)
-            .with_omega(1.0)
-            .with_alpha(1.0)
+            .with_max_speed(1.0)
+            .with_max_acceleration(1.0)
             .with_max_cells(max_cells);
         let mut looks = 0;
         let found = search_near(&request, |cells, look| {

@@ -43,7 +43,7 @@ use crate::{AccelerationRange, Domain, Model, Phase, Scale};
 /// fn main() -> Result<(), Error> {
 ///     const SET: Set = curves::LOAD;
 ///     const MOST: u32 = 16;
-///     let request = Request::new(0.001).with_omega(20.0).with_alpha(100.0).with_max_cells(MOST);
+///     let request = Request::new(0.001).with_max_speed(20.0).with_max_acceleration(100.0).with_max_cells(MOST);
 ///     let mut scratch = [0.0; scratch_len(MOST, SET)];
 ///     let mut words = [[0.0f32; 2 * (MOST as usize + 3)]; 2];
 ///     let [on, off] = words.each_mut();

@@ -93,8 +93,8 @@ fn tables_that_cannot_be_made_say_why() {
         &["holds 18", "19"],
     );
     let request = Request::new(1e-9)
-        .with_omega(10.0)
-        .with_alpha(10.0)
+        .with_max_speed(10.0)
+        .with_max_acceleration(10.0)
         .with_max_cells(16);
     let parts = ["1e-9", "16 cells reach", "allow a larger error"];
     let error = says(
@@ -107,8 +107,8 @@ fn tables_that_cannot_be_made_say_why() {
     assert!(reached > 1e-9 && reached < 1.0);
     for [torque_error, omega, alpha] in [[0.0, 1.0, 1.0], [1.0, -1.0, 1.0], [1.0, 1.0, 0.0]] {
         let bad = Request::new(torque_error)
-            .with_omega(omega)
-            .with_alpha(alpha)
+            .with_max_speed(omega)
+            .with_max_acceleration(alpha)
             .with_max_cells(16);
         let refused =
             tabulate::<Spline<f32>>(&wave, 0, &bad, &Scale::SI, &mut [0.0; 38], &mut rows);

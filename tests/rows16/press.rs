@@ -17,8 +17,8 @@ const SET: Set = curves::LOAD;
 
 fn request(torque_error: f64) -> Request {
     Request::new(torque_error)
-        .with_omega(OMEGA)
-        .with_alpha(ALPHA)
+        .with_max_speed(OMEGA)
+        .with_max_acceleration(ALPHA)
         .with_max_cells(1024)
 }
 

@@ -266,8 +266,8 @@ fn buffers_and_requests() {
         );
     }
     let request = Request::new(0.0)
-        .with_omega(10.0)
-        .with_alpha(20.0)
+        .with_max_speed(10.0)
+        .with_max_acceleration(20.0)
         .with_max_cells(40);
     let (mut scratch, mut words) = (vec![0.0; scratch], vec![0; words]);
     let error = tabulate::<Rows16>(&wave, SET, &request, &scale, &mut scratch, &mut words);

@@ -119,8 +119,8 @@ pub(crate) const ALPHA: f64 = 400.0;
 
 pub(crate) fn request(torque_error: f64, max_cells: u32) -> Request {
     Request::new(torque_error)
-        .with_omega(OMEGA)
-        .with_alpha(ALPHA)
+        .with_max_speed(OMEGA)
+        .with_max_acceleration(ALPHA)
         .with_max_cells(max_cells)
 }
 

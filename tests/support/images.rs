@@ -28,8 +28,8 @@ pub(crate) fn sealed(mut image: Vec<u32>) -> Vec<u32> {
 }
 
 pub(crate) const VALIDITY: Validity = Validity {
-    omega: 10.0,
-    alpha: 100.0,
+    max_speed: 10.0,
+    max_acceleration: 100.0,
     torque_error: 0.01,
 };
 

@@ -93,7 +93,7 @@ fn encoded<F: Format>(table: &Table<'_, F>) -> Result<Words> {
 
 /// Unused here.
 const VALIDITY: Validity = Validity {
-    omega: OMEGA as f32,
-    alpha: ALPHA as f32,
+    max_speed: OMEGA as f32,
+    max_acceleration: ALPHA as f32,
     torque_error: 1.0,
 };

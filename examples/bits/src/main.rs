@@ -17,7 +17,7 @@
 mod support;
 
 use jred::axis::plan::PlanError;
-use jred::axis::{Follower, Plan, Rate};
+use jred::axis::{Override, Plan, PlanFollower};
 use jred::harmonic::terms;
 use jred::number::{Number, Quantity};
 use jred::table::Format;
@@ -177,13 +177,13 @@ fn of_plan<F: Format<Number: Word>, const SET: Set>(
     let model: Model<'_, F, SET> = Image::from_bytes(image)?.model()?;
     let plan = include_image!("../../data/press_plan.jred");
     let plan = Plan::from_bytes(plan, &model).map_err(wrong)?;
-    let follower = Follower::new(plan, 0.000_5, 0.13, &model);
-    let mut follower = follower.and_then(Follower::repeating).map_err(wrong)?;
+    let follower = PlanFollower::new(plan, 0.000_5, 0.13, &model);
+    let mut follower = follower.and_then(PlanFollower::repeating).map_err(wrong)?;
     follower.start();
-    let mut rate = Rate::FULL;
+    let mut rate = Override::FULL;
     while run.ticks < until {
         if run.ticks.is_multiple_of(128) {
-            rate = Rate::percent(run.random() % 128);
+            rate = Override::percent(run.random() % 128);
         }
         let planned = follower.next(rate);
         // Up to half a second, slightly longer than the plan.
@@ -241,10 +241,10 @@ fn ticks<N: Word>(
         let standstill = run.ticks.is_multiple_of(16);
         let omega = match run.random() {
             _ if standstill => N::default(),
-            bits => N::random(bits, validity.omega),
+            bits => N::random(bits, validity.max_speed),
         };
         let omega = Quantity::of(omega);
-        let alpha = Quantity::of(N::random(run.random(), validity.alpha));
+        let alpha = Quantity::of(N::random(run.random(), validity.max_acceleration));
         let needed = torque(phase, omega, alpha);
         let drive = Quantity::of(N::random(run.random(), MOST_TORQUE));
         let gained = acceleration(phase, omega, drive);

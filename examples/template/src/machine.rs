@@ -45,7 +45,7 @@ pub const ENCODER: Encoder = match Encoder::new(Mounting {
     counts_per_turn: COUNTS_PER_TURN,
     gear: GEAR,
     counting: COUNTING,
-    home: HOME,
+    homing_offset: HOME,
 }) {
     Ok(encoder) => encoder,
     Err(_) => panic!("the encoder's figures"), // at compile time

@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-use jred::axis::{AxisError, ImageSlot, Period, Ramp, TorqueLimits, Transmission};
+use jred::axis::{AxisError, ImageSlot, Period, FrictionRamp, TorqueLimits, Transmission};
 use jred::{ImageError, Phase};
 
 use crate::board::RATE;
@@ -23,7 +23,7 @@ pub struct Units {
     /// The largest step of the crank per tick, at the greatest speed of the table's validity.
     pub step: Phase,
     pub lead: Period<Number>,
-    pub ramp: Ramp<Number>,
+    pub ramp: FrictionRamp<Number>,
     pub gearbox: Transmission<Number>,
     pub limits: TorqueLimits<MotorTorque>,
 }
@@ -75,9 +75,9 @@ impl Table {
             [-MOST_TORQUE, MOST_TORQUE].map(|torque| gearbox.to_torque(torque).value);
         self.units = Some(Units {
             tick,
-            step: tick.moved(feed_forward.range().omega()),
+            step: tick.moved(feed_forward.range().max_speed()),
             lead: Period::new(LEAD, press)?,
-            ramp: Ramp::new(FRICTION_RAMP, press)?,
+            ramp: FrictionRamp::new(FRICTION_RAMP, press)?,
             gearbox,
             limits: TorqueLimits::new(least, most)?,
         });

@@ -50,8 +50,8 @@ fn crank(change: impl FnOnce(&mut [f32])) -> Vec<u32> {
     change(&mut words);
     let table = Table::new(&words, Shape::slider_crank(SET)).unwrap();
     let validity = Validity {
-        omega: 30.0,
-        alpha: 200.0,
+        max_speed: 30.0,
+        max_acceleration: 200.0,
         torque_error: 0.01,
     };
     let mut buffer = vec![0; image_len::<SliderCrankForm>(0, SET)];

@@ -15,7 +15,7 @@ pub use encode::{Knot, encode, image_len, with_ramp};
 pub use error::PlanError;
 pub use image::{HEADER_WORDS, VERSION};
 
-use super::{AxisError, Motion};
+use super::{AxisError, MotionState};
 use crate::number::{Factor, Number, Quantity as _, Real as _};
 use crate::{Domain, MachineUnits, Outcome, Phase};
 use image::Header;
@@ -49,8 +49,8 @@ const UNIT: f32 = 1.0 / 4_294_967_296.0;
 /// `a_plan_keeps_the_proven_bounds`), and one unit of position or speed for each shift. The factors to machine units have single precision.
 ///
 /// ```
-/// use jred::axis::{FeedForward, Follower, Plan, Rate, Stage};
-/// use jred::number::Sliding;
+/// use jred::axis::{FeedForward, PlanFollower, Plan, Override, PlanState};
+/// use jred::number::FrictionSign;
 /// use jred::{Image, Model, Set, Spline, curves, include_image};
 ///
 /// const PRESS: Set = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
@@ -61,16 +61,16 @@ const UNIT: f32 = 1.0 / 4_294_967_296.0;
 /// let press: Model<'_, Spline<f32>, PRESS> = image.model()?;
 /// let feed_forward = FeedForward::new(press, image.validity());
 /// let plan = Plan::from_bytes(include_image!("../../../examples/data/press_plan.jred"), &press)?;
-/// let mut follower = Follower::new(plan, 0.001, 0.1, &press)?; // a tick and a change of the rate from 0 to 100 % (s)
+/// let mut follower = PlanFollower::new(plan, 0.001, 0.1, &press)?; // a tick and a change of the rate from 0 to 100 % (s)
 /// follower.start();
 ///
 /// // Every tick.
 /// let mut ticks = 0;
 /// loop {
-///     let planned = follower.next(Rate::FULL);
-///     let needed = feed_forward.at_reference(planned.motion, Sliding::Against(planned.motion.omega));
+///     let planned = follower.next(Override::FULL);
+///     let needed = feed_forward.at_reference(planned.motion, FrictionSign::OfSpeed(planned.motion.omega));
 ///     assert!(needed.status.is_valid());
-///     if planned.stage == Stage::Done {
+///     if planned.state == PlanState::Done {
 ///         break;
 ///     }
 ///     ticks += 1;
@@ -106,7 +106,7 @@ pub struct Errors {
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Place<N: Number> {
     /// Position, speed and acceleration.
-    pub motion: Motion<N>,
+    pub motion: MotionState<N>,
     /// Whole turns; 0 on a stroke. Counted within the plan: each repeat of a plan that advances by whole turns starts with the same turns again.
     pub turns: i32,
 }
@@ -251,7 +251,7 @@ impl<'a, N: Number> Plan<'a, N> {
     /// Position, speed and acceleration at a time after the start (units of 2⁻⁴⁰ s); after the end, position and speed of the end, with
     /// acceleration 0. Flagged if in fixed point a number was limited.
     ///
-    /// For a program's own time, such as the position of a line shaft; [`Follower`](super::Follower) counts ticks.
+    /// For a program's own time, such as the position of a line shaft; [`PlanFollower`](super::PlanFollower) counts ticks.
     #[inline]
     #[must_use]
     pub fn at(&self, time: u64) -> Outcome<Place<N>> {
@@ -315,7 +315,7 @@ impl<'a, N: Number> Plan<'a, N> {
         };
         Outcome {
             value: Place {
-                motion: Motion {
+                motion: MotionState {
                     phase: Phase::from_bits(phase),
                     omega: N::Speed::of(omega.value),
                     alpha: N::Acceleration::of(alpha.value),

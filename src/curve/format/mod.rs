@@ -45,7 +45,7 @@ use super::table::{CellCurves, CurveValues, Table};
 use super::{MAX_CELLS, TableError, Usage};
 use crate::number::error::RangeError;
 use crate::number::spline::MIN_CELLS;
-use crate::number::{Number, Sliding};
+use crate::number::{FrictionSign, Number};
 use crate::{Outcome, Phase, Scale};
 
 /// Words of the image's header for the constants of a table.
@@ -193,17 +193,17 @@ pub trait Format: crate::sealed::Sealed + Copy + core::fmt::Debug + PartialEq + 
         set: Set,
         phase: Phase,
         motion: [Self::Number; 2],
-        sliding: Sliding<Self::Number>,
+        friction: FrictionSign<Self::Number>,
     ) -> Self::Number;
     /// J·α, ½·J′·ω², −load, b·ω and c·sgn ω: the terms of [`torque`](Self::torque).
     #[doc(hidden)]
-    fn contributions(
+    fn torque_terms(
         table: &Table<'_, Self>,
         tick: &Self::Tick<'_>,
         set: Set,
         phase: Phase,
         motion: [Self::Number; 2],
-        sliding: Sliding<Self::Number>,
+        friction: FrictionSign<Self::Number>,
     ) -> [Self::Number; 5];
     /// Forward dynamics for two torques, as [`torque`](Self::torque).
     #[doc(hidden)]
@@ -213,7 +213,7 @@ pub trait Format: crate::sealed::Sealed + Copy + core::fmt::Debug + PartialEq + 
         set: Set,
         phase: Phase,
         omega: Self::Number,
-        sliding: Sliding<Self::Number>,
+        friction: FrictionSign<Self::Number>,
         torques: [Self::Number; 2],
     ) -> [Outcome<Self::Number>; 2];
 }

@@ -22,8 +22,10 @@ use crate::{AnyModel, Domain, Error, Phase, Set, math};
 /// Largest torque of one unit of the k-th harmonic of a curve.
 fn weight(request: &Request, curve: Curve, k: usize) -> f64 {
     match curve {
-        Curve::Inertia => request.alpha + 0.5 * k as f64 * request.omega * request.omega,
-        Curve::Viscous => request.omega,
+        Curve::Inertia => {
+            request.max_acceleration + 0.5 * k as f64 * request.max_speed * request.max_speed
+        }
+        Curve::Viscous => request.max_speed,
         Curve::Load | Curve::Coulomb | Curve::Constant => 1.0,
     }
 }
@@ -134,8 +136,8 @@ where
     Harmonic<T>: Format<Number = T, Word = T, Constants = ()>,
 {
     positive("torque error", request.torque_error)?;
-    positive("largest speed", request.omega)?;
-    positive("largest acceleration", request.alpha)?;
+    positive("largest speed", request.max_speed)?;
+    positive("largest acceleration", request.max_acceleration)?;
     let max = request.max_cells;
     let mut spectrum = spectrum(machine, set, max, scratch)?;
     let (needed, given) = (words_len::<Harmonic<T>>(max, set), words.len());

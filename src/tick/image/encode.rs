@@ -49,8 +49,8 @@ pub fn encode<'b, F: Format>(
         scale.torque().to_bits(),
         scale.speed().to_bits(),
         scale.inertia().to_bits(),
-        validity.omega.to_bits(),
-        validity.alpha.to_bits(),
+        validity.max_speed.to_bits(),
+        validity.max_acceleration.to_bits(),
         validity.torque_error.to_bits(),
     ];
     let constants = F::header(table.constants(), table.set());

@@ -39,9 +39,9 @@ const STROKE: u8 = 1;
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Validity {
     /// Largest speed (rad/s, or m/s).
-    pub omega: f32,
+    pub max_speed: f32,
     /// Largest acceleration (rad/s², or m/s²).
-    pub alpha: f32,
+    pub max_acceleration: f32,
     /// Largest error of the drive torque within these limits (N·m, or N).
     pub torque_error: f32,
 }
@@ -126,11 +126,15 @@ impl<'a> Image<'a> {
             return Err(ImageError::Header(7));
         }
         let validity = Validity {
-            omega: f32::from_bits(omega),
-            alpha: f32::from_bits(alpha),
+            max_speed: f32::from_bits(omega),
+            max_acceleration: f32::from_bits(alpha),
             torque_error: f32::from_bits(torque_error),
         };
-        let limits = [validity.omega, validity.alpha, validity.torque_error];
+        let limits = [
+            validity.max_speed,
+            validity.max_acceleration,
+            validity.torque_error,
+        ];
         if !limits.iter().all(|x| x.is_finite() && *x >= 0.0) {
             return Err(ImageError::Header(10));
         }

@@ -38,7 +38,10 @@ fn blocks(page: &str) -> Vec<Block<'_>> {
 fn words(line: &str) -> Vec<String> {
     let parts = line.split('"').enumerate();
     let words = parts.flat_map(|(k, part)| match k % 2 {
-        0 => part.split_whitespace().map(str::to_owned).collect::<Vec<_>>(),
+        0 => part
+            .split_whitespace()
+            .map(str::to_owned)
+            .collect::<Vec<_>>(),
         _ => vec![part.to_owned()],
     });
     words.collect()
@@ -78,7 +81,9 @@ fn check(page: &Path) -> usize {
         }
         let mut lines = block.lines.iter().copied().peekable();
         while let Some(line) = lines.next() {
-            let command = line.strip_prefix("$ jred ").unwrap_or_else(|| panic!("{line}"));
+            let command = line
+                .strip_prefix("$ jred ")
+                .unwrap_or_else(|| panic!("{line}"));
             let mut shown = Vec::new();
             while let Some(line) = lines.next_if(|line| !line.starts_with("$ ")) {
                 shown.push(line);

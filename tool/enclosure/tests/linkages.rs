@@ -180,7 +180,9 @@ fn a_peak_between_the_places_is_proven_and_not_estimated() {
     let set = curves::LOAD | curves::VISCOUS;
     let made: Made<Spline<f32>> = made(&silent, set, cells, Scale::SI);
     let table = Table::new(&made.words, made.shape).unwrap();
-    let request = Request::new(1.0).with_omega(RANGE[0]).with_alpha(RANGE[1]);
+    let request = Request::new(1.0)
+        .with_max_speed(RANGE[0])
+        .with_max_acceleration(RANGE[1]);
     let estimated = measure(&silent, &table, &request).unwrap();
     let enclosed = Enclosed::new(&machine);
     let proof = proof(&silent, &made, RANGE, &|stretch| enclosed.curves(stretch)).unwrap();

@@ -61,7 +61,9 @@ pub(crate) fn made<F: Format>(
 
 /// The request for a range of speed and acceleration.
 fn request([omega, alpha]: [f64; 2]) -> Request {
-    Request::new(1.0).with_omega(omega).with_alpha(alpha)
+    Request::new(1.0)
+        .with_max_speed(omega)
+        .with_max_acceleration(alpha)
 }
 
 /// Proves a table of a turn.

@@ -47,7 +47,9 @@ fn searched(worst: f64, machine: &impl Reducible, cells: u32, error: impl Fn(u32
 /// The largest error found over the largest at the places, and over the bound; of the smallest of some sizes that is a table.
 fn beyond<F: Format>(machine: &impl Reducible) -> Option<[f64; 2]> {
     let set: Set = curves_in_use(machine, 256).unwrap();
-    let request = Request::new(1.0).with_omega(OMEGA).with_alpha(ALPHA);
+    let request = Request::new(1.0)
+        .with_max_speed(OMEGA)
+        .with_max_acceleration(ALPHA);
     let cells = [24, 96, 384]
         .into_iter()
         .find(|cells| table::<F, _>(machine, set, *cells, |_| ()).is_some())?;

@@ -57,7 +57,9 @@ type Searched = fn(&Machine<AnyMechanism>, &[u32]) -> [f64; 2];
 fn searched<F: Format>(machine: &Machine<AnyMechanism>, words: &[u32]) -> [f64; 2] {
     let image = Image::new(words).unwrap();
     let (table, model) = (image.table::<F>().unwrap(), image.any_model::<F>().unwrap());
-    let request = Request::new(1.0).with_omega(OMEGA).with_alpha(ALPHA);
+    let request = Request::new(1.0)
+        .with_max_speed(OMEGA)
+        .with_max_acceleration(ALPHA);
     let domain = machine.domain();
     let mut random = ChaCha8Rng::seed_from_u64(11);
     let mut most = [0.0_f64; 2];

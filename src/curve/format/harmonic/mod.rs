@@ -36,7 +36,7 @@ use crate::curve::curves::{self, Set};
 use crate::curve::samples::{Sample, Samples};
 use crate::curve::{CurveValues, Shape, Table, TableError, Usage};
 use crate::number::error::RangeError;
-use crate::number::{Kernel, Number, Sliding};
+use crate::number::{FrictionSign, Kernel, Number};
 use crate::{Domain, Outcome, Phase, Scale};
 
 /// Greatest number of harmonics of a series.
@@ -119,10 +119,10 @@ fn with_friction<T: Kernel<Raw = T>>(
     sum: T,
     values: &Values<T>,
     set: Set,
-    sliding: Sliding<T>,
+    friction: FrictionSign<T>,
 ) -> T {
     if Curve::Coulomb.is_in(set) || Curve::Constant.is_in(set) {
-        T::add_sliding(sum, values.coulomb, sliding)
+        T::add_sliding(sum, values.coulomb, friction)
     } else {
         sum
     }
@@ -231,20 +231,20 @@ macro_rules! harmonic {
                 set: Set,
                 phase: Phase,
                 [omega, alpha]: [$number; 2],
-                sliding: Sliding<$number>,
+                friction: FrictionSign<$number>,
             ) -> $number {
                 let values = tick.at(set, phase);
                 values.inertia * alpha
-                    + with_friction(tick.resisting(&values, set, omega), &values, set, sliding)
+                    + with_friction(tick.resisting(&values, set, omega), &values, set, friction)
             }
 
-            fn contributions(
+            fn torque_terms(
                 _: &Table<'_, Self>,
                 tick: &Self::Tick<'_>,
                 set: Set,
                 phase: Phase,
                 [omega, alpha]: [$number; 2],
-                sliding: Sliding<$number>,
+                friction: FrictionSign<$number>,
             ) -> [$number; 5] {
                 let values = tick.at(set, phase);
                 [
@@ -252,7 +252,7 @@ macro_rules! harmonic {
                     tick.velocity(&values, omega),
                     -values.load,
                     values.viscous * omega,
-                    with_friction(0.0, &values, set, sliding),
+                    with_friction(0.0, &values, set, friction),
                 ]
             }
 
@@ -263,12 +263,12 @@ macro_rules! harmonic {
                 set: Set,
                 phase: Phase,
                 omega: $number,
-                sliding: Sliding<$number>,
+                friction: FrictionSign<$number>,
                 torques: [$number; 2],
             ) -> [Outcome<$number>; 2] {
                 let values = tick.at(set, phase);
                 let resisting = tick.resisting(&values, set, omega);
-                let resisting = with_friction(resisting, &values, set, sliding);
+                let resisting = with_friction(resisting, &values, set, friction);
                 // Floating point represents every acceleration.
                 let outcome = |torque| Outcome::exact((torque - resisting) / values.inertia);
                 [outcome(torques[0]), outcome(torques[1])]

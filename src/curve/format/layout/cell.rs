@@ -5,7 +5,7 @@ use crate::Phase;
 use crate::curve::curves::{self, Set, has};
 use crate::curve::format::bases;
 use crate::curve::{CellCurves, Table};
-use crate::number::{Kernel, Ring, Role, Sliding};
+use crate::number::{FrictionSign, Kernel, Ring, Role};
 
 /// One cell's words and the place in it.
 pub(super) struct Cell<'a, L: Layout> {
@@ -92,11 +92,11 @@ impl<'a, L: Layout> Cell<'a, L> {
 
     /// J·α, ½·J′·ω², −load, b·ω and c·sgn ω.
     #[inline(always)]
-    pub(super) fn contributions(
+    pub(super) fn torque_terms(
         &self,
         factor: <L::Number as Kernel>::Factor,
         [omega, alpha]: [L::Number; 2],
-        sliding: Sliding<L::Number>,
+        friction: FrictionSign<L::Number>,
     ) -> [L::Number; 5] {
         let zero = Raw::<L>::default();
         let (inertia, slope) = self.inertia();
@@ -108,7 +108,7 @@ impl<'a, L: Layout> Cell<'a, L> {
             self.curve(Role::Load).map_or(zero, |load| zero - load),
             self.viscous().map_or(zero, speed),
             self.coulomb()
-                .map_or(zero, |c| L::Number::add_sliding(zero, c, sliding)),
+                .map_or(zero, |c| L::Number::add_sliding(zero, c, friction)),
         ]
         .map(L::Number::torque)
     }
@@ -121,9 +121,9 @@ impl<'a, L: Layout> Cell<'a, L> {
 
     /// sum + |c|·sgn ω, if the machine has friction.
     #[inline(always)]
-    pub(super) fn with_friction(&self, sum: Raw<L>, sliding: Sliding<L::Number>) -> Raw<L> {
+    pub(super) fn with_friction(&self, sum: Raw<L>, friction: FrictionSign<L::Number>) -> Raw<L> {
         let coulomb = self.coulomb();
-        coulomb.map_or(sum, |c| L::Number::add_sliding(sum, c, sliding))
+        coulomb.map_or(sum, |c| L::Number::add_sliding(sum, c, friction))
     }
 }
 

@@ -18,7 +18,7 @@ use crate::curve::samples::{Sample, Samples};
 use crate::curve::table::{CellCurves, CurveValues, Table};
 use crate::curve::{MAX_CELLS, TableError, Usage};
 use crate::number::error::RangeError;
-use crate::number::{Kernel, Number, Ring, Role, Scalar, Sliding, fence};
+use crate::number::{FrictionSign, Kernel, Number, Ring, Role, Scalar, fence};
 use crate::{Outcome, Phase, Q31};
 
 /// Constants of a table of polynomials, in addition to its rows; in machine units, zero if absent.
@@ -268,7 +268,7 @@ macro_rules! format {
                 set: Set,
                 phase: Phase,
                 [omega, alpha]: [Self::Number; 2],
-                sliding: Sliding<Self::Number>,
+                friction: FrictionSign<Self::Number>,
             ) -> Self::Number {
                 let Some(cell) = Cell::of(table, &tick.rows, phase, set) else {
                     return beyond();
@@ -282,20 +282,20 @@ macro_rules! format {
                 fence();
                 let sum = cell.with_load(sum);
                 fence();
-                Self::Number::torque(cell.with_friction(sum, sliding))
+                Self::Number::torque(cell.with_friction(sum, friction))
             }
 
-            fn contributions(
+            fn torque_terms(
                 table: &Table<'_, Self>,
                 tick: &Self::Tick<'_>,
                 set: Set,
                 phase: Phase,
                 motion: [Self::Number; 2],
-                sliding: Sliding<Self::Number>,
+                friction: FrictionSign<Self::Number>,
             ) -> [Self::Number; 5] {
                 let cell = Cell::of(table, &tick.rows, phase, set);
                 cell.map_or_else(Default::default, |cell| {
-                    cell.contributions(tick.factor, motion, sliding)
+                    cell.torque_terms(tick.factor, motion, friction)
                 })
             }
 
@@ -306,7 +306,7 @@ macro_rules! format {
                 set: Set,
                 phase: Phase,
                 omega: Self::Number,
-                sliding: Sliding<Self::Number>,
+                friction: FrictionSign<Self::Number>,
                 torques: [Self::Number; 2],
             ) -> [Outcome<Self::Number>; 2] {
                 let Some(cell) = Cell::of(table, &tick.rows, phase, set) else {
@@ -315,7 +315,7 @@ macro_rules! format {
                 let (inertia, slope) = cell.inertia();
                 let resisting =
                     Self::Number::product(cell.speed_coefficient(slope, tick.factor, omega), omega);
-                let resisting = cell.with_friction(cell.with_load(resisting), sliding);
+                let resisting = cell.with_friction(cell.with_load(resisting), friction);
                 let reciprocal = cell.curve(Role::Reciprocal);
                 // Not by `map`: it may become a loop in a function shared by many models, which does not know the set of curves.
                 let [one, other] = torques;

@@ -25,7 +25,7 @@ use super::{CONSTANTS, Format, Row, Size, bases};
 use crate::curve::curves::{self, Set, has};
 use crate::curve::samples::{Sample, Samples};
 use crate::curve::{CellCurves, CurveValues, Table, TableError, Usage};
-use crate::number::Sliding;
+use crate::number::FrictionSign;
 use crate::number::error::RangeError;
 use crate::{Outcome, Phase, Q15};
 
@@ -259,21 +259,21 @@ impl Format for Rows16 {
         set: Set,
         phase: Phase,
         motion: [Q15; 2],
-        sliding: Sliding<Q15>,
+        friction: FrictionSign<Q15>,
     ) -> Q15 {
-        tick.torque(set, phase, motion, sliding)
+        tick.torque(set, phase, motion, friction)
     }
 
-    fn contributions(
+    fn torque_terms(
         table: &Table<'_, Self>,
         tick: &tick::Tick<'_>,
         set: Set,
         phase: Phase,
         motion: [Q15; 2],
-        sliding: Sliding<Q15>,
+        friction: FrictionSign<Q15>,
     ) -> [Q15; 5] {
         let (cell, u) = kernel::locate(phase, table.cells());
-        tick.contributions(set, row_of(table, cell as u32), u, motion, sliding)
+        tick.torque_terms(set, row_of(table, cell as u32), u, motion, friction)
     }
 
     #[inline(always)]
@@ -283,9 +283,9 @@ impl Format for Rows16 {
         set: Set,
         phase: Phase,
         omega: Q15,
-        sliding: Sliding<Q15>,
+        friction: FrictionSign<Q15>,
         torques: [Q15; 2],
     ) -> [Outcome<Q15>; 2] {
-        tick.accelerations(set, phase, omega, sliding, torques)
+        tick.accelerations(set, phase, omega, friction, torques)
     }
 }

@@ -5,7 +5,7 @@ use super::row::{self, Rows};
 use crate::curve::curves::{self, Set, has};
 use crate::curve::format::Runs;
 use crate::curve::{Table, TableError};
-use crate::number::{Outcome, Sliding, fence};
+use crate::number::{FrictionSign, Outcome, fence};
 use crate::{Phase, Q15};
 
 /// Values that a tick reads from a table.
@@ -67,15 +67,15 @@ impl<'a> Tick<'a> {
         set: Set,
         phase: Phase,
         motion: [Q15; 2],
-        sliding: Sliding<Q15>,
+        friction: FrictionSign<Q15>,
     ) -> Q15 {
         let rows = &self.rows;
         match row::length(set) {
-            3 => self.torque_of(rows.a, set, phase, motion, sliding),
-            4 => self.torque_of(rows.b, set, phase, motion, sliding),
-            5 => self.torque_of(rows.c, set, phase, motion, sliding),
-            6 => self.torque_of(rows.d, set, phase, motion, sliding),
-            _ => self.torque_of(rows.e, set, phase, motion, sliding),
+            3 => self.torque_of(rows.a, set, phase, motion, friction),
+            4 => self.torque_of(rows.b, set, phase, motion, friction),
+            5 => self.torque_of(rows.c, set, phase, motion, friction),
+            6 => self.torque_of(rows.d, set, phase, motion, friction),
+            _ => self.torque_of(rows.e, set, phase, motion, friction),
         }
     }
 
@@ -86,7 +86,7 @@ impl<'a> Tick<'a> {
         set: Set,
         phase: Phase,
         [omega, alpha]: [Q15; 2],
-        sliding: Sliding<Q15>,
+        friction: FrictionSign<Q15>,
     ) -> Q15 {
         let (index, u) = kernel::locate(phase, rows.len() as u32);
         let Some(row) = rows.get(index) else {
@@ -98,7 +98,7 @@ impl<'a> Tick<'a> {
             sum.wrapping_add(inertia.wrapping_mul(i32::from(alpha.to_bits())))
         };
         let sum = self.of_speed(set, row, u, omega);
-        let sum = self.with_coulomb(set, sum, row, u, sliding);
+        let sum = self.with_coulomb(set, sum, row, u, friction);
         kernel::torque(Self::with_load(set, of_inertia(sum), row, start, u))
     }
 
@@ -109,16 +109,16 @@ impl<'a> Tick<'a> {
         set: Set,
         phase: Phase,
         omega: Q15,
-        sliding: Sliding<Q15>,
+        friction: FrictionSign<Q15>,
         torques: [Q15; 2],
     ) -> [Outcome<Q15>; 2] {
         let rows = &self.rows;
         match row::length(set) {
-            3 => self.accelerations_of(rows.a, set, phase, omega, sliding, torques),
-            4 => self.accelerations_of(rows.b, set, phase, omega, sliding, torques),
-            5 => self.accelerations_of(rows.c, set, phase, omega, sliding, torques),
-            6 => self.accelerations_of(rows.d, set, phase, omega, sliding, torques),
-            _ => self.accelerations_of(rows.e, set, phase, omega, sliding, torques),
+            3 => self.accelerations_of(rows.a, set, phase, omega, friction, torques),
+            4 => self.accelerations_of(rows.b, set, phase, omega, friction, torques),
+            5 => self.accelerations_of(rows.c, set, phase, omega, friction, torques),
+            6 => self.accelerations_of(rows.d, set, phase, omega, friction, torques),
+            _ => self.accelerations_of(rows.e, set, phase, omega, friction, torques),
         }
     }
 
@@ -129,7 +129,7 @@ impl<'a> Tick<'a> {
         set: Set,
         phase: Phase,
         omega: Q15,
-        sliding: Sliding<Q15>,
+        friction: FrictionSign<Q15>,
         torques: [Q15; 2],
     ) -> [Outcome<Q15>; 2] {
         let (index, u) = kernel::locate(phase, rows.len() as u32);
@@ -144,7 +144,7 @@ impl<'a> Tick<'a> {
             kernel::of_speed_alone(velocity, i32::from(omega.to_bits()))
         } else {
             let resisting = self.of_speed(set, row, u, omega);
-            let resisting = self.with_coulomb(set, resisting, row, u, sliding);
+            let resisting = self.with_coulomb(set, resisting, row, u, friction);
             Self::with_load(set, resisting, row, start, u) >> 16
         };
         let inertia = if has(set, curves::RECIPROCAL) {
@@ -178,20 +178,20 @@ impl<'a> Tick<'a> {
     }
 
     /// J·α, ½·J′·ω², −load, b·ω and c·sgn ω, from the row of a cell and the place in it.
-    pub(super) fn contributions(
+    pub(super) fn torque_terms(
         &self,
         set: Set,
         row: &[u32],
         u: i32,
         [omega, alpha]: [Q15; 2],
-        sliding: Sliding<Q15>,
+        friction: FrictionSign<Q15>,
     ) -> [Q15; 5] {
         let half = 1 << 15;
         let start = row::at(row, row::start(set));
         let inertia = kernel::inertia(row::at(row, row::inertia(set)), start, u);
         let velocity = kernel::line(row::at(row, row::velocity(set)), u);
         let omega = i32::from(omega.to_bits());
-        let coulomb = self.with_coulomb(set, half, row, u, sliding);
+        let coulomb = self.with_coulomb(set, half, row, u, friction);
         [
             inertia
                 .wrapping_mul(i32::from(alpha.to_bits()))
@@ -216,13 +216,20 @@ impl<'a> Tick<'a> {
 
     /// sum + |c|·sgn ω in Q31
     #[inline(always)]
-    fn with_coulomb(&self, set: Set, sum: i32, row: &[u32], u: i32, sliding: Sliding<Q15>) -> i32 {
+    fn with_coulomb(
+        &self,
+        set: Set,
+        sum: i32,
+        row: &[u32],
+        u: i32,
+        friction: FrictionSign<Q15>,
+    ) -> i32 {
         if has(set, curves::COULOMB) {
             let c = kernel::line(row::at(row, row::coulomb(set)), u);
-            return kernel::add_sliding(sum, c, sliding);
+            return kernel::add_sliding(sum, c, friction);
         }
         if has(set, curves::CONSTANT_COULOMB) {
-            return kernel::add_constant(sum, self.coulomb, sliding);
+            return kernel::add_constant(sum, self.coulomb, friction);
         }
         sum
     }

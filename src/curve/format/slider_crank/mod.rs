@@ -28,7 +28,7 @@ use crate::curve::curves::{Set, has};
 use crate::curve::samples::{Sample, Samples};
 use crate::curve::{CurveValues, Shape, Table, TableError, Usage, curves};
 use crate::number::error::RangeError;
-use crate::number::{Kernel as _, Sliding};
+use crate::number::{FrictionSign, Kernel as _};
 use crate::{Domain, Outcome, Phase, Scale};
 
 /// A slider-crank in closed form, `f32`, SI units: no cells, 20 to 72 bytes, with an accuracy of single precision.
@@ -64,9 +64,9 @@ fn crank(table: &Table<'_, SliderCrankForm>) -> Crank {
 
 /// sum + c·sgn ω, if the machine has friction.
 #[inline(always)]
-fn with_friction(sum: f32, values: &Values, set: Set, sliding: Sliding<f32>) -> f32 {
+fn with_friction(sum: f32, values: &Values, set: Set, friction: FrictionSign<f32>) -> f32 {
     if has(set, curves::COULOMB | curves::CONSTANT_COULOMB) {
-        f32::add_sliding(sum, values.coulomb, sliding)
+        f32::add_sliding(sum, values.coulomb, friction)
     } else {
         sum
     }
@@ -182,20 +182,25 @@ impl Format for SliderCrankForm {
         set: Set,
         phase: Phase,
         [omega, alpha]: [f32; 2],
-        sliding: Sliding<f32>,
+        friction: FrictionSign<f32>,
     ) -> f32 {
         let values = tick.at(set, phase);
         values.inertia * alpha
-            + with_friction(Crank::resisting(&values, set, omega), &values, set, sliding)
+            + with_friction(
+                Crank::resisting(&values, set, omega),
+                &values,
+                set,
+                friction,
+            )
     }
 
-    fn contributions(
+    fn torque_terms(
         _: &Table<'_, Self>,
         tick: &Crank,
         set: Set,
         phase: Phase,
         [omega, alpha]: [f32; 2],
-        sliding: Sliding<f32>,
+        friction: FrictionSign<f32>,
     ) -> [f32; 5] {
         let values = tick.at(set, phase);
         [
@@ -203,7 +208,7 @@ impl Format for SliderCrankForm {
             Crank::velocity(&values, omega),
             -values.load,
             values.viscous * omega,
-            with_friction(0.0, &values, set, sliding),
+            with_friction(0.0, &values, set, friction),
         ]
     }
 
@@ -214,12 +219,12 @@ impl Format for SliderCrankForm {
         set: Set,
         phase: Phase,
         omega: f32,
-        sliding: Sliding<f32>,
+        friction: FrictionSign<f32>,
         torques: [f32; 2],
     ) -> [Outcome<f32>; 2] {
         let values = tick.at(set, phase);
         let resisting = Crank::resisting(&values, set, omega);
-        let resisting = with_friction(resisting, &values, set, sliding);
+        let resisting = with_friction(resisting, &values, set, friction);
         // Floating point represents every acceleration.
         let outcome = |torque| Outcome::exact((torque - resisting) / values.inertia);
         [outcome(torques[0]), outcome(torques[1])]

@@ -71,8 +71,8 @@ fn an_image_of_harmonics_holds_its_error() {
             let phase = Phase::from_bits((random() * 4_294_967_296.0) as u32);
             let mut signed = |most: f32| most * (2.0 * random() - 1.0) as f32;
             let (omega, alpha) = (
-                signed(image.validity().omega),
-                signed(image.validity().alpha),
+                signed(image.validity().max_speed),
+                signed(image.validity().max_acceleration),
             );
             let found = model.torque(phase, omega, alpha);
             assert_eq!(found, any.torque(phase, omega, alpha));

@@ -43,7 +43,10 @@ pub(super) fn errors<N: Number>(
     let scale = image.scale();
     let [torque_base, speed_base] = [scale.torque(), scale.speed()].map(f64::from);
     let acceleration_base = f64::from(scale.acceleration());
-    let (most_omega, most_alpha) = (image.validity().omega, image.validity().alpha);
+    let (most_omega, most_alpha) = (
+        image.validity().max_speed,
+        image.validity().max_acceleration,
+    );
     let mut random = random();
     let mut worst = [0.0f64; 2];
     for k in 0..20_000 {
@@ -171,7 +174,7 @@ fn every_type_and_layout_holds_its_error() {
             let bytes = number_after(&run.out, " bytes of rows, ");
             assert_eq!(bytes, 4.0 * words.len() as f64);
             let omega = number_after(&run.out, "|omega| <= ");
-            assert!((omega / f64::from(image.validity().omega) - 1.0).abs() < 1e-5);
+            assert!((omega / f64::from(image.validity().max_speed) - 1.0).abs() < 1e-5);
         }
     }
 }
@@ -228,7 +231,10 @@ fn every_machine_holds_its_error() {
 fn of_curves(image: &Image<'_>, file: &MachineFile, kind: (&str, &str)) -> f64 {
     let machine = machine(file);
     let domain = machine.domain();
-    let (omega, alpha) = (image.validity().omega, image.validity().alpha);
+    let (omega, alpha) = (
+        image.validity().max_speed,
+        image.validity().max_acceleration,
+    );
     let mut random = random();
     let mut worst = 0.0f64;
     for _ in 0..2000 {

@@ -81,8 +81,8 @@ impl Search<'_> {
     fn fitted(&self, set: Set, most: u32, torque_error: f64) -> Result<Made, Error> {
         let [omega, alpha] = self.goal.range;
         let request = Request::new(torque_error)
-            .with_omega(omega)
-            .with_alpha(alpha)
+            .with_max_speed(omega)
+            .with_max_acceleration(alpha)
             .with_max_cells(most);
         let mut scratch = vec![0.0; scratch_len(most)];
         let mut words = vec![0.0; words_len::<F>(most, set)];
@@ -99,8 +99,8 @@ impl Search<'_> {
         let mut image = vec![0; image_len::<F>(fitted.harmonics, set)];
         let mut written = |error: f64| {
             let validity = Validity {
-                omega: omega as f32,
-                alpha: alpha as f32,
+                max_speed: omega as f32,
+                max_acceleration: alpha as f32,
                 torque_error: rounded_up(error),
             };
             encode(&table, validity, &mut image).map(<[u32]>::to_vec)

@@ -246,8 +246,8 @@ impl<'s, F: Format> Attempt<'s, F> {
         };
         let [omega, alpha] = self.search.goal.range;
         let request = Request::new(limit)
-            .with_omega(omega)
-            .with_alpha(alpha)
+            .with_max_speed(omega)
+            .with_max_acceleration(alpha)
             .with_max_cells(cells);
         let size = self.size(cells);
         match size.make(&mut self.buffers, &request, looked) {

@@ -139,8 +139,8 @@ impl Search<'_> {
         };
         let [omega, alpha] = self.goal.range;
         let request = Request::new(self.goal.torque_error.unwrap_or(f64::INFINITY))
-            .with_omega(omega)
-            .with_alpha(alpha);
+            .with_max_speed(omega)
+            .with_max_acceleration(alpha);
         let (measured, worst) = measure(machine, &table, &request, PLACES)?;
         let domain = self.machine.domain();
         let all = (0, f64::INFINITY);
@@ -149,8 +149,8 @@ impl Search<'_> {
         let mut image = vec![0; image_len::<F>(0, set)];
         let mut written = |error: f64| {
             let validity = Validity {
-                omega: omega as f32,
-                alpha: alpha as f32,
+                max_speed: omega as f32,
+                max_acceleration: alpha as f32,
                 torque_error: rounded_up(error),
             };
             encode(&table, validity, &mut image).map(<[u32]>::to_vec)
