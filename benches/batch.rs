@@ -30,8 +30,8 @@ use jred::number::{Number, Quantity};
 use jred::table::{Format, Shape, words_len};
 use jred::tabulate::{Request, fill, scratch_len, tabulate};
 use jred::{
-    Cubic, Domain, Error, Harmonic, Link, Machine, Model, Phase, Q31, Quadratic, Reducible,
-    Reduction, Scale, Set, Spline, Spline16, Table, curves,
+    Cubic, CurveSet, Domain, Error, Harmonic, Link, Machine, Model, Phase, Q31, Quadratic,
+    Reducible, Reduction, Scale, Spline, Spline16, Table, curves,
 };
 
 /// Samples of a timed batch, and of a batch whose instructions are counted.
@@ -40,7 +40,7 @@ const COUNTED: u32 = 10_000;
 /// Cells of the batch's table.
 const CELLS: u32 = 128;
 /// Its curves: inertia and load, constant friction.
-const SET: Set = curves::LOAD | curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB;
+const SET: CurveSet = curves::LOAD | curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB;
 /// Largest speed and acceleration (rad/s, rad/s²).
 const OMEGA: f64 = 60.0;
 const ALPHA: f64 = 400.0;
@@ -327,7 +327,7 @@ where
     T: harmonic::Circular + Number,
     Harmonic<T>: Format<Number = T, Word = T, Constants = ()>,
 {
-    const SET: Set = curves::LOAD | terms::SYMMETRIC;
+    const SET: CurveSet = curves::LOAD | terms::SYMMETRIC;
     const MOST: u32 = 16;
     let request = Request::new(share * peak)
         .with_max_speed(OMEGA)

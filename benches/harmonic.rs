@@ -8,9 +8,9 @@ use jred::harmonic::{Identification, Sample, fit, scratch_len, terms};
 use jred::mechanism::{Branch, SliderCrank};
 use jred::table::{Shape, words_len};
 use jred::tabulate::Request;
-use jred::{Error, Harmonic, Link, Machine, Model, Phase, Set, Table, curves};
+use jred::{CurveSet, Error, Harmonic, Link, Machine, Model, Phase, Table, curves};
 
-const SET: Set = curves::LOAD | terms::SYMMETRIC;
+const SET: CurveSet = curves::LOAD | terms::SYMMETRIC;
 /// J and load, eleven harmonics.
 const WORDS: usize = words_len::<Harmonic<f64>>(11, SET);
 

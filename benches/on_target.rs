@@ -38,7 +38,8 @@ mod target {
     use jred::machine::Mechanism;
     use jred::tabulate::{fill, scratch_len};
     use jred::{
-        Domain, Error, Image, Machine, Model, Reducible, Scale, Set, Spline, curves, include_image,
+        CurveSet, Domain, Error, Image, Machine, Model, Reducible, Scale, Spline, curves,
+        include_image,
     };
     use panic_semihosting as _;
 
@@ -175,7 +176,7 @@ mod target {
 
     /// A set-point of a plan of 256 rows, and of its follower while the rate changes; the model is in single precision.
     fn plan(counter: &mut Counter, report: &mut dyn FnMut(&str, u32)) -> Option<()> {
-        const PRESS: Set = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
+        const PRESS: CurveSet = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
         const ROWS: usize = 256;
         let image = Image::from_bytes(include_image!("../examples/data/press_f32.jred")).ok()?;
         let model: Model<'_, Spline<f32>, PRESS> = image.model().ok()?;

@@ -13,11 +13,11 @@ mod support;
 use core::f32::consts::{PI, TAU};
 
 use jred::machine::motion::{Law, Move};
-use jred::{Image, Model, Set, Spline, curves, include_image};
+use jred::{CurveSet, Image, Model, Spline, curves, include_image};
 use support::{Failure, milli, println, program};
 
 /// The curves of the press, as `jred export` prints them.
-const PRESS: Set = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
+const PRESS: CurveSet = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
 
 /// Period of a tick (s).
 const TICK: f32 = 0.001;

@@ -19,11 +19,11 @@ use jred::axis::{
     MotionState, Mounting, Period, TorqueLimits, Tracker, Transmission,
 };
 use jred::machine::motion::{Law, Move};
-use jred::{Image, Model, Set, Spline, curves, include_image};
+use jred::{CurveSet, Image, Model, Spline, curves, include_image};
 use support::{Failure, milli, println, program};
 
 /// The curves of the press, as `jred export` prints them.
-const PRESS: Set = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
+const PRESS: CurveSet = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
 
 /// A wrong figure does not compile.
 const ENCODER: Encoder = match Encoder::new(Mounting {

@@ -16,11 +16,11 @@ use jred::axis::{
     AxisError, Braking, Direction, Envelope, Governor, Limit, Limits, LookAhead, MotionState,
     Period,
 };
-use jred::{Image, Model, Phase, Q31, Set, Speed, Spline, curves, include_image};
+use jred::{CurveSet, Image, Model, Phase, Q31, Speed, Spline, curves, include_image};
 use support::{Failure, milli, println, program};
 
 /// The curves of the press, as `jred export` prints them.
-const PRESS: Set = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
+const PRESS: CurveSet = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
 
 /// Period of a tick (s), and the number of ticks; a stop is commanded from `STOP` on.
 const TICK: f32 = 0.000_5;

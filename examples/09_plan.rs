@@ -21,11 +21,11 @@ mod support;
 use jred::axis::plan::PlanError;
 use jred::axis::{FeedForward, Override, Plan, PlanFollower, PlanState};
 use jred::number::FrictionSign;
-use jred::{Image, Model, Phase, Q31, Set, Spline, curves, include_image};
+use jred::{CurveSet, Image, Model, Phase, Q31, Spline, curves, include_image};
 use support::{Failure, milli, println, program};
 
 /// The curves of the press, as `jred export` prints them.
-const PRESS: Set = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
+const PRESS: CurveSet = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
 
 /// Period of a tick, and time of a change of the rate from 0 to 100 % (s).
 const TICK: f32 = 0.000_5;

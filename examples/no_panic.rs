@@ -28,8 +28,8 @@ use jred::machine::motion::{Law, Move};
 use jred::number::{Bases, FrictionSign};
 use jred::table::{AccelerationOf, Format, Shape, SpeedOf, TorqueOf, Usage, words_len};
 use jred::{
-    AnyModel, Cubic, Domain, Harmonic, Image, ImageError, Model, Outcome, Phase, Pieces, Q15, Q31,
-    Quadratic, Rows16, Scale, Set, Speed, Spline, Spline16, Table, include_image,
+    AnyModel, Cubic, CurveSet, Domain, Harmonic, Image, ImageError, Model, Outcome, Phase, Pieces,
+    Q15, Q31, Quadratic, Rows16, Scale, Speed, Spline, Spline16, Table, include_image,
 };
 #[cfg(feature = "micromath")]
 use jred::{SliderCrankForm, slider_crank};
@@ -39,15 +39,15 @@ use jred::{SliderCrankForm, slider_crank};
 mod gate;
 
 /// The curves of the press, as `jred export` prints them.
-const PRESS: Set = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
+const PRESS: CurveSet = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
 
 /// Constant friction.
-const CONSTANTS: Set = curves::LOAD | curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB;
+const CONSTANTS: CurveSet = curves::LOAD | curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB;
 /// Every curve and term of a slider-crank.
 #[cfg(feature = "micromath")]
-const CRANK: Set = curves::ALL | CONSTANTS | slider_crank::terms::ALL;
+const CRANK: CurveSet = curves::ALL | CONSTANTS | slider_crank::terms::ALL;
 /// Every curve.
-const EVERY: Set = curves::ALL | curves::RECIPROCAL;
+const EVERY: CurveSet = curves::ALL | curves::RECIPROCAL;
 
 /// All calls of firmware, with arguments unknown to the optimiser; or only a panic.
 fn calls() -> Result<(), ImageError> {
@@ -108,7 +108,7 @@ fn calls() -> Result<(), ImageError> {
     Ok(())
 }
 
-fn every_tick<F: Format, const SET: Set>(bytes: &'static [u8]) -> Result<(), ImageError> {
+fn every_tick<F: Format, const SET: CurveSet>(bytes: &'static [u8]) -> Result<(), ImageError> {
     let image = Image::from_bytes(black_box(bytes))?;
     let image = Image::of_machine(image, black_box(Image::machine(&image)))?;
     let model = Image::model::<F, SET>(&image)?;

@@ -14,7 +14,7 @@ use jred::image::ImageCheck;
 use jred::number::FrictionSign;
 use jred::table::{AccelerationOf, Format, SpeedOf, TorqueOf};
 use jred::{
-    Domain, Image, ImageError, Model, Phase, Q31, Rows16, Set, Spline, curves, include_image,
+    CurveSet, Domain, Image, ImageError, Model, Phase, Q31, Rows16, Spline, curves, include_image,
 };
 
 #[cfg(target_os = "none")]
@@ -22,7 +22,7 @@ use jred::{
 mod gate;
 
 /// The curves of the press, as `jred export` prints them.
-const PRESS: Set = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
+const PRESS: CurveSet = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
 
 /// All calls of firmware, with arguments unknown to the optimiser; or only a panic.
 fn calls() -> Result<(), ImageError> {
@@ -46,7 +46,7 @@ fn calls() -> Result<(), ImageError> {
 }
 
 /// The parts between an encoder and a torque command.
-fn every_axis<F: Format, const SET: Set>(bytes: &'static [u8]) -> Result<(), ImageError> {
+fn every_axis<F: Format, const SET: CurveSet>(bytes: &'static [u8]) -> Result<(), ImageError> {
     let image = Image::from_bytes(black_box(bytes))?;
     let model = Image::model::<F, SET>(&image)?;
     let feed_forward = FeedForward::new(model, Image::validity(&image));
@@ -121,7 +121,7 @@ fn every_axis<F: Format, const SET: Set>(bytes: &'static [u8]) -> Result<(), Ima
 }
 
 /// A plan and its follower.
-fn every_plan<F: Format, const SET: Set>(model: &Model<'_, F, SET>) {
+fn every_plan<F: Format, const SET: CurveSet>(model: &Model<'_, F, SET>) {
     if let Ok(plan) = Plan::new(black_box(&[0; 41]), model) {
         black_box(Plan::rows(&plan));
     }
@@ -152,7 +152,7 @@ fn every_plan<F: Format, const SET: Set>(model: &Model<'_, F, SET>) {
 }
 
 /// The limits of a drive, now and ahead.
-fn every_limit<F: Format, const SET: Set>(
+fn every_limit<F: Format, const SET: CurveSet>(
     model: &Model<'_, F, SET>,
     motion: MotionState<F::Number>,
 ) {

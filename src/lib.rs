@@ -141,7 +141,7 @@ mod tick;
 #[cfg(feature = "micromath")]
 pub use curve::SliderCrankForm;
 pub use curve::{
-    Cubic, Harmonic, Quadratic, Rows16, Set, Spline, Spline16, Table, TableError, curves,
+    Cubic, CurveSet, Harmonic, Quadratic, Rows16, Spline, Spline16, Table, TableError, curves,
 };
 #[cfg(feature = "mechanics")]
 pub use error::Error;
@@ -187,7 +187,7 @@ pub mod table {
 /// use jred::mechanism::{Branch, SliderCrank, SliderCrankDimensions};
 /// use jred::table::{Shape, words_len};
 /// use jred::tabulate::Request;
-/// use jred::{Error, Harmonic, Link, Machine, Model, Phase, Reducible, Set, Table, curves};
+/// use jred::{CurveSet, Error, Harmonic, Link, Machine, Model, Phase, Reducible, Table, curves};
 ///
 /// fn main() -> Result<(), Error> {
 ///     // Crank 30 mm, rod 120 mm, ram 42 kg: weight acts along the guide, so J is even and the load odd in φ.
@@ -199,7 +199,7 @@ pub mod table {
 ///     let machine = Machine::new(mechanism).with_gravity([9.81, 0.0])?;
 ///
 ///     const MOST: u32 = 16;
-///     const SET: Set = curves::LOAD | terms::SYMMETRIC;
+///     const SET: CurveSet = curves::LOAD | terms::SYMMETRIC;
 ///     let request = Request::new(0.001).with_max_speed(12.0).with_max_acceleration(60.0).with_max_cells(MOST);
 ///     let (mut scratch, mut words) = ([0.0; scratch_len(MOST)], [0.0; words_len::<Harmonic<f32>>(MOST, SET)]);
 ///     let found = fit(&machine, SET, &request, &mut scratch, &mut words)?;
@@ -229,7 +229,7 @@ pub mod harmonic {
 /// use jred::mechanism::{Branch, SliderCrank, SliderCrankDimensions};
 /// use jred::slider_crank::{form, terms};
 /// use jred::table::{Shape, words_len};
-/// use jred::{Error, Link, Machine, Model, Phase, Reducible, Set, SliderCrankForm, Table, curves};
+/// use jred::{CurveSet, Error, Link, Machine, Model, Phase, Reducible, SliderCrankForm, Table, curves};
 ///
 /// fn main() -> Result<(), Error> {
 ///     // Crank 30 mm, rod 120 mm, ram 42 kg; weight acts along the guide.
@@ -241,7 +241,7 @@ pub mod harmonic {
 ///     let machine = Machine::new(mechanism).with_gravity([9.81, 0.0])?;
 ///
 ///     // Seven numbers: r/l, e/l, three of J, two of the load.
-///     const SET: Set = curves::LOAD | terms::LOAD_SIN;
+///     const SET: CurveSet = curves::LOAD | terms::LOAD_SIN;
 ///     let mut words = [0.0; words_len::<SliderCrankForm>(0, SET)];
 ///     assert_eq!(form(&machine, SET, &mut words)?, 7);
 ///     let table = Table::new(&words, Shape::slider_crank(SET)).map_err(Error::Table)?;

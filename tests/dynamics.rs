@@ -10,7 +10,7 @@ use jred::machine::Mechanism;
 use jred::mechanism::{Mesh, SliderCrank, Stage, Train};
 use jred::table::Format;
 use jred::{
-    Cubic, Domain, Machine, Phase, Quadratic, Reducible, Reduction, Scale, Set, Spline, Table,
+    Cubic, CurveSet, Domain, Machine, Phase, Quadratic, Reducible, Reduction, Scale, Spline, Table,
     curves,
 };
 use proptest::prelude::*;
@@ -169,7 +169,7 @@ fn energy_drift<L: Format<Number = f64>>(
     drift
 }
 
-fn drifts<const CURVES: Set, L: Format<Number = f64>>(machine: &impl Reducible, omega: f64) {
+fn drifts<const CURVES: CurveSet, L: Format<Number = f64>>(machine: &impl Reducible, omega: f64) {
     let rows = Rows::<L>::of(machine, CURVES, CELLS, &Scale::SI).unwrap();
     let model = rows.model::<CURVES>(&Scale::SI);
     let forward = |phase, w| model.acceleration(phase, w, 0.0).value;

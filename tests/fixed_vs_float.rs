@@ -7,10 +7,10 @@ use crate::support::{assert_near, budget, largest, samples, value};
 use jred::number::Number;
 use jred::table::{AccelerationOf, Format, MIN_CELLS, SpeedOf, TorqueOf, words_len};
 use jred::tabulate::{CHECKS_PER_CELL, Request, Tabulated, measure, scratch_len, tabulate};
-use jred::{Cubic, Phase, Q31, Quadratic, Reducible, Scale, Set, Spline, Table, curves};
+use jred::{Cubic, CurveSet, Phase, Q31, Quadratic, Reducible, Scale, Spline, Table, curves};
 use proptest::prelude::any;
 
-const ALL: Set = curves::ALL;
+const ALL: CurveSet = curves::ALL;
 
 fn table_of<F: Format>(
     machine: &impl Reducible,

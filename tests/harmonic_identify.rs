@@ -15,14 +15,14 @@ use jred::mechanism::{Branch, SliderCrank};
 use jred::table::{Shape, words_len};
 use jred::tabulate::Request;
 use jred::{
-    AnyModel, Error, Harmonic, Link, Machine, Phase, Reducible, Set, Table, TableError, curves,
+    AnyModel, CurveSet, Error, Harmonic, Link, Machine, Phase, Reducible, Table, TableError, curves,
 };
 use proptest::prelude::*;
 
-const SET: Set = curves::ALL;
+const SET: CurveSet = curves::ALL;
 /// Ten harmonics of J and load, a viscous and a Coulomb constant.
 const WORDS: usize = 24;
-const TERMS: Set = terms::SYMMETRIC;
+const TERMS: CurveSet = terms::SYMMETRIC;
 
 /// A press whose weight acts along the guide.
 fn press() -> Machine<SliderCrank> {
@@ -371,8 +371,8 @@ proptest! {
     fn names_are_those_of_the_words(
         set in 0usize..10, word in 0usize..24, bits: u32, omega in 1f64..9.0, alpha in -50f64..50.0,
     ) {
-        fn check<const SET: Set>(word: usize, phase: Phase, omega: f64, alpha: f64) {
-            const TERMS: Set = terms::ALL & !terms::LOAD_COS;
+        fn check<const SET: CurveSet>(word: usize, phase: Phase, omega: f64, alpha: f64) {
+            const TERMS: CurveSet = terms::ALL & !terms::LOAD_COS;
             let harmonics = 3;
             let len = words_len::<Harmonic<f64>>(harmonics, SET | TERMS);
             assert!(Coefficient::of_word(len, SET | TERMS).is_some(), "of the next harmonic");

@@ -11,7 +11,7 @@ use jred::harmonic::{HarmonicError, fit, scratch_len, terms};
 use jred::machine::{Action, Load, Window};
 use jred::mechanism::SliderCrank;
 use jred::table::Shape;
-use jred::{AnyModel, Domain, Error, Harmonic, Phase, Scale, Set, Table, TableError, curves};
+use jred::{AnyModel, CurveSet, Domain, Error, Harmonic, Phase, Scale, Table, TableError, curves};
 
 /// A load between all samples is measured at its edges.
 #[test]
@@ -178,10 +178,10 @@ fn bad_requests_are_named() {
 
 #[test]
 fn bad_coefficients_are_named() {
-    fn check<const SET: Set>(words: &[f32]) -> Option<TableError> {
+    fn check<const SET: CurveSet>(words: &[f32]) -> Option<TableError> {
         model::<f32, SET>(words).err()
     }
-    const LOADED: Set = curves::LOAD | terms::SYMMETRIC;
+    const LOADED: CurveSet = curves::LOAD | terms::SYMMETRIC;
     let length = |needed, given| Some(TableError::Length { needed, given });
     assert_eq!(check::<LOADED>(&[]), length(2, 0));
     assert_eq!(check::<LOADED>(&[1.0, 0.0, 0.1]), length(2, 3));

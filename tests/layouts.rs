@@ -10,11 +10,11 @@ use crate::support::{assert_near, budget, config, grid, largest, scale_of};
 use jred::number::{Number, Scalar};
 use jred::table::Format;
 use jred::{
-    Cubic, Domain, Phase, Q31, Quadratic, Reducible, Reduction, Scale, Set, Spline, curves,
+    Cubic, CurveSet, Domain, Phase, Q31, Quadratic, Reducible, Reduction, Scale, Spline, curves,
 };
 use proptest::prelude::*;
 
-const ALL: Set = curves::ALL;
+const ALL: CurveSet = curves::ALL;
 
 /// Curves that are not polynomials, with exact slopes: sizes of one.
 struct Smooth(Domain);

@@ -8,7 +8,7 @@ use jred::machine::{Action, Load, Mechanism as _, Window};
 use jred::mechanism::{Geneva, SliderCrank};
 use jred::table::words_len;
 use jred::tabulate::{Part, Request, edge_places, fill, measure, scratch_len, tabulate};
-use jred::{Domain, Error, Link, Machine, Reducible as _, Scale, Set, Spline, curves};
+use jred::{CurveSet, Domain, Error, Link, Machine, Reducible as _, Scale, Spline, curves};
 
 #[track_caller]
 fn near(found: f64, expected: f64) {
@@ -80,7 +80,7 @@ fn press_with_a_narrow_load() -> Machine<SliderCrank> {
 #[test]
 fn a_narrow_load_is_not_stepped_over() {
     const CELLS: u32 = 200;
-    const SET: Set = curves::LOAD | curves::VISCOUS | curves::COULOMB;
+    const SET: CurveSet = curves::LOAD | curves::VISCOUS | curves::COULOMB;
     let machine = press_with_a_narrow_load();
     let height = (machine.reduction(4.000_009).unwrap().process
         - machine.reduction(3.99).unwrap().process)
@@ -149,7 +149,7 @@ fn edges_are_those_of_the_mechanism_and_of_the_loads() {
 #[test]
 fn a_narrow_load_does_not_loosen_the_bound() {
     const CELLS: u32 = 64;
-    const SET: Set = curves::LOAD;
+    const SET: CurveSet = curves::LOAD;
     let window = Window::new(Domain::Turn, [4.0, 4.0 + 1.8e-5], 8e-6).unwrap();
     let force = Load::new(SliderCrank::SLIDER, Action::Force([-0.01, 0.0])).unwrap();
     let machine = press().with_load(force.within(window)).unwrap();

@@ -5,7 +5,7 @@ use crate::support::scale_of;
 use jred::number::RangeError;
 use jred::tabulate::{Request, tabulate};
 use jred::{
-    Acceleration, Cubic, Domain, Error, Phase, Q31, Reducible, Reduction, Scale, Set, Speed,
+    Acceleration, Cubic, CurveSet, Domain, Error, Phase, Q31, Reducible, Reduction, Scale, Speed,
     Spline, TableError, Torque, curves,
 };
 
@@ -62,7 +62,7 @@ fn roundings_of_the_slope_are_in_the_proof() {
 /// 1/J that is right at the four places of a cell that are looked at first, and far off at its ends.
 #[test]
 fn a_reciprocal_is_looked_at_everywhere() {
-    const SET: Set = curves::RECIPROCAL;
+    const SET: CurveSet = curves::RECIPROCAL;
     // (v + 3/8)(v + 1/8)(v − 1/8)(v − 3/8) has no cubic: the cubic through ±e at these places, by Lagrange.
     let nodes = [-0.375, -0.125, 0.125, 0.375];
     let through = |e: f64, v: f64| -> f64 {

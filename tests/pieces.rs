@@ -12,11 +12,11 @@ use jred::number::Number;
 use jred::table::{Format, words_len};
 use jred::tabulate::{Part, Request, scratch_len, tabulate};
 use jred::{
-    Cubic, Domain, Machine, Phase, Pieces, Q31, Quadratic, Reducible, Reduction, Scale, Set,
+    Cubic, CurveSet, Domain, Machine, Phase, Pieces, Q31, Quadratic, Reducible, Reduction, Scale,
     Spline, curves,
 };
 
-const SET: Set = curves::LOAD;
+const SET: CurveSet = curves::LOAD;
 /// Speed and acceleration at which tables are compared.
 const AT: [f64; 2] = [20.0, 300.0];
 

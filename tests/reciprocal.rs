@@ -8,12 +8,12 @@ use crate::support::rows::{Fixed, Meaning as _, Plain, Rows};
 use crate::support::{assert_near, config, largest, rk4, scale_of, value};
 use jred::number::Role;
 use jred::{
-    Acceleration, Cubic, Model, Phase, Q31, Quadratic, Scale, Set, Speed, Spline, TableError,
+    Acceleration, Cubic, CurveSet, Model, Phase, Q31, Quadratic, Scale, Speed, Spline, TableError,
     Torque, curves,
 };
 use proptest::prelude::*;
 
-const SET: Set = curves::ALL | curves::RECIPROCAL;
+const SET: CurveSet = curves::ALL | curves::RECIPROCAL;
 
 /// J_m: the power of two that J times its reciprocal's curve is.
 fn unit<L: Fixed>(rows: &Rows<L>) -> f64 {
@@ -199,7 +199,7 @@ fn saturation_is_flagged() {
 
 /// Largest share by which the energy ½·J·ω² + U leaves its start over four turns without drive torque: the model's own J
 /// and load, the model's own acceleration.
-fn energy_drift<const S: Set, L: Fixed>(spec: &Spec) -> f64 {
+fn energy_drift<const S: CurveSet, L: Fixed>(spec: &Spec) -> f64 {
     const STEPS: u32 = 1024;
     let machine = spec.heavy();
     let scale = Scale::covering(&machine, 90.0, 2000.0, 256).unwrap();
@@ -232,8 +232,8 @@ fn energy_drift<const S: Set, L: Fixed>(spec: &Spec) -> f64 {
 
 #[test]
 fn energy_is_conserved_without_division() {
-    const DIVIDE: Set = curves::LOAD;
-    const MULTIPLY: Set = curves::LOAD | curves::RECIPROCAL;
+    const DIVIDE: CurveSet = curves::LOAD;
+    const MULTIPLY: CurveSet = curves::LOAD | curves::RECIPROCAL;
     let press = Spec {
         crank: 0.08,
         rod_ratio: 2.5,
@@ -278,7 +278,7 @@ fn scaled<L: Fixed>(rows: &Rows<L>, share: f64) -> Rows<L> {
 }
 
 fn refuses_another_reciprocal<L: Fixed>(accepted: [f64; 2], refused: [f64; 2]) {
-    const SET: Set = curves::RECIPROCAL;
+    const SET: CurveSet = curves::RECIPROCAL;
     let scale = Scale::covering(&wave(), 10.0, 20.0, 256).unwrap();
     let scale = scale.for_cells(128, TAU);
     let rows = Rows::<L>::of(&wave(), SET, 128, &scale).unwrap();
@@ -324,7 +324,7 @@ fn a_reciprocal_of_another_inertia_is_refused() {
 /// 1/J of an inertia that swings much needs more cells than J itself.
 #[test]
 fn too_few_cells_are_refused() {
-    const SET: Set = curves::RECIPROCAL;
+    const SET: CurveSet = curves::RECIPROCAL;
     let machine = Wave::bare(1.0, 0.9);
     let build = |cells: u32| {
         let scale = Scale::covering(&machine, 10.0, 20.0, 256).unwrap();

@@ -11,7 +11,7 @@ use jred::number::FrictionSign;
 use jred::slider_crank::{STEEPEST, form, set_in_use, terms};
 use jred::table::{Shape, Usage};
 use jred::{
-    Image, ImageError, Link, Machine, Phase, Reducible, Set, SliderCrankForm, Spline, Table,
+    CurveSet, Image, ImageError, Link, Machine, Phase, Reducible, SliderCrankForm, Spline, Table,
     TableError, Validity, curves,
 };
 use proptest::prelude::*;
@@ -190,7 +190,7 @@ proptest! {
 /// A set that is known when the program is compiled gives the same bits, and the header tells it then.
 #[test]
 fn known_and_unknown_sets_tick_alike() {
-    const SET: Set = curves::LOAD | curves::COULOMB | terms::LOAD_SIN | terms::COULOMB_ROD;
+    const SET: CurveSet = curves::LOAD | curves::COULOMB | terms::LOAD_SIN | terms::COULOMB_ROD;
     let words = [0.25, -0.1, 0.02, 0.03, -0.004, 5.0, 1.5, 2.0, 0.25];
     let any = model_of(&words, SET).unwrap();
     let known = jred::Model::<SliderCrankForm, SET>::new(*any.table()).unwrap();

@@ -9,7 +9,7 @@ use jred::number::RangeError;
 use jred::slider_crank::{Coefficient, STEEPEST, SliderCrankError, form, set_in_use, terms};
 use jred::table::{Format, Shape};
 use jred::{
-    Domain, Error, Image, ImageError, Machine, Phase, Set, SliderCrankForm, Table, TableError,
+    CurveSet, Domain, Error, Image, ImageError, Machine, Phase, SliderCrankForm, Table, TableError,
     Validity, curves,
 };
 
@@ -101,7 +101,7 @@ fn roundings_of_a_turned_drawing_are_no_terms() {
     assert_eq!(set_in_use(&turned), Ok(both));
 }
 
-fn refused_words(words: &[f32], set: Set) -> TableError {
+fn refused_words(words: &[f32], set: CurveSet) -> TableError {
     match model_of(words, set).map(|_| ()) {
         Err(Error::Table(error)) => error,
         other => panic!("{other:?}"),

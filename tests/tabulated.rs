@@ -9,7 +9,8 @@ use jred::machine::PoseError;
 use jred::table::{Format, words_len};
 use jred::tabulate::{EXHAUSTIVE, Request, Tabulated, measure, scratch_len, tabulate};
 use jred::{
-    Cubic, Domain, Error, Q31, Quadratic, Reducible, Reduction, Rows16, Scale, Set, Spline, curves,
+    Cubic, CurveSet, Domain, Error, Q31, Quadratic, Reducible, Reduction, Rows16, Scale, Spline,
+    curves,
 };
 
 fn request(torque_error: f64, max_cells: u32) -> Request {
@@ -22,7 +23,7 @@ fn request(torque_error: f64, max_cells: u32) -> Request {
 /// What the search says, and what is measured of a table of as many cells.
 fn found<F: Format>(
     machine: &impl Reducible,
-    set: Set,
+    set: CurveSet,
     request: &Request,
     scale: &Scale,
 ) -> [Tabulated; 2] {

@@ -10,8 +10,8 @@ use jred::mechanism::{Branch, SliderCrank};
 use jred::table::Format;
 use jred::tabulate::curves_in_use;
 use jred::{
-    Cubic, Domain, Link, Machine, Phase, Q31, Quadratic, Reducible, Reduction, Scale, Set, Spline,
-    curves,
+    Cubic, CurveSet, Domain, Link, Machine, Phase, Q31, Quadratic, Reducible, Reduction, Scale,
+    Spline, curves,
 };
 use proptest::prelude::*;
 
@@ -208,8 +208,8 @@ impl Reducible for Constant {
 }
 
 fn constants_are_curves<F: Format>(units: f64) {
-    const CURVES: Set = curves::VISCOUS | curves::COULOMB;
-    const CONSTANTS: Set = curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB;
+    const CURVES: CurveSet = curves::VISCOUS | curves::COULOMB;
+    const CONSTANTS: CurveSet = curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB;
     let scale = scale_of(4.0, 3.0, 5.0).for_cells(32, TAU);
     let machine = Constant {
         viscous: 0.3,

@@ -2,7 +2,7 @@
 
 use super::error::{positive, within};
 use super::{AxisError, Direction};
-use crate::curve::{AccelerationOf, Format, Set, SpeedOf};
+use crate::curve::{AccelerationOf, CurveSet, Format, SpeedOf};
 use crate::number::{FrictionSign, Number, Quantity as _, Real as _};
 use crate::{Domain, Model, Phase};
 
@@ -99,7 +99,7 @@ pub(super) struct Course<const NODES: usize> {
 pub(super) const ONE: f32 = 1_073_741_824.0;
 
 /// Terms of the model at a phase.
-fn place<F: Format, const SET: Set>(
+fn place<F: Format, const SET: CurveSet>(
     model: &Model<'_, F, SET>,
     way: Way,
     braking: &Braking,
@@ -137,7 +137,7 @@ fn place<F: Format, const SET: Set>(
 }
 
 impl<const NODES: usize> Course<NODES> {
-    pub(super) fn new<F: Format, const SET: Set>(
+    pub(super) fn new<F: Format, const SET: CurveSet>(
         model: &Model<'_, F, SET>,
         direction: Direction,
         braking: Braking,

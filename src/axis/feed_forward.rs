@@ -4,7 +4,7 @@ use core::marker::PhantomData;
 
 use super::error::{positive, within};
 use super::{AxisError, MotionRange, MotionState, Status};
-use crate::curve::{AccelerationOf, Format, Set, SpeedOf};
+use crate::curve::{AccelerationOf, CurveSet, Format, SpeedOf};
 use crate::number::{Factor, FrictionSign, Number, Quantity};
 use crate::{MachineUnits, Model, Phase, Validity};
 
@@ -34,9 +34,9 @@ pub struct CheckedTorque<N: Number> {
 /// ```
 /// use jred::axis::{Encoder, FeedForward, Gearbox, MotionState, Mounting, Period, TorqueLimits, Transmission};
 /// use jred::number::FrictionSign;
-/// use jred::{Image, Model, Set, Spline, curves, include_image};
+/// use jred::{CurveSet, Image, Model, Spline, curves, include_image};
 ///
-/// const PRESS: Set = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
+/// const PRESS: CurveSet = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
 /// const ENCODER: Encoder = match Encoder::new(Mounting::direct(10_000)) {
 ///     Ok(encoder) => encoder,
 ///     Err(_) => panic!("the encoder's figures"),
@@ -64,12 +64,12 @@ pub struct CheckedTorque<N: Number> {
 /// # }
 /// ```
 #[derive(Clone, Copy, Debug)]
-pub struct FeedForward<'a, F: Format, const SET: Set> {
+pub struct FeedForward<'a, F: Format, const SET: CurveSet> {
     model: Model<'a, F, SET>,
     range: MotionRange<F::Number>,
 }
 
-impl<'a, F: Format, const SET: Set> FeedForward<'a, F, SET> {
+impl<'a, F: Format, const SET: CurveSet> FeedForward<'a, F, SET> {
     /// Feed-forward with a model and the validity of its table ([`Image::validity`](crate::Image::validity), of the same image).
     #[must_use]
     pub fn new(model: Model<'a, F, SET>, validity: Validity) -> Self {

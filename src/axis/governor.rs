@@ -3,7 +3,7 @@
 use super::limits::{AccelerationBound, Limit, finite};
 use super::{AxisError, Direction, Limits, LookAhead, MotionState};
 use crate::Model;
-use crate::curve::{Format, Set};
+use crate::curve::{CurveSet, Format};
 use crate::number::{FrictionSign, Number, Quantity as _};
 
 /// Follows a commanded speed with a motion that the drive can make, and slows down before places where the drive could not follow.
@@ -21,9 +21,9 @@ use crate::number::{FrictionSign, Number, Quantity as _};
 ///
 /// ```
 /// use jred::axis::{Braking, Direction, Envelope, Governor, Limits, LookAhead, MotionState, Period};
-/// use jred::{Image, Model, Phase, Set, Spline, curves, include_image};
+/// use jred::{CurveSet, Image, Model, Phase, Spline, curves, include_image};
 ///
-/// const PRESS: Set = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
+/// const PRESS: CurveSet = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
 ///
 /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
 /// // Once.
@@ -108,7 +108,7 @@ impl<'a, N: Number, const NODES: usize> Governor<'a, N, NODES> {
     /// acceleration: the result is 0 or the nearest possible one, with the binding limit in `by`, and `unkept` reports it. If the motion's speed is
     /// NaN, the acceleration is 0, and `unkept` reports that, too.
     #[inline]
-    pub fn govern<F: Format<Number = N>, const SET: Set, const POINTS: usize>(
+    pub fn govern<F: Format<Number = N>, const SET: CurveSet, const POINTS: usize>(
         &self,
         limits: &Limits<N, POINTS>,
         model: &Model<'_, F, SET>,

@@ -3,7 +3,7 @@
 use super::envelope::in_range;
 use super::error::positive;
 use super::{AxisError, Envelope, Period};
-use crate::curve::{Format, Set};
+use crate::curve::{CurveSet, Format};
 use crate::number::{FrictionSign, Number, Quantity};
 use crate::{AccelerationRange, MachineUnits, Model, Outcome, Phase};
 
@@ -114,7 +114,7 @@ impl<N: Number, const POINTS: usize> Limits<N, POINTS> {
 
     /// The accelerations that are possible in this state: 0 at a speed that is NaN, finite at an infinite one; `unkept` reports both.
     #[inline]
-    pub fn feasible<F: Format<Number = N>, const SET: Set>(
+    pub fn feasible<F: Format<Number = N>, const SET: CurveSet>(
         &self,
         model: &Model<'_, F, SET>,
         phase: Phase,

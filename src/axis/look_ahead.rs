@@ -6,7 +6,7 @@ use super::braking::{Braking, Course, ONE, Way};
 use super::envelope::in_range;
 use super::error::{positive, within};
 use super::{AxisError, MotionState, Period};
-use crate::curve::{Format, Set};
+use crate::curve::{CurveSet, Format};
 use crate::number::{Factor, Number, Quantity as _};
 use crate::{Model, Phase};
 
@@ -91,7 +91,7 @@ impl<N: Number, const NODES: usize> LookAhead<N, NODES> {
     /// that is not positive and finite (the deceleration may be infinite), or a speed beyond its base; too few nodes for this machine (fewer than 4,
     /// or J changes by half between two), or too many (more than 4096, or an interval takes less than one tick, or more than 2²², at the greatest
     /// speed).
-    pub fn new<F: Format<Number = N>, const SET: Set>(
+    pub fn new<F: Format<Number = N>, const SET: CurveSet>(
         model: &Model<'_, F, SET>,
         direction: Direction,
         braking: Braking,

@@ -27,7 +27,7 @@ pub struct StrokeMounting {
 ///
 /// ```
 /// use jred::Domain;
-/// use jred::axis::{StrokeMounting, StrokeEncoder};
+/// use jred::axis::{StrokeEncoder, StrokeMounting};
 ///
 /// // A stroke from 0.1 to 0.6 m, a micrometre a count, count 0 at 0.35 m.
 /// const STROKE: Domain = Domain::Stroke { from: 0.1, to: 0.6 };

@@ -1,7 +1,7 @@
 //! A table and its memory.
 
 use super::{Request, Tabulated, fill, tabulate};
-use crate::curve::{Format, Set, words_len};
+use crate::curve::{CurveSet, Format, words_len};
 use crate::machine::Reducible;
 use crate::{Error, Model, Scale};
 
@@ -12,9 +12,9 @@ use crate::{Error, Model, Scale};
 /// # use core::f64::consts::FRAC_PI_2;
 /// use jred::table::words_len;
 /// use jred::tabulate::{TableBuffer, scratch_len};
-/// use jred::{Error, Link, Machine, Phase, Scale, Set, Spline, curves};
+/// use jred::{CurveSet, Error, Link, Machine, Phase, Scale, Spline, curves};
 ///
-/// const SET: Set = curves::INERTIA;
+/// const SET: CurveSet = curves::INERTIA;
 /// const CELLS: u32 = 32;
 /// const WORDS: usize = words_len::<Spline<f32>>(CELLS, SET);
 ///
@@ -68,11 +68,11 @@ use crate::{Error, Model, Scale};
 /// # }
 /// ```
 #[derive(Clone, Debug)]
-pub struct TableBuffer<F: Format, const SET: Set, const CELLS: u32, const WORDS: usize> {
+pub struct TableBuffer<F: Format, const SET: CurveSet, const CELLS: u32, const WORDS: usize> {
     words: [F::Word; WORDS],
 }
 
-impl<F: Format, const SET: Set, const CELLS: u32, const WORDS: usize>
+impl<F: Format, const SET: CurveSet, const CELLS: u32, const WORDS: usize>
     TableBuffer<F, SET, CELLS, WORDS>
 {
     /// Empty.
@@ -122,7 +122,7 @@ impl<F: Format, const SET: Set, const CELLS: u32, const WORDS: usize>
     }
 }
 
-impl<F: Format, const SET: Set, const CELLS: u32, const WORDS: usize> Default
+impl<F: Format, const SET: CurveSet, const CELLS: u32, const WORDS: usize> Default
     for TableBuffer<F, SET, CELLS, WORDS>
 {
     fn default() -> Self {

@@ -1,7 +1,9 @@
 //! Fills a table of a given size.
 
 use super::scratch_len;
-use crate::curve::{Format, MAX_CELLS, Sample, Samples, Set, Shape, Table, TableError, words_len};
+use crate::curve::{
+    CurveSet, Format, MAX_CELLS, Sample, Samples, Shape, Table, TableError, words_len,
+};
 use crate::machine::Reducible;
 use crate::machine::error::PoseError;
 use crate::number::error::RangeError;
@@ -18,7 +20,7 @@ use crate::{Domain, Error, Scale};
 /// a set that the format cannot have; as [`Table::new`].
 pub fn fill<'w, F: Format>(
     machine: &impl Reducible,
-    set: Set,
+    set: CurveSet,
     cells: u32,
     scale: &Scale,
     scratch: &mut [f64],

@@ -30,7 +30,7 @@ pub use part::Part;
 pub use search::{growing, smallest, tabulate};
 
 use crate::curve::MAX_CELLS;
-use crate::curve::curves::{self, Set};
+use crate::curve::curves::{self, CurveSet};
 use crate::machine::Reducible;
 use crate::number::error::positive;
 use crate::number::spline::{MIN_CELLS, control_points};
@@ -164,7 +164,7 @@ impl Tabulated {
 
 /// Numbers of `f64` scratch for tables of up to `cells` cells.
 #[must_use]
-pub const fn scratch_len(cells: u32, set: Set) -> usize {
+pub const fn scratch_len(cells: u32, set: CurveSet) -> usize {
     (curves::width(set) + 1) * control_points(cells as usize)
 }
 
@@ -173,7 +173,7 @@ pub const fn scratch_len(cells: u32, set: Set) -> usize {
 ///
 /// # Errors
 /// The machine's errors.
-pub fn curves_in_use(machine: &impl Reducible, positions: u32) -> Result<Set, Error> {
+pub fn curves_in_use(machine: &impl Reducible, positions: u32) -> Result<CurveSet, Error> {
     // Rounding of sums over links.
     const SAME: f64 = 1e-12;
     let mut set = curves::INERTIA;

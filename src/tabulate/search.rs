@@ -3,7 +3,7 @@
 use super::measure::{measure, measure_until};
 use super::near::{Look, meets_near, search_near};
 use super::{CHECKS_PER_CELL, COARSE_CHECKS, EXHAUSTIVE, Request, Tabulated, fill};
-use crate::curve::{Format, Set, Table};
+use crate::curve::{CurveSet, Format, Table};
 use crate::machine::Reducible;
 use crate::number::spline::MIN_CELLS;
 use crate::{Error, Scale};
@@ -19,7 +19,7 @@ use crate::{Error, Scale};
 /// form a fixed-point model; otherwise as [`fill`](fill()).
 pub fn tabulate<F: Format>(
     machine: &impl Reducible,
-    set: Set,
+    set: CurveSet,
     request: &Request,
     scale: &Scale,
     scratch: &mut [f64],
@@ -52,7 +52,7 @@ pub fn tabulate<F: Format>(
 /// The table of `cells` cells, in suitable machine units, if it forms a model.
 fn candidate<'w, F: Format>(
     machine: &impl Reducible,
-    set: Set,
+    set: CurveSet,
     cells: u32,
     scale: &Scale,
     scratch: &mut [f64],

@@ -9,7 +9,7 @@
 //! link: a motor behind a gear ratio i has T/i, and its rotor belongs in J as i²·J_M (`Machine::with_flywheel`). sgn 0 = 0: at standstill the model
 //! has no friction, because friction then balances the other forces.
 
-use crate::curve::{AccelerationOf, Format, Set, SpeedOf, Table, TableError, TorqueOf};
+use crate::curve::{AccelerationOf, CurveSet, Format, SpeedOf, Table, TableError, TorqueOf};
 use crate::number::{FrictionSign, Number, Quantity};
 use crate::{Outcome, Phase};
 
@@ -115,7 +115,7 @@ use crate::{Outcome, Phase};
 /// ```
 #[derive(Clone, Copy, Debug)]
 #[repr(transparent)]
-pub struct Model<'a, F: Format, const SET: Set>(AnyModel<'a, F>);
+pub struct Model<'a, F: Format, const SET: CurveSet>(AnyModel<'a, F>);
 
 /// As [`Model`], with a set of [`curves`](crate::curves) known at run time: for hosts, which tick any table. The same bits.
 #[derive(Clone, Copy, Debug)]
@@ -170,14 +170,14 @@ impl<'a, F: Format> AnyModel<'a, F> {
 
     /// The same model over its words, borrowed again or moved.
     #[inline(always)]
-    fn moved<'b>(&self, words: &'b [F::Word], set: Set) -> AnyModel<'b, F> {
+    fn moved<'b>(&self, words: &'b [F::Word], set: CurveSet) -> AnyModel<'b, F> {
         let table = self.table.moved(words);
         let tick = F::moved(&self.tick, &table, set);
         AnyModel { table, tick }
     }
 }
 
-impl<'a, F: Format, const SET: Set> Model<'a, F, SET> {
+impl<'a, F: Format, const SET: CurveSet> Model<'a, F, SET> {
     /// Creates a model over `table`.
     ///
     /// # Errors
@@ -331,8 +331,8 @@ macro_rules! dynamics {
         }
     };
     (@type $model:ident []) => { $model<'a, F> };
-    (@type $model:ident [const SET: Set]) => { $model<'a, F, SET> };
+    (@type $model:ident [const SET: CurveSet]) => { $model<'a, F, SET> };
 }
 
-dynamics!(Model, [const SET: Set], |any| SET);
+dynamics!(Model, [const SET: CurveSet], |any| SET);
 dynamics!(AnyModel, [], |any| any.table.set());

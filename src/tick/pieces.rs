@@ -5,7 +5,7 @@
 //! large error, to the width of a cell (test `one_table_cannot_follow_a_jump`). Separate tables for the pieces between the jumps have no such cells.
 //! A [`Part`](crate::tabulate::Part) of the machine is tabulated as a stroke; [`Pieces`] combines the models again.
 
-use crate::curve::{AccelerationOf, Format, Set, SpeedOf, TableError, TorqueOf};
+use crate::curve::{AccelerationOf, CurveSet, Format, SpeedOf, TableError, TorqueOf};
 use crate::math::Real;
 use crate::number::{Number, Outcome};
 use crate::{AccelerationRange, Domain, Model, Phase, Scale};
@@ -24,7 +24,7 @@ use crate::{AccelerationRange, Domain, Model, Phase, Scale};
 /// use core::f64::consts::TAU;
 /// use jred::machine::PoseError;
 /// use jred::tabulate::{Part, Request, fill, scratch_len, tabulate};
-/// use jred::{Domain, Error, Model, Phase, Pieces, Reducible, Reduction, Scale, Set, Spline, curves};
+/// use jred::{CurveSet, Domain, Error, Model, Phase, Pieces, Reducible, Reduction, Scale, Spline, curves};
 ///
 /// /// A flywheel, and a brake that is on from 1 to 2 rad.
 /// struct Braked;
@@ -41,7 +41,7 @@ use crate::{AccelerationRange, Domain, Model, Phase, Scale};
 /// }
 ///
 /// fn main() -> Result<(), Error> {
-///     const SET: Set = curves::LOAD;
+///     const SET: CurveSet = curves::LOAD;
 ///     const MOST: u32 = 16;
 ///     let request = Request::new(0.001).with_max_speed(20.0).with_max_acceleration(100.0).with_max_cells(MOST);
 ///     let mut scratch = [0.0; scratch_len(MOST, SET)];
@@ -64,14 +64,14 @@ use crate::{AccelerationRange, Domain, Model, Phase, Scale};
 /// }
 /// ```
 #[derive(Clone, Copy, Debug)]
-pub struct Pieces<'a, F: Format, const SET: Set, const N: usize> {
+pub struct Pieces<'a, F: Format, const SET: CurveSet, const N: usize> {
     models: [Piece<'a, F, SET>; N],
     pub(super) scale: Scale,
     pub(super) domain: Domain<<F::Number as Number>::Real>,
 }
 
 #[derive(Clone, Copy, Debug)]
-struct Piece<'a, F: Format, const SET: Set> {
+struct Piece<'a, F: Format, const SET: CurveSet> {
     start: u32,
     /// Left shift of the piece's length until its top bit is set.
     shift: u32,
@@ -85,7 +85,7 @@ const UNITS: f32 = 1e-4;
 /// 2³²
 const TURN: f32 = 4_294_967_296.0;
 
-impl<'a, F: Format, const SET: Set, const N: usize> Pieces<'a, F, SET, N> {
+impl<'a, F: Format, const SET: CurveSet, const N: usize> Pieces<'a, F, SET, N> {
     /// Creates pieces of this range, from their models and the phases at which they start, in ascending order; the last ends where the first starts.
     ///
     /// # Errors

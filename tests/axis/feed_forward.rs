@@ -4,7 +4,8 @@ use jred::axis::{FeedForward, FrictionRamp, MotionState};
 use jred::number::{FrictionSign, Number, Quantity};
 use jred::table::{AccelerationOf, Format, SpeedOf};
 use jred::{
-    Cubic, Domain, Phase, Q15, Q31, Quadratic, Rows16, Scale, Set, Speed, Spline, Validity, curves,
+    Cubic, CurveSet, Domain, Phase, Q15, Q31, Quadratic, Rows16, Scale, Speed, Spline, Validity,
+    curves,
 };
 
 use super::machine::{in_units, si, with_model};
@@ -12,7 +13,7 @@ use crate::support::images::VALIDITY;
 use crate::support::{assert_near, quantity, samples, scale_of, value};
 
 /// Every term against the curve that it is made of; their sum against the torque.
-fn terms<F: Format, const SET: Set>(scale: Scale, error: f64) {
+fn terms<F: Format, const SET: CurveSet>(scale: Scale, error: f64) {
     with_model::<F, SET>(scale, |model| {
         let scale = *model.table().scale();
         let torque = f64::from(scale.torque());
@@ -65,8 +66,8 @@ fn terms<F: Format, const SET: Set>(scale: Scale, error: f64) {
 
 #[test]
 fn contributions_are_the_terms_of_the_equation() {
-    const CURVES: Set = curves::ALL;
-    const CONSTANTS: Set = curves::LOAD | curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB;
+    const CURVES: CurveSet = curves::ALL;
+    const CONSTANTS: CurveSet = curves::LOAD | curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB;
     let scale = scale_of(150.0, 10.0, 1.4);
     terms::<Spline<f32>, CURVES>(Scale::SI, 1e-4);
     terms::<Cubic<f64>, CONSTANTS>(Scale::SI, 1e-4);
@@ -79,7 +80,7 @@ fn contributions_are_the_terms_of_the_equation() {
 /// The measured speed flickers around zero; the friction follows the set-point.
 #[test]
 fn friction_does_not_chatter() {
-    const SET: Set = curves::LOAD | curves::CONSTANT_COULOMB;
+    const SET: CurveSet = curves::LOAD | curves::CONSTANT_COULOMB;
     with_model::<Spline<f64>, SET>(Scale::SI, |model| {
         let feed_forward = FeedForward::new(model, VALIDITY);
         let phase = Phase::from_radians(1.0);
@@ -233,7 +234,7 @@ fn a_number_that_was_limited_is_flagged() {
 
 #[test]
 fn the_measured_state_is_where_the_curves_are_read() {
-    const SET: Set = curves::LOAD | curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB;
+    const SET: CurveSet = curves::LOAD | curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB;
     with_model::<Cubic<f64>, SET>(Scale::SI, |model| {
         let feed_forward = FeedForward::new(model, VALIDITY);
         let (at, speed) = (2.0, 6.0);

@@ -6,13 +6,15 @@ use jred::axis::{
     Period,
 };
 use jred::table::Format;
-use jred::{Cubic, Domain, Phase, Q31, Quadratic, Rows16, Scale, Set, Spline, Validity, curves};
+use jred::{
+    Cubic, CurveSet, Domain, Phase, Q31, Quadratic, Rows16, Scale, Spline, Validity, curves,
+};
 
 use super::machine::{WAVE, si, with_model, with_model_of};
 use crate::support::machines::Wave;
 use crate::support::{scale_of, value};
 
-const SET: Set = curves::LOAD | curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB;
+const SET: CurveSet = curves::LOAD | curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB;
 const TICK: f32 = 0.000_5;
 /// 8 N·m up to 6 rad/s, 4 at 12; 8 when it brakes.
 const POINTS: [[f32; 2]; 2] = [[6.0, 8.0], [12.0, 4.0]];

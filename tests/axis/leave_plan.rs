@@ -8,13 +8,13 @@ use jred::axis::{
 };
 use jred::number::Quantity as _;
 use jred::table::Format;
-use jred::{Cubic, Domain, Q31, Rows16, Scale, Set, Spline, curves};
+use jred::{Cubic, CurveSet, Domain, Q31, Rows16, Scale, Spline, curves};
 
 use super::machine::{si, with_model};
 use super::plan::image;
 use crate::support::{scale_of, value};
 
-const SET: Set = curves::LOAD | curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB;
+const SET: CurveSet = curves::LOAD | curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB;
 const TICK: f32 = 0.000_5;
 /// Braking torque of the drive (N·m).
 const BRAKE: f32 = 8.0;

@@ -2,8 +2,8 @@ use core::f64::consts::TAU;
 
 use jred::axis::{MotionState, Period};
 use jred::{
-    Acceleration, Cubic, Domain, Phase, Q15, Q31, Reducible, Rows16, Scale, Set, Speed, Spline,
-    curves,
+    Acceleration, Cubic, CurveSet, Domain, Phase, Q15, Q31, Reducible, Rows16, Scale, Speed,
+    Spline, curves,
 };
 
 use super::machine::{WAVE, in_units, si, with_model};
@@ -33,7 +33,7 @@ fn driven(torque: f64, [phi, omega]: [f64; 2], time: f64) -> [f64; 2] {
 
 #[test]
 fn the_middle_of_a_tick_is_one_order_better() {
-    const SET: Set = curves::LOAD | curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB;
+    const SET: CurveSet = curves::LOAD | curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB;
     with_model::<Cubic<f64>, SET>(Scale::SI, |model| {
         for (bits, from, alpha) in samples(
             40,

@@ -10,13 +10,13 @@ use jred::axis::{
     TorqueLimits, Tracker, Transmission,
 };
 use jred::number::FrictionSign;
-use jred::{Domain, Model, Phase, Scale, Set, Spline, Validity, curves, include_image};
+use jred::{CurveSet, Domain, Model, Phase, Scale, Spline, Validity, curves, include_image};
 
 use super::machine::with_model;
 use crate::no_panic_list::public_of;
 use crate::support::images::VALIDITY;
 
-const SET: Set = curves::LOAD | curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB;
+const SET: CurveSet = curves::LOAD | curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB;
 type Press<'a> = Model<'a, Spline<f32>, SET>;
 
 /// What a function makes of a number that is none.
@@ -543,8 +543,8 @@ fn every_function_of_the_axis_is_tried() {
     // Bytes, counts, phases, and what was made of them.
     const WITHOUT: &[&str] = &[
         "Status::is_valid",
-        "MotionRange::omega",
-        "MotionRange::alpha",
+        "MotionRange::max_speed",
+        "MotionRange::max_acceleration",
         "ImageSlot",
         "image_len",
         "Plan::new",

@@ -7,7 +7,9 @@ use jred::mechanism::{Branch, Geneva, RackAndPinion, SliderCrank, SliderCrankDim
 use jred::number::{RangeError, Transfer};
 use jred::table::{CubicSpline, Format, MAX_CELLS};
 use jred::tabulate::{Request, fill, tabulate};
-use jred::{Domain, Error, Link, Machine, Q31, Reducible, Scale, Set, Spline, TableError, curves};
+use jred::{
+    CurveSet, Domain, Error, Link, Machine, Q31, Reducible, Scale, Spline, TableError, curves,
+};
 
 use super::says;
 use crate::support::machines::Wave;
@@ -17,7 +19,7 @@ use crate::support::scale_of;
 /// The table of a machine, or why there is none.
 fn rows<S: jred::number::Scalar>(
     machine: &impl Reducible,
-    set: Set,
+    set: CurveSet,
     cells: u32,
     scale: &Scale,
 ) -> Result<Vec<<Spline<S> as Format>::Word>, Error> {

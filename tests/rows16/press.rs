@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use jred::table::words_len;
 use jred::tabulate::{Request, measure, scratch_len, tabulate};
-use jred::{Error, Phase, Reducible, Rows16, Scale, Set, curves};
+use jred::{CurveSet, Error, Phase, Reducible, Rows16, Scale, curves};
 use proptest::prelude::*;
 
 use super::{Short, model, q15};
@@ -13,7 +13,7 @@ use crate::support::{budget, largest, samples, value};
 
 const OMEGA: f64 = 40.0;
 const ALPHA: f64 = 800.0;
-const SET: Set = curves::LOAD;
+const SET: CurveSet = curves::LOAD;
 
 fn request(torque_error: f64) -> Request {
     Request::new(torque_error)

@@ -4,13 +4,13 @@ use jred::machine::PoseError;
 use jred::number::RangeError;
 use jred::table::{MAX_CELLS, RowConstants, words_len};
 use jred::tabulate::{Request, fill, scratch_len, tabulate};
-use jred::{Domain, Error, Reducible, Reduction, Rows16, Scale, Set, TableError, curves};
+use jred::{CurveSet, Domain, Error, Reducible, Reduction, Rows16, Scale, TableError, curves};
 
 use super::{CONSTANT, Short, model, row_words};
 use crate::support::machines::Wave;
 use crate::support::scale_of;
 
-const SET: Set = super::EVERY;
+const SET: CurveSet = super::EVERY;
 
 /// J = 0.5, 1/J = 2, all else 0.
 fn good() -> Short {
@@ -196,7 +196,7 @@ fn a_model_of_another_set_span_or_scale() {
     );
 }
 
-fn filled(machine: &impl Reducible, set: Set, cells: u32, scale: &Scale) -> Error {
+fn filled(machine: &impl Reducible, set: CurveSet, cells: u32, scale: &Scale) -> Error {
     Short::of(machine, set, cells, scale)
         .map(|_| ())
         .unwrap_err()
@@ -206,7 +206,7 @@ fn filled(machine: &impl Reducible, set: Set, cells: u32, scale: &Scale) -> Erro
 fn machines_out_of_range() {
     let scale = scale_of(60.0, 11.0, 2.0);
     let wave = Wave::bare(1.0, 0.25);
-    let base = |wave: &Wave, set: Set| match filled(wave, set, 40, &scale) {
+    let base = |wave: &Wave, set: CurveSet| match filled(wave, set, 40, &scale) {
         Error::Table(TableError::Overflow { base, .. }) => base,
         other => panic!("{other}"),
     };

@@ -4,7 +4,7 @@ use jred::machine::{Action, Load};
 use jred::mechanism::{Branch, SliderCrank, SliderCrankDimensions};
 use jred::slider_crank::{form, set_in_use};
 use jred::table::{Shape, words_len};
-use jred::{AnyModel, Error, Machine, Set, SliderCrankForm, Table};
+use jred::{AnyModel, CurveSet, Error, Machine, SliderCrankForm, Table};
 use proptest::prelude::*;
 
 use super::link_of;
@@ -110,14 +110,17 @@ impl Given {
 }
 
 /// Coefficients and set.
-pub(crate) fn words_of(machine: &Machine<SliderCrank>) -> Result<(Vec<f32>, Set), Error> {
+pub(crate) fn words_of(machine: &Machine<SliderCrank>) -> Result<(Vec<f32>, CurveSet), Error> {
     let set = set_in_use(machine)?;
     let mut words = vec![0.0; words_len::<SliderCrankForm>(0, set)];
     form(machine, set, &mut words)?;
     Ok((words, set))
 }
 
-pub(crate) fn model_of(words: &[f32], set: Set) -> Result<AnyModel<'_, SliderCrankForm>, Error> {
+pub(crate) fn model_of(
+    words: &[f32],
+    set: CurveSet,
+) -> Result<AnyModel<'_, SliderCrankForm>, Error> {
     let table = Table::new(words, Shape::slider_crank(set))?;
     Ok(AnyModel::new(table)?)
 }

@@ -10,7 +10,7 @@ use jred::number::Number;
 use jred::table::{Format, Shape, words_len};
 use jred::tabulate::Request;
 use jred::{
-    Domain, Error, Harmonic, Link, Machine, Model, Phase, Reducible, Reduction, Set, Table,
+    CurveSet, Domain, Error, Harmonic, Link, Machine, Model, Phase, Reducible, Reduction, Table,
     TableError,
 };
 use proptest::prelude::*;
@@ -132,7 +132,7 @@ pub(crate) fn peak(machine: &impl Reducible) -> f64 {
     }))
 }
 
-pub(crate) fn fitted<T, const SET: Set>(
+pub(crate) fn fitted<T, const SET: CurveSet>(
     machine: &impl Reducible,
     request: &Request,
 ) -> Result<(Fitted, Vec<T>), Error>
@@ -148,7 +148,7 @@ where
 }
 
 /// The model of as many harmonics as there are words for.
-pub(crate) fn model<T, const SET: Set>(
+pub(crate) fn model<T, const SET: CurveSet>(
     words: &[T],
 ) -> Result<Model<'_, Harmonic<T>, SET>, TableError>
 where
@@ -165,7 +165,7 @@ pub(crate) fn phases(count: u32) -> impl Iterator<Item = Phase> {
     (0..count).map(move |k| Phase::from_bits(k.wrapping_mul((u32::MAX / count) | 1)))
 }
 
-pub(crate) fn terms_of(machine: &impl Reducible, set: Set) -> Result<Set, Error> {
+pub(crate) fn terms_of(machine: &impl Reducible, set: CurveSet) -> Result<CurveSet, Error> {
     terms_in_use(machine, set, 16, &mut vec![0.0; scratch_len(16)])
 }
 

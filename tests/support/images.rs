@@ -2,7 +2,7 @@
 
 use jred::image::{ImageCheck, encode, image_len};
 use jred::table::Format;
-use jred::{Domain, Image, ImageError, Q31, Scale, Set, Spline, Validity, curves};
+use jred::{CurveSet, Domain, Image, ImageError, Q31, Scale, Spline, Validity, curves};
 
 use super::machines::Wave;
 use super::rows::Rows;
@@ -33,7 +33,12 @@ pub(crate) const VALIDITY: Validity = Validity {
     torque_error: 0.01,
 };
 
-pub(crate) fn encoded<F: Format>(machine: &Wave, set: Set, cells: u32, scale: &Scale) -> Vec<u32> {
+pub(crate) fn encoded<F: Format>(
+    machine: &Wave,
+    set: CurveSet,
+    cells: u32,
+    scale: &Scale,
+) -> Vec<u32> {
     let rows = Rows::<F>::of(machine, set, cells, scale).unwrap();
     let mut buffer = vec![0; image_len::<F>(cells, set) + 3];
     encode(&rows.table(), VALIDITY, &mut buffer)
@@ -51,7 +56,7 @@ pub(crate) fn stroke() -> Vec<u32> {
 }
 
 /// Over a stroke, with the curves of this set.
-pub(crate) fn stroke_in<F: Format>(set: Set) -> Vec<u32> {
+pub(crate) fn stroke_in<F: Format>(set: CurveSet) -> Vec<u32> {
     let domain = Domain::stroke(-0.5, 1.5).unwrap();
     let wave = Wave {
         mean: 1.0,

@@ -2,7 +2,7 @@
 
 use core::hint::black_box;
 
-use jred::axis::{Counter, Encoder, Period, StrokeEncoder, TrackerOutput, Tracker};
+use jred::axis::{Counter, Encoder, Period, StrokeEncoder, Tracker, TrackerOutput};
 use jred::{Cubic, Model, Outcome, Phase, Q31, Quadratic, Speed};
 
 use crate::port::{Word, read, write};

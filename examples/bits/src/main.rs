@@ -22,21 +22,21 @@ use jred::harmonic::terms;
 use jred::number::{Number, Quantity};
 use jred::table::Format;
 use jred::{
-    Cubic, Domain, Harmonic, Image, Model, Outcome, Phase, Pieces, Q15, Q31, Quadratic, Rows16,
-    Set, SliderCrankForm, Spline, Spline16, Validity, curves, include_image, slider_crank,
+    Cubic, CurveSet, Domain, Harmonic, Image, Model, Outcome, Phase, Pieces, Q15, Q31, Quadratic,
+    Rows16, SliderCrankForm, Spline, Spline16, Validity, curves, include_image, slider_crank,
 };
 use support::{Failure, println, program};
 
 /// The curves of the press, as `jred export` prints them.
-const PRESS: Set = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
+const PRESS: CurveSet = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
 /// With a curve of 1/J instead of a division.
-const SEED: Set = PRESS | curves::RECIPROCAL;
+const SEED: CurveSet = PRESS | curves::RECIPROCAL;
 /// The curves of the saw as harmonics.
-const SAW: Set =
+const SAW: CurveSet =
     PRESS | terms::INERTIA_COS | terms::LOAD_COS | terms::LOAD_SIN | terms::COULOMB_SIN;
 
 /// The curves and terms of the feeder as a slider-crank.
-const FEEDER: Set = curves::LOAD
+const FEEDER: CurveSet = curves::LOAD
     | curves::VISCOUS
     | curves::COULOMB
     | curves::CONSTANT_COULOMB
@@ -151,7 +151,7 @@ models! {
     "q15 plan           ": of_plan, Rows16, PRESS, "../data/q15_rows.jred";
 }
 
-fn of_model<F: Format<Number: Word>, const SET: Set>(
+fn of_model<F: Format<Number: Word>, const SET: CurveSet>(
     image: &[u8],
     run: &mut Run,
     until: u32,
@@ -168,7 +168,7 @@ fn of_model<F: Format<Number: Word>, const SET: Set>(
 }
 
 /// The plan of the press, repeated at a rate that changes every few ticks, and at random times.
-fn of_plan<F: Format<Number: Word>, const SET: Set>(
+fn of_plan<F: Format<Number: Word>, const SET: CurveSet>(
     image: &[u8],
     run: &mut Run,
     until: u32,
@@ -206,7 +206,7 @@ fn of_plan<F: Format<Number: Word>, const SET: Set>(
 }
 
 /// The whole turn as one piece that starts at some phase.
-fn of_piece<F: Format<Number: Word>, const SET: Set>(
+fn of_piece<F: Format<Number: Word>, const SET: CurveSet>(
     image: &[u8],
     run: &mut Run,
     until: u32,

@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-use jred::axis::{AxisError, ImageSlot, Period, FrictionRamp, TorqueLimits, Transmission};
+use jred::axis::{AxisError, FrictionRamp, ImageSlot, Period, TorqueLimits, Transmission};
 use jred::{ImageError, Phase};
 
 use crate::board::RATE;

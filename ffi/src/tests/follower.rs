@@ -5,7 +5,7 @@ use core::ptr::null;
 
 use jred::axis::plan::{Errors, Knot, encode, image_len};
 use jred::axis::{Override, Plan, PlanFollower};
-use jred::{Domain, Image, Q15, Q31, Rows16, Set, Spline, include_image};
+use jred::{CurveSet, Domain, Image, Q15, Q31, Rows16, Spline, include_image};
 
 use super::{PRESS, Press, jred_spline_f32_load, jred_spline_q31_load, press, words};
 use crate::follower::{CPlan, CPlanState, CSetPoint, Follow};
@@ -19,7 +19,7 @@ use crate::status::Status;
 unsafe extern "C" {
     fn jred_rows_q15_load(
         memory: *mut Memory<Rows16>,
-        set: Set,
+        set: CurveSet,
         words: *const u32,
         length: usize,
     ) -> i32;

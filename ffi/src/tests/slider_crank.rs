@@ -5,7 +5,7 @@ use core::ptr::{null, null_mut};
 
 use jred::image::{encode, image_len};
 use jred::table::Shape;
-use jred::{Image, Model, Set, SliderCrankForm, Table, Validity, curves};
+use jred::{CurveSet, Image, Model, SliderCrankForm, Table, Validity, curves};
 
 use super::ticks::same_bits;
 use super::{PRESS, Press, jred_spline_f32_load, press};
@@ -18,7 +18,7 @@ type Crank = Memory<SliderCrankForm>;
 unsafe extern "C" {
     fn jred_slider_crank_f32_load(
         memory: *mut Crank,
-        set: Set,
+        set: CurveSet,
         words: *const u32,
         length: usize,
     ) -> i32;
@@ -44,7 +44,7 @@ unsafe extern "C" {
 
 /// An image of a slider-crank in closed form with a constant load and constant frictions; `change` may replace its numbers.
 fn crank(change: impl FnOnce(&mut [f32])) -> Vec<u32> {
-    const SET: Set = curves::LOAD | curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB;
+    const SET: CurveSet = curves::LOAD | curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB;
     let mut words = [0.25, -0.1, 0.02, 0.03, -0.004, 5.0, 0.5, 2.0];
     assert_eq!(SET, 49);
     change(&mut words);

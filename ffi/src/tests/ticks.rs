@@ -5,7 +5,7 @@ use core::ptr::{null, null_mut};
 
 use jred::number::FrictionSign;
 use jred::table::Format;
-use jred::{Cubic, Image, Model, Phase, Set, Spline, curves};
+use jred::{Cubic, CurveSet, Image, Model, Phase, Spline, curves};
 
 use super::{PRESS, Press, jred_spline_f32_load, jred_spline_q31_load, press};
 use crate::image::jred_image_info;
@@ -16,7 +16,7 @@ use crate::status::Status;
 unsafe extern "C" {
     fn jred_cubic_f32_load(
         memory: *mut Memory<Cubic<f32>>,
-        set: Set,
+        set: CurveSet,
         words: *const u32,
         length: usize,
     ) -> i32;
@@ -42,7 +42,7 @@ unsafe extern "C" {
 type Tick<'t> = &'t dyn Fn(u32, f32, f32) -> f32;
 
 /// A thousand ticks: torques and acceleration of C have the bits of Rust; the acceleration is computed from the torque.
-pub(super) fn same_bits<F: Format<Number = f32>, const SET: Set>(
+pub(super) fn same_bits<F: Format<Number = f32>, const SET: CurveSet>(
     model: &Model<'_, F, SET>,
     torques: [Tick<'_>; 2],
     acceleration: Tick<'_>,

@@ -49,11 +49,11 @@ const UNIT: f32 = 1.0 / 4_294_967_296.0;
 /// `a_plan_keeps_the_proven_bounds`), and one unit of position or speed for each shift. The factors to machine units have single precision.
 ///
 /// ```
-/// use jred::axis::{FeedForward, PlanFollower, Plan, Override, PlanState};
+/// use jred::axis::{FeedForward, Override, Plan, PlanFollower, PlanState};
 /// use jred::number::FrictionSign;
-/// use jred::{Image, Model, Set, Spline, curves, include_image};
+/// use jred::{CurveSet, Image, Model, Spline, curves, include_image};
 ///
-/// const PRESS: Set = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
+/// const PRESS: CurveSet = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
 ///
 /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
 /// // Once.

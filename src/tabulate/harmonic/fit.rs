@@ -17,7 +17,7 @@ use crate::machine::reducible::Reducible;
 use crate::number::Number;
 use crate::number::error::{RangeError, positive};
 use crate::tabulate::{Request, edge_places, torque_between};
-use crate::{AnyModel, Domain, Error, Phase, Set, math};
+use crate::{AnyModel, CurveSet, Domain, Error, Phase, math};
 
 /// Largest torque of one unit of the k-th harmonic of a curve.
 fn weight(request: &Request, curve: Curve, k: usize) -> f64 {
@@ -65,10 +65,10 @@ pub const fn scratch_len(max_harmonics: u32) -> usize {
 /// The machine's errors; [`HarmonicError::Stroke`]; a buffer too short.
 pub fn terms_in_use(
     machine: &impl Reducible,
-    set: Set,
+    set: CurveSet,
     max_harmonics: u32,
     scratch: &mut [f64],
-) -> Result<Set, Error> {
+) -> Result<CurveSet, Error> {
     const ROUNDING: f64 = 1e-12;
     let mut spectrum = spectrum(machine, set, max_harmonics, scratch)?;
     while spectrum.can_grow() {
@@ -79,7 +79,7 @@ pub fn terms_in_use(
         let limit = ROUNDING * spectrum.size(curve);
         for k in 1..=spectrum.samples() / 2 {
             let [a, b] = spectrum.coefficient(curve, k).map(|x| math::abs(x) > limit);
-            terms |= (Set::from(a) | Set::from(b) << 1) << bit;
+            terms |= (CurveSet::from(a) | CurveSet::from(b) << 1) << bit;
         }
     }
     Ok(in_use(set & 0xff | terms))
@@ -88,7 +88,7 @@ pub fn terms_in_use(
 /// The curves of a machine that turns, not yet sampled.
 fn spectrum<'s>(
     machine: &impl Reducible,
-    set: Set,
+    set: CurveSet,
     max_harmonics: u32,
     scratch: &'s mut [f64],
 ) -> Result<Spectrum<'s>, Error> {
@@ -127,7 +127,7 @@ fn spectrum<'s>(
 /// short; the machine's errors.
 pub fn fit<T: Circular + Number>(
     machine: &impl Reducible,
-    set: Set,
+    set: CurveSet,
     request: &Request,
     scratch: &mut [f64],
     words: &mut [T],
@@ -226,7 +226,7 @@ fn amplitude([a, b]: [f64; 2]) -> f64 {
 fn left_out<T: Circular>(
     spectrum: &Spectrum<'_>,
     request: &Request,
-    set: Set,
+    set: CurveSet,
     harmonics: usize,
 ) -> f64 {
     let rounding = |x: f64| x - T::from_f64(x).to_f64();
@@ -277,7 +277,7 @@ fn unseen(spectrum: &Spectrum<'_>, request: &Request) -> Option<f64> {
 }
 
 /// The coefficients, in the order of [`Coefficient::of_word`].
-fn fill<T: Circular>(spectrum: &Spectrum<'_>, set: Set, words: &mut [T]) {
+fn fill<T: Circular>(spectrum: &Spectrum<'_>, set: CurveSet, words: &mut [T]) {
     for (word, slot) in words.iter_mut().enumerate() {
         if let Some(Coefficient { curve, kind }) = Coefficient::of_word(word, set) {
             *slot = T::from_f64(match kind {

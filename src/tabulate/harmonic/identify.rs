@@ -13,7 +13,7 @@
 //! not on its square as with normal equations (Å. Björck, *Numerical Methods for Least Squares Problems*, SIAM 1996, 2.4 and 3.2).
 
 use super::HarmonicError;
-use crate::Set;
+use crate::CurveSet;
 use crate::curve::{
     Circular, Coefficient, Curve, Harmonic, Kind, MAX_HARMONICS, TableError, words_len,
 };
@@ -61,7 +61,7 @@ pub struct Identified<const WORDS: usize> {
 ///
 /// **Cost** of a sample: 3·WORDS² multiplications in `f64`; 8·WORDS² bytes.
 #[derive(Clone, Debug)]
-pub struct Identification<const WORDS: usize, const SET: Set> {
+pub struct Identification<const WORDS: usize, const SET: CurveSet> {
     /// R, row by row.
     triangle: [[f64; WORDS]; WORDS],
     right: [f64; WORDS],
@@ -69,7 +69,7 @@ pub struct Identification<const WORDS: usize, const SET: Set> {
     samples: u32,
 }
 
-impl<const WORDS: usize, const SET: Set> Identification<WORDS, SET> {
+impl<const WORDS: usize, const SET: CurveSet> Identification<WORDS, SET> {
     /// An identification without samples.
     ///
     /// # Errors
@@ -248,10 +248,10 @@ fn norm(values: impl IntoIterator<Item = f64>) -> f64 {
 /// ```
 /// use jred::harmonic::{Sample, identify, terms};
 /// use jred::table::Shape;
-/// use jred::{Error, Harmonic, Model, Phase, Set, Table, curves};
+/// use jred::{CurveSet, Error, Harmonic, Model, Phase, Table, curves};
 ///
 /// // J = 0.5 − 0.2·cos 2φ kg·m², 3 N·m of Coulomb friction.
-/// const SET: Set = curves::COULOMB | terms::INERTIA_COS;
+/// const SET: CurveSet = curves::COULOMB | terms::INERTIA_COS;
 /// let made = [0.5, 3.0, 0.0, -0.2];
 /// let table = Table::new(&made, Shape::harmonics(2, SET)).map_err(Error::Table)?;
 /// let machine = Model::<Harmonic<f64>, SET>::new(table).map_err(Error::Table)?;
@@ -267,7 +267,7 @@ fn norm(values: impl IntoIterator<Item = f64>) -> f64 {
 ///
 /// # Errors
 /// As [`Identification::new`], [`add`](Identification::add) and [`solve`](Identification::solve).
-pub fn identify<const WORDS: usize, const SET: Set>(
+pub fn identify<const WORDS: usize, const SET: CurveSet>(
     samples: &[Sample],
 ) -> Result<Identified<WORDS>, Error> {
     let mut identification = Identification::<WORDS, SET>::new()?;

@@ -17,7 +17,7 @@ mod error;
 
 pub use error::SliderCrankError;
 
-use crate::curve::curves::Set;
+use crate::curve::curves::CurveSet;
 use crate::curve::{COEFFICIENTS, CrankCoefficient as C, SliderCrankForm, words_len};
 use crate::machine::{Action, Load, Mechanism as _};
 use crate::mechanism::{Branch, SliderCrank};
@@ -182,7 +182,7 @@ impl Sums {
     }
 
     /// The set of significant coefficients.
-    fn set(&self) -> Set {
+    fn set(&self) -> CurveSet {
         let size = |part: C| {
             self.of
                 .get(part as usize)
@@ -210,7 +210,7 @@ impl Sums {
 ///
 /// # Errors
 /// As [`SliderCrankError`] lists.
-pub fn set_in_use(machine: &Machine<SliderCrank>) -> Result<Set, SliderCrankError> {
+pub fn set_in_use(machine: &Machine<SliderCrank>) -> Result<CurveSet, SliderCrankError> {
     Ok(Sums::new(machine)?.set())
 }
 
@@ -222,7 +222,11 @@ pub fn set_in_use(machine: &Machine<SliderCrank>) -> Result<Set, SliderCrankErro
 ///
 /// # Errors
 /// As [`SliderCrankError`] lists; [`TableError::Curves`] with the machine's set, if `set` lacks a part of it; a buffer too short.
-pub fn form(machine: &Machine<SliderCrank>, set: Set, words: &mut [f32]) -> Result<usize, Error> {
+pub fn form(
+    machine: &Machine<SliderCrank>,
+    set: CurveSet,
+    words: &mut [f32],
+) -> Result<usize, Error> {
     let sums = Sums::new(machine)?;
     let in_use = sums.set();
     if in_use & !set != 0 {

@@ -3,7 +3,7 @@
 use jred::machine::Jointed;
 use jred::table::{CurveValues, Format, words_len};
 use jred::tabulate::{Request, fill, measure, scratch_len, torque_between};
-use jred::{Machine, Phase, Reducible, Reduction, Scale, Set, Table, curves};
+use jred::{CurveSet, Machine, Phase, Reducible, Reduction, Scale, Table, curves};
 use jred_enclosure::{Closure, Curves, Goal, Parts, Proof, Unproven, prove};
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt as _, SeedableRng as _};
@@ -45,7 +45,7 @@ pub(crate) struct Made<F: Format> {
 
 pub(crate) fn made<F: Format>(
     machine: &impl Reducible,
-    set: Set,
+    set: CurveSet,
     cells: u32,
     scale: Scale,
 ) -> Made<F> {
@@ -159,4 +159,4 @@ impl<M: Jointed> Reducible for Silent<'_, M> {
 }
 
 /// Load and both frictions, where a machine has them.
-pub(crate) const EVERY: Set = curves::LOAD | curves::VISCOUS | curves::COULOMB;
+pub(crate) const EVERY: CurveSet = curves::LOAD | curves::VISCOUS | curves::COULOMB;

@@ -3,7 +3,7 @@
 
 use jred::table::{Format, words_len};
 use jred::tabulate::{Request, curves_in_use, fill, measure, scratch_len, torque_between};
-use jred::{Cubic, Phase, Quadratic, Reducible, Scale, Set, Spline, Table, curves};
+use jred::{Cubic, CurveSet, Phase, Quadratic, Reducible, Scale, Spline, Table, curves};
 
 use crate::every_machine::machines;
 
@@ -46,7 +46,7 @@ fn searched(worst: f64, machine: &impl Reducible, cells: u32, error: impl Fn(u32
 
 /// The largest error found over the largest at the places, and over the bound; of the smallest of some sizes that is a table.
 fn beyond<F: Format>(machine: &impl Reducible) -> Option<[f64; 2]> {
-    let set: Set = curves_in_use(machine, 256).unwrap();
+    let set: CurveSet = curves_in_use(machine, 256).unwrap();
     let request = Request::new(1.0)
         .with_max_speed(OMEGA)
         .with_max_acceleration(ALPHA);
@@ -74,7 +74,7 @@ fn beyond<F: Format>(machine: &impl Reducible) -> Option<[f64; 2]> {
 
 fn table<F: Format, T>(
     machine: &impl Reducible,
-    set: Set,
+    set: CurveSet,
     cells: u32,
     with: impl Fn(&Table<'_, F>) -> T,
 ) -> Option<T> {

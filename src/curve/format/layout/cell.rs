@@ -2,7 +2,7 @@
 
 use super::{Constants, Fraction, Layout, More, Raw, Word};
 use crate::Phase;
-use crate::curve::curves::{self, Set, has};
+use crate::curve::curves::{self, CurveSet, has};
 use crate::curve::format::bases;
 use crate::curve::{CellCurves, Table};
 use crate::number::{FrictionSign, Kernel, Ring, Role};
@@ -10,7 +10,7 @@ use crate::number::{FrictionSign, Kernel, Ring, Role};
 /// One cell's words and the place in it.
 pub(super) struct Cell<'a, L: Layout> {
     words: &'a [Word<L>],
-    set: Set,
+    set: CurveSet,
     constants: &'a Constants<Word<L>>,
     u: Fraction<L>,
 }
@@ -23,7 +23,7 @@ impl<'a, L: Layout> Cell<'a, L> {
         table: &'a Table<'_, L>,
         rows: &L::Rows<'a>,
         phase: Phase,
-        set: Set,
+        set: CurveSet,
     ) -> Option<Self> {
         let (index, u) = L::locate(phase.to_bits(), L::cells(rows, table, set));
         Some(Self {
@@ -198,7 +198,7 @@ pub(super) fn curves<L: Layout>(
             unscaled
         })
     };
-    let constant = |of: Set, role, word, base: f64| {
+    let constant = |of: CurveSet, role, word, base: f64| {
         if has(set, of) {
             [exact(role, word) * base, 0.0, 0.0, 0.0]
         } else {

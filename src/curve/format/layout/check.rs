@@ -5,7 +5,7 @@
 use super::Layout;
 use super::cell::{Cell, polynomial, wide};
 use crate::curve::format::Runs;
-use crate::curve::{Set, Table, TableError, Usage, curves};
+use crate::curve::{CurveSet, Table, TableError, Usage, curves};
 use crate::math::Real;
 use crate::number::{Kernel, Number, Role};
 use crate::{Domain, Phase};
@@ -136,7 +136,7 @@ pub struct Proven<'a, L: Layout> {
 
 impl<L: Layout> Proven<'_, L> {
     #[inline(always)]
-    pub(super) fn moved<'a>(&self, table: &Table<'a, L>, set: Set) -> Proven<'a, L> {
+    pub(super) fn moved<'a>(&self, table: &Table<'a, L>, set: CurveSet) -> Proven<'a, L> {
         let row = <L as Layout>::ROW;
         let rows = table.cells() + row.more as u32;
         Proven {

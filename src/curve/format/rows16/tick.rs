@@ -2,7 +2,7 @@
 
 use super::kernel;
 use super::row::{self, Rows};
-use crate::curve::curves::{self, Set, has};
+use crate::curve::curves::{self, CurveSet, has};
 use crate::curve::format::Runs;
 use crate::curve::{Table, TableError};
 use crate::number::{FrictionSign, Outcome, fence};
@@ -28,7 +28,7 @@ pub(super) enum Shift { S0, S1, S2, S3, S4, S5, S6, S7, S8, S9, S10, S11, S12, S
 impl Shift {
     #[rustfmt::skip]
     pub(super) fn new(shift: u32) -> Option<Self> {
-        use Shift::{S0, S1, S2, S3, S4, S5, S6, S7, S8, S9, S10, S11, S12, S13, S14, S15};
+        use Shift::{S0, S1, S10, S11, S12, S13, S14, S15, S2, S3, S4, S5, S6, S7, S8, S9};
         let all = [S0, S1, S2, S3, S4, S5, S6, S7, S8, S9, S10, S11, S12, S13, S14, S15];
         all.get(shift as usize).copied()
     }
@@ -37,7 +37,7 @@ impl Shift {
 impl<'a> Tick<'a> {
     pub(super) fn new(table: &Table<'a, super::Rows16>) -> Result<Self, TableError> {
         let (set, constants) = (table.set(), table.constants());
-        let constant = |of: Set, value: i32| if has(set, of) { value } else { 0 };
+        let constant = |of: CurveSet, value: i32| if has(set, of) { value } else { 0 };
         let shift = if has(set, curves::RECIPROCAL) {
             constants.shift
         } else {
@@ -52,7 +52,7 @@ impl<'a> Tick<'a> {
     }
 
     #[inline(always)]
-    pub(super) fn moved<'b>(&self, table: &Table<'b, super::Rows16>, set: Set) -> Tick<'b> {
+    pub(super) fn moved<'b>(&self, table: &Table<'b, super::Rows16>, set: CurveSet) -> Tick<'b> {
         Tick {
             rows: Rows::counted(table.words(), row::length(set), table.cells()),
             viscous: self.viscous,
@@ -64,7 +64,7 @@ impl<'a> Tick<'a> {
     #[inline(always)]
     pub(super) fn torque(
         &self,
-        set: Set,
+        set: CurveSet,
         phase: Phase,
         motion: [Q15; 2],
         friction: FrictionSign<Q15>,
@@ -83,7 +83,7 @@ impl<'a> Tick<'a> {
     fn torque_of<const W: usize>(
         &self,
         rows: &[[u32; W]],
-        set: Set,
+        set: CurveSet,
         phase: Phase,
         [omega, alpha]: [Q15; 2],
         friction: FrictionSign<Q15>,
@@ -106,7 +106,7 @@ impl<'a> Tick<'a> {
     #[inline(always)]
     pub(super) fn accelerations(
         &self,
-        set: Set,
+        set: CurveSet,
         phase: Phase,
         omega: Q15,
         friction: FrictionSign<Q15>,
@@ -126,7 +126,7 @@ impl<'a> Tick<'a> {
     fn accelerations_of<const W: usize>(
         &self,
         rows: &[[u32; W]],
-        set: Set,
+        set: CurveSet,
         phase: Phase,
         omega: Q15,
         friction: FrictionSign<Q15>,
@@ -159,7 +159,7 @@ impl<'a> Tick<'a> {
 
     /// (torque − resisting)/J, by 1/J or J.
     #[inline(always)]
-    fn outcome(&self, set: Set, torque: Q15, resisting: i32, inertia: i32) -> Outcome<Q15> {
+    fn outcome(&self, set: CurveSet, torque: Q15, resisting: i32, inertia: i32) -> Outcome<Q15> {
         let net = i32::from(torque.to_bits()).wrapping_sub(resisting);
         if has(set, curves::RECIPROCAL) {
             kernel::limited(inertia.wrapping_mul(net) >> (self.shift as u32))
@@ -170,7 +170,7 @@ impl<'a> Tick<'a> {
 
     /// (V·ω + b)·ω in Q31
     #[inline(always)]
-    fn of_speed(&self, set: Set, row: &[u32], u: i32, omega: Q15) -> i32 {
+    fn of_speed(&self, set: CurveSet, row: &[u32], u: i32, omega: Q15) -> i32 {
         let omega = i32::from(omega.to_bits());
         let b = self.viscous(set, row, u);
         let velocity = kernel::line(row::at(row, row::velocity(set)), u);
@@ -180,7 +180,7 @@ impl<'a> Tick<'a> {
     /// J·α, ½·J′·ω², −load, b·ω and c·sgn ω, from the row of a cell and the place in it.
     pub(super) fn torque_terms(
         &self,
-        set: Set,
+        set: CurveSet,
         row: &[u32],
         u: i32,
         [omega, alpha]: [Q15; 2],
@@ -206,7 +206,7 @@ impl<'a> Tick<'a> {
 
     /// b in Q30, plus half a unit to round (V·ω + b).
     #[inline(always)]
-    fn viscous(&self, set: Set, row: &[u32], u: i32) -> i32 {
+    fn viscous(&self, set: CurveSet, row: &[u32], u: i32) -> i32 {
         if has(set, curves::VISCOUS) {
             let b = kernel::line(row::at(row, row::viscous(set)), u) << 15;
             return self.viscous.wrapping_add(b);
@@ -218,7 +218,7 @@ impl<'a> Tick<'a> {
     #[inline(always)]
     fn with_coulomb(
         &self,
-        set: Set,
+        set: CurveSet,
         sum: i32,
         row: &[u32],
         u: i32,
@@ -236,7 +236,7 @@ impl<'a> Tick<'a> {
 
     /// sum − load, plus half a unit of the result for rounding, which the table of a load contains.
     #[inline(always)]
-    fn with_load(set: Set, sum: i32, row: &[u32], start: u32, u: i32) -> i32 {
+    fn with_load(set: CurveSet, sum: i32, row: &[u32], start: u32, u: i32) -> i32 {
         if has(set, curves::LOAD) {
             kernel::minus_load(sum, row::at(row, 0), start, u)
         } else {

@@ -1,13 +1,13 @@
 //! A slider-crank in closed form: chosen, loaded, ticked; and refused where there is none.
 
 use jred::slider_crank::terms;
-use jred::{Image, ImageError, Phase, Reducible as _, Set, SliderCrankForm, Spline, curves};
+use jred::{CurveSet, Image, ImageError, Phase, Reducible as _, SliderCrankForm, Spline, curves};
 
 use super::images::{errors, machine};
 use super::{export_of, feeder_form, number_after, words_of};
 use crate::support::{Folder, press_file};
 
-const SET: Set = curves::LOAD
+const SET: CurveSet = curves::LOAD
     | curves::VISCOUS
     | curves::COULOMB
     | curves::CONSTANT_COULOMB

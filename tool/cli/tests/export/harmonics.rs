@@ -1,7 +1,7 @@
 //! Harmonics: exported, loaded, ticked; and refused where a table is needed.
 
 use jred::harmonic::terms;
-use jred::{Harmonic, Image, ImageError, Phase, Reducible as _, Set, Spline, curves};
+use jred::{CurveSet, Harmonic, Image, ImageError, Phase, Reducible as _, Spline, curves};
 
 use super::images::{machine, random};
 use super::{export, export_of, number_after, words_of};
@@ -17,7 +17,7 @@ fn smooth(folder: &Folder) -> std::path::PathBuf {
 }
 
 /// J is even, the weight's load and the friction F·x′ odd.
-const SET: Set = curves::LOAD
+const SET: CurveSet = curves::LOAD
     | curves::COULOMB
     | curves::CONSTANT_VISCOUS
     | terms::INERTIA_COS

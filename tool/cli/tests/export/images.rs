@@ -3,8 +3,8 @@
 use jred::number::{Number, Quantity};
 use jred::table::Format;
 use jred::{
-    Cubic, Image, ImageError, Phase, Q31, Quadratic, Reducible as _, Rows16, Set, SliderCrankForm,
-    Spline, Spline16, curves,
+    Cubic, CurveSet, Image, ImageError, Phase, Q31, Quadratic, Reducible as _, Rows16,
+    SliderCrankForm, Spline, Spline16, curves,
 };
 use jred_machine::model::machine::MachineFile;
 use jred_machine::model::mechanism::AnyMechanism;
@@ -13,8 +13,8 @@ use super::{KINDS, export, export_of, image, number_after, words_of};
 use crate::support::{Folder, budget, press_file};
 
 /// The curves of the press.
-const SET: Set = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
-const WITH_RECIPROCAL: Set = SET | curves::RECIPROCAL;
+const SET: CurveSet = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
+const WITH_RECIPROCAL: CurveSet = SET | curves::RECIPROCAL;
 
 /// A fixed sequence of numbers from 0 to 1 (xorshift; G. Marsaglia 2003).
 pub(super) fn random() -> impl FnMut() -> f64 {
@@ -87,7 +87,7 @@ fn value<Q: Quantity>(quantity: Q) -> f64 {
     quantity.number().to_f64()
 }
 
-fn of_model<F: Format, const CURVES: Set>(words: &[u32]) -> [f64; 2] {
+fn of_model<F: Format, const CURVES: CurveSet>(words: &[u32]) -> [f64; 2] {
     let image = Image::new(words).unwrap();
     let model = image.model::<F, CURVES>().unwrap();
     errors::<F::Number>(

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use jred::table::Format;
 use jred::{
-    Cubic, Domain, Image, Model, Phase, Pieces, Q31, Quadratic, Reducible as _, Rows16, Set,
+    Cubic, CurveSet, Domain, Image, Model, Phase, Pieces, Q31, Quadratic, Reducible as _, Rows16,
     Spline, Spline16, curves,
 };
 
@@ -16,7 +16,7 @@ use super::{KINDS, export_of, press_pieces};
 use crate::support::{Folder, Run, budget, edited_press, press_file};
 
 /// The curves of the press.
-const SET: Set = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
+const SET: CurveSet = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
 
 /// The press with a pressing force that sets in within half a degree.
 fn steep(folder: &Folder) -> PathBuf {

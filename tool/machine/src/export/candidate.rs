@@ -2,7 +2,7 @@
 
 use jred::table::Usage;
 use jred::tabulate::Tabulated;
-use jred::{Error, Scale, Set};
+use jred::{CurveSet, Error, Scale};
 
 use super::choice::{LayoutName, Number};
 use super::proof::Proven;
@@ -14,7 +14,7 @@ pub struct Made {
     /// Start and end of its range (rad, or m).
     pub range: [f64; 2],
     /// Set of [`curves`](jred::curves).
-    pub curves: Set,
+    pub curves: CurveSet,
     /// Accuracy of its curves.
     pub found: Tabulated,
     /// The largest error of the drive torque (N·m, or N): of the curves and of the ticks.
@@ -98,7 +98,7 @@ impl Candidate {
     }
 
     /// Set of [`curves`](jred::curves), common to all tables.
-    pub fn curves(&self) -> Set {
+    pub fn curves(&self) -> CurveSet {
         self.tables.first().map_or(0, |table| table.curves)
     }
 

@@ -5,7 +5,7 @@ use jred::image::{encode, image_len};
 use jred::number::RangeError;
 use jred::table::{Shape, Usage, words_len};
 use jred::tabulate::{Request, Tabulated};
-use jred::{Error, Harmonic, Image, Reducible as _, Scale, Set, Table, Validity};
+use jred::{CurveSet, Error, Harmonic, Image, Reducible as _, Scale, Table, Validity};
 
 use super::candidate::{Answer, Made};
 use super::search::Search;
@@ -78,7 +78,7 @@ impl Search<'_> {
     }
 
     /// The fewest harmonics whose coefficients meet this error, and the accuracy of their ticks.
-    fn fitted(&self, set: Set, most: u32, torque_error: f64) -> Result<Made, Error> {
+    fn fitted(&self, set: CurveSet, most: u32, torque_error: f64) -> Result<Made, Error> {
         let [omega, alpha] = self.goal.range;
         let request = Request::new(torque_error)
             .with_max_speed(omega)

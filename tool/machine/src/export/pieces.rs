@@ -6,7 +6,7 @@ use std::ops::RangeInclusive;
 use jred::mechanism::SliderCrank;
 use jred::table::Format;
 use jred::tabulate::{self, Part};
-use jred::{Domain, Error, Machine, Reducible as _, Set, TableError, curves};
+use jred::{CurveSet, Domain, Error, Machine, Reducible as _, TableError, curves};
 
 use super::candidate::Answer;
 use super::choice::{LayoutName, Number, PLACES};
@@ -57,7 +57,7 @@ pub(super) struct Searches<'m> {
     /// The same machine in closed form, if it has one.
     pub(super) crank: Option<Machine<SliderCrank>>,
     pub(super) goal: Goal,
-    set: Set,
+    set: CurveSet,
     pub(super) ranges: Vec<Search<'m>>,
 }
 

@@ -9,7 +9,7 @@ use jred::machine::PoseError;
 use jred::number::RangeError;
 use jred::table::{Format, MAX_CELLS, MIN_CELLS};
 use jred::tabulate::{self, Request};
-use jred::{Domain, Error, Reducible as _, Scale, Set, TableError};
+use jred::{CurveSet, Domain, Error, Reducible as _, Scale, TableError};
 
 use super::candidate::{Answer, Made};
 use super::reference::{Range, Reference, Remembered};
@@ -40,14 +40,14 @@ pub(super) struct Search<'m> {
     pub(super) domain: Domain,
     pub(super) reference: Reference,
     pub(super) goal: Goal,
-    pub(super) set: Set,
+    pub(super) set: CurveSet,
 }
 
 impl<'m> Search<'m> {
     /// A search over a range of a machine with known curves in use, with a cache of at most this many knots.
     pub(super) fn new(
         machine: Range<'m>,
-        set: Set,
+        set: CurveSet,
         goal: Goal,
         most_knots: usize,
     ) -> Result<Self, Error> {
@@ -68,7 +68,7 @@ impl<'m> Search<'m> {
     /// Errors of the machine.
     pub(super) fn run<F: Format>(
         &self,
-        set: Set,
+        set: CurveSet,
         scale: Scale,
         shared: Option<u32>,
     ) -> Result<Answer<Made>, Error> {
@@ -99,7 +99,7 @@ impl<'m> Search<'m> {
 
 struct Attempt<'s, F: Format> {
     search: &'s Search<'s>,
-    set: Set,
+    set: CurveSet,
     scale: Scale,
     /// Common divisor of all numbers of cells, if the machine units are shared.
     shared: Option<u32>,

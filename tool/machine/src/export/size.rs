@@ -3,7 +3,7 @@
 use jred::image::{encode, image_len};
 use jred::table::{Format, Usage, words_len};
 use jred::tabulate::{self, Request, Tabulated};
-use jred::{Error, Image, Scale, Set, Table, Validity};
+use jred::{CurveSet, Error, Image, Scale, Table, Validity};
 
 use super::candidate::Made;
 use super::search::Search;
@@ -12,7 +12,7 @@ use super::ticks;
 /// A size to evaluate.
 pub(super) struct Size<'s> {
     pub(super) search: &'s Search<'s>,
-    pub(super) set: Set,
+    pub(super) set: CurveSet,
     pub(super) cells: u32,
     pub(super) scale: Scale,
 }
@@ -33,7 +33,7 @@ impl<F: Format> Default for Buffers<F> {
 }
 
 /// Bytes of an image.
-pub(super) fn bytes<F: Format>(cells: u32, set: Set) -> usize {
+pub(super) fn bytes<F: Format>(cells: u32, set: CurveSet) -> usize {
     4 * image_len::<F>(cells, set)
 }
 
