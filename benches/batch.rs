@@ -23,15 +23,16 @@ use std::process::{Command, ExitCode};
 use std::{fs, io};
 
 use bench::{Bench, best, once};
+use jred::error::Error;
 use jred::harmonic::{self, terms};
-use jred::machine::{Action, Load};
+use jred::machine::{Action, Link, Load, Machine, Reducible, Reduction};
 use jred::mechanism::{Branch, SliderCrank};
 use jred::number::{Number, Quantity};
-use jred::table::{Format, Shape, words_len};
+use jred::table::{Format, Shape, Table, words_len};
 use jred::tabulate::{Request, fill, scratch_len, tabulate};
 use jred::{
-    Cubic, CurveSet, Domain, Error, Harmonic, Link, Machine, Model, Phase, Q31, Quadratic,
-    Reducible, Reduction, Scale, Spline, Spline16, Table, curves,
+    Cubic, CurveSet, Domain, Harmonic, Model, Phase, Q31, Quadratic, Scale, Spline, Spline16,
+    curves,
 };
 
 /// Samples of a timed batch, and of a batch whose instructions are counted.

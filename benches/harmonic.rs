@@ -4,11 +4,13 @@ use jred::mechanism::SliderCrankDimensions;
 use std::hint::black_box;
 use std::time::Instant;
 
+use jred::error::Error;
 use jred::harmonic::{Identification, Sample, fit, scratch_len, terms};
+use jred::machine::{Link, Machine};
 use jred::mechanism::{Branch, SliderCrank};
-use jred::table::{Shape, words_len};
+use jred::table::{Shape, Table, words_len};
 use jred::tabulate::Request;
-use jred::{CurveSet, Error, Harmonic, Link, Machine, Model, Phase, Table, curves};
+use jred::{CurveSet, Harmonic, Model, Phase, curves};
 
 const SET: CurveSet = curves::LOAD | terms::SYMMETRIC;
 /// J and load, eleven harmonics.

@@ -35,12 +35,10 @@ mod target {
     use jred::axis::plan::{Errors, Knot, encode, image_len};
     use jred::axis::{Override, Plan, PlanFollower};
     use jred::duty::{Curve, Limits, Meter, Window};
-    use jred::machine::Mechanism;
+    use jred::error::Error;
+    use jred::machine::{Machine, Mechanism, Reducible};
     use jred::tabulate::{fill, scratch_len};
-    use jred::{
-        CurveSet, Domain, Error, Image, Machine, Model, Reducible, Scale, Spline, curves,
-        include_image,
-    };
+    use jred::{CurveSet, Domain, Image, Model, Scale, Spline, curves, include_image};
     use panic_semihosting as _;
 
     use crate::ceilings::judge;

@@ -31,8 +31,7 @@ fn run() -> Result<(), Failure> {
     let press: Model<'_, Spline<f32>, PRESS> = image.model()?;
     // From top dead centre (180 deg) to top dead centre; before and after, the crank is at rest. The 3-4-5 polynomial needs no sine, and in f32 no
     // double precision.
-    let stroke =
-        Move::new(Law::Polynomial345, PI, TAU, 0.4).map_err(|_| "the move is not valid")?;
+    let stroke = Move::new(Law::Polynomial345, PI, TAU, 0.4)?;
 
     println!("  ms     phase   torque bits     torque   acceleration bits");
     let (mut worst, mut saturated, mut checksum) = (0.0f32, 0u32, 0u32);

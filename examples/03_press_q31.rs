@@ -41,8 +41,7 @@ fn run() -> Result<(), Failure> {
     // For comparison only: firmware carries one of the two images.
     let float = Image::from_bytes(include_image!("data/press_f32.jred"))?;
     let float: Model<'_, Spline<f32>, PRESS> = float.model()?;
-    let stroke =
-        Move::new(Law::Polynomial345, PI, TAU, 0.4).map_err(|_| "the move is not valid")?;
+    let stroke = Move::new(Law::Polynomial345, PI, TAU, 0.4)?;
 
     println!("  ms     phase   torque bits     torque   acceleration bits");
     let (mut worst, mut apart, mut saturated, mut checksum) = (0u32, 0.0f32, 0u32, 0u32);

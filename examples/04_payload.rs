@@ -15,12 +15,13 @@
 #![cfg_attr(target_os = "none", no_std, no_main)]
 
 mod support;
-use jred::machine::{Joint, Marker, MassProperties, Mechanism};
+use jred::error::Error;
+use jred::machine::{Joint, Link, Machine, Marker, MassProperties, Mechanism};
 use jred::mechanism::linkage::{Assembly, Linkage, Pair, Pose};
 use jred::mechanism::{FourBar, FourBarDimensions, Side};
-use jred::table::words_len;
+use jred::table::{Table, words_len};
 use jred::tabulate::{Request, fill, measure, scratch_len};
-use jred::{Domain, Error, Link, Machine, Model, Phase, Scale, Spline, Table, curves};
+use jred::{Domain, Model, Phase, Scale, Spline, curves};
 use support::{Failure, milli, println, program};
 
 /// Dimensions (m).

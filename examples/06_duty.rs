@@ -49,19 +49,16 @@ fn run() -> Result<(), Failure> {
         0.0,
         core::f32::consts::TAU,
         f32::from(TURN) * STEP,
-    )
-    .map_err(|_| "the move is not possible")?;
+    )?;
 
-    let curve = |points: &[[f32; 2]]| Curve::new(points).map_err(|_| "the curve is not possible");
     let limits = Limits::new()
-        .with_continuous(curve(&CONTINUOUS)?)
-        .with_peak(curve(&PEAK)?)
+        .with_continuous(Curve::new(&CONTINUOUS)?)
+        .with_peak(Curve::new(&PEAK)?)
         .with_speed(209.0)
         .with_output_peak(220.0)
         .with_output_mean(110.0)
         .with_cycles_per_hour(1000.0);
-    let mut meter =
-        Meter::new(limits, STEP, Window::SinceStart).map_err(|_| "the meter is not possible")?;
+    let mut meter = Meter::new(limits, STEP, Window::SinceStart)?;
 
     for _ in 0..2 {
         for k in 0..TURN + REST {

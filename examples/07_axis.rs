@@ -73,19 +73,16 @@ struct Found {
 impl<'a> Axis<'a> {
     fn new(image: &Image<'a>) -> Result<Self, Failure> {
         let model: Model<'a, Spline<f32>, PRESS> = image.model()?;
-        let wrong = |_| "a figure of the axis is wrong";
         Ok(Self {
             counter: Counter::at(START),
             // Start at the machine's position, otherwise the filter would start with a jump.
-            tracker: Tracker::with_bandwidth(60.0, TICK)
-                .map_err(wrong)?
-                .at(ENCODER.phase_wide(START)),
-            tick: Period::new(TICK, &model).map_err(wrong)?,
-            lead: Period::new(LEAD, &model).map_err(wrong)?,
-            ramp: FrictionRamp::new(0.05, &model).map_err(wrong)?,
+            tracker: Tracker::with_bandwidth(60.0, TICK)?.at(ENCODER.phase_wide(START)),
+            tick: Period::new(TICK, &model)?,
+            lead: Period::new(LEAD, &model)?,
+            ramp: FrictionRamp::new(0.05, &model)?,
             press: FeedForward::new(model, image.validity()),
-            gearbox: Transmission::new(GEARBOX, &model).map_err(wrong)?,
-            limits: TorqueLimits::new(-6.0, 6.0).map_err(wrong)?,
+            gearbox: Transmission::new(GEARBOX, &model)?,
+            limits: TorqueLimits::new(-6.0, 6.0)?,
         })
     }
 
@@ -124,7 +121,7 @@ fn run() -> Result<(), Failure> {
     let image = Image::from_bytes(include_image!("data/press_f32.jred"))?;
     let mut axis = Axis::new(&image)?;
     // A turn in 0.5 s: the set-point, and the machine, which follows it.
-    let turn = Move::new(Law::Polynomial345, 0.0, TAU, 0.5).map_err(|_| "the move is not valid")?;
+    let turn = Move::new(Law::Polynomial345, 0.0, TAU, 0.5)?;
     let (mut limited, mut checksum, mut worst) = (0u32, 0u32, 0.0f32);
     println!("tick   count     speed  of crank  set-point    needed    motor   clipped");
     for k in 0..TICKS {

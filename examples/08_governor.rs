@@ -13,8 +13,7 @@
 mod support;
 
 use jred::axis::{
-    AxisError, Braking, Direction, Envelope, Governor, Limit, Limits, LookAhead, MotionState,
-    Period,
+    Braking, Direction, Envelope, Governor, Limit, Limits, LookAhead, MotionState, Period,
 };
 use jred::{CurveSet, Image, Model, Phase, Q31, Speed, Spline, curves, include_image};
 use support::{Failure, milli, println, program};
@@ -62,17 +61,15 @@ fn run() -> Result<(), Failure> {
     let image = Image::from_bytes(include_image!("data/press_q31.jred"))?;
     let press: Model<'_, Spline<Q31>, PRESS> = image.model()?;
     let scale = image.scale();
-    let wrong = |_: AxisError| "a figure of the drive is wrong";
-    let tick = Period::new(TICK, &press).map_err(wrong)?;
-    let envelope = Envelope::new(DRIVING, BRAKE, &press).map_err(wrong)?;
-    let limits = Limits::new(envelope, 22.0, 1400.0, tick, &press).map_err(wrong)?;
+    let tick = Period::new(TICK, &press)?;
+    let envelope = Envelope::new(DRIVING, BRAKE, &press)?;
+    let limits = Limits::new(envelope, 22.0, 1400.0, tick, &press)?;
     let braking = Braking {
         torque: BRAKE,
         deceleration: f32::INFINITY,
         helped: false, // the workpiece may be missing
     };
-    let ahead = LookAhead::<Q31, NODES>::new(&press, Direction::Forward, braking, limit, &tick)
-        .map_err(wrong)?;
+    let ahead = LookAhead::<Q31, NODES>::new(&press, Direction::Forward, braking, limit, &tick)?;
     let governor = Governor::one_way(&ahead);
 
     let fast = scale.omega(20.0).value;

@@ -18,7 +18,6 @@
 
 mod support;
 
-use jred::axis::plan::PlanError;
 use jred::axis::{FeedForward, Override, Plan, PlanFollower, PlanState};
 use jred::number::FrictionSign;
 use jred::{CurveSet, Image, Model, Phase, Q31, Spline, curves, include_image};
@@ -58,12 +57,10 @@ const fn name(stage: PlanState) -> &'static str {
 fn run() -> Result<(), Failure> {
     let image = Image::from_bytes(include_image!("data/press_q31.jred"))?;
     let press: Model<'_, Spline<Q31>, PRESS> = image.model()?;
-    let wrong = |_: PlanError| "the plan or a figure beside it is wrong";
-    let plan = Plan::from_bytes(include_image!("data/press_plan.jred"), &press)
-        .and_then(|plan| plan.of_machine(image.machine()))
-        .map_err(wrong)?;
+    let plan = Plan::from_bytes(include_image!("data/press_plan.jred"), &press)?
+        .of_machine(image.machine())?;
     let feed_forward = FeedForward::new(press, image.validity());
-    let mut follower = PlanFollower::new(plan, TICK, RAMP, &press).map_err(wrong)?;
+    let mut follower = PlanFollower::new(plan, TICK, RAMP, &press)?;
     let scale = image.scale();
     println!(
         "{} rows, {} ms, up to {} mrad/s",

@@ -26,10 +26,10 @@ use jred::harmonic::{Coefficient, terms};
 use jred::image::{encode, identify, image_len};
 use jred::machine::motion::{Law, Move};
 use jred::number::{Bases, FrictionSign};
-use jred::table::{AccelerationOf, Format, Shape, SpeedOf, TorqueOf, Usage, words_len};
+use jred::table::{AccelerationOf, Format, Shape, SpeedOf, Table, TorqueOf, Usage, words_len};
 use jred::{
     AnyModel, Cubic, CurveSet, Domain, Harmonic, Image, ImageError, Model, Outcome, Phase, Pieces,
-    Q15, Q31, Quadratic, Rows16, Scale, Speed, Spline, Spline16, Table, include_image,
+    Q15, Q31, Quadratic, Rows16, Scale, Speed, Spline, Spline16, include_image,
 };
 #[cfg(feature = "micromath")]
 use jred::{SliderCrankForm, slider_crank};

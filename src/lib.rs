@@ -22,6 +22,37 @@
 //! computes that link from the machine's dimensions, tabulates it, and evaluates it in every control tick: the torque for a motion, and the
 //! acceleration for a torque. It is `no_std`, allocates nothing, contains no unsafe code, and its tick has no panic path.
 //!
+//! # In firmware
+//!
+//! A program names its table once, by three types, as `jred export` prints them:
+//!
+//! ```
+//! use jred::axis::{FeedForward, MotionState};
+//! use jred::number::FrictionSign;
+//! use jred::{CurveSet, FirmwareError, Image, Model, Phase, Spline, curves, include_image};
+//!
+//! const CURVES: CurveSet = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
+//! type Layout = Spline<f32>;
+//! type Press = Model<'static, Layout, CURVES>;
+//! type PressFeedForward = FeedForward<'static, Layout, CURVES>;
+//!
+//! fn start() -> Result<PressFeedForward, FirmwareError> {
+//!     let image = Image::from_bytes(include_image!("../examples/data/press_f32.jred"))?;
+//!     let press: Press = image.model()?;
+//!     Ok(FeedForward::new(press, image.validity()))
+//! }
+//!
+//! /// Every tick: the torque (N·m) on the crank for 10 rad/s and 50 rad/s² at φ = 0.5 rad.
+//! fn tick(press: &PressFeedForward) -> f32 {
+//!     let wanted = MotionState { phase: Phase::from_radians(0.5), omega: 10.0, alpha: 50.0 };
+//!     press.at_reference(wanted, FrictionSign::OfSpeed(wanted.omega)).torque
+//! }
+//! # assert!(tick(&start().unwrap()).is_finite());
+//! ```
+//!
+//! [`axis`] has all steps from an encoder's count to the torque command of a motor: phase, filter, lead time, feed-forward with a status, gearbox and
+//! limits, plans, and the governor, which slows down ahead of places where the drive could not follow.
+//!
 //! # The equation
 //!
 //! ```text
@@ -50,18 +81,19 @@
 //!                                                └─► encode ─► Image (flash) ─┘
 //! ```
 //!
-//! Firmware finds its items in the root. The rest is in the modules of the layers: [`number`]; [`table`] and [`machine`]; [`mechanism`], [`friction`]
-//! and the tick ([`image`], [`duty`]); [`axis`]; [`tabulate`] and [`harmonic`]. A layer uses only those before it; each can be used alone. Every item
-//! has one path.
+//! The root has what a tick needs. The rest is in the modules of the layers: [`number`]; [`table`] and [`machine`]; [`mechanism`], [`friction`] and the
+//! tick ([`image`], [`duty`]); [`axis`]; [`tabulate`], [`harmonic`] and [`error`]. A layer uses only those before it; each can be used alone. Every
+//! item has one path.
 //!
 //! # From dimensions to a tick
 //!
 //! ```
-//! use jred::machine::MassProperties;
+//! use jred::error::Error;
+//! use jred::machine::{Link, Machine, MassProperties, Reducible};
 //! use jred::mechanism::{Branch, SliderCrank, SliderCrankDimensions};
 //! use jred::table::words_len;
 //! use jred::tabulate::{Request, fill, scratch_len, tabulate};
-//! use jred::{Error, Link, Machine, Model, Phase, Reducible, Scale, Spline, curves};
+//! use jred::{Model, Phase, Scale, Spline, curves};
 //!
 //! fn main() -> Result<(), Error> {
 //!     // Crank 50 mm, rod 200 mm; masses in kg, inertias about the centres of mass in kg·m².
@@ -83,7 +115,7 @@
 //!     // The tick: torque for a motion, and back.
 //!     let set = curves::LOAD;
 //!     let table = fill::<Spline<f32>>(&machine, set, found.cells, &found.scale, &mut scratch, &mut words)?;
-//!     let model = Model::<_, { curves::LOAD }>::new(table).map_err(Error::Table)?;
+//!     let model = Model::<_, { curves::LOAD }>::new(table)?;
 //!     let phase = Phase::from_radians(0.5);
 //!     let torque = model.torque(phase, 40.0, 200.0);
 //!     let alpha = model.acceleration(phase, 40.0, torque).value;
@@ -95,10 +127,6 @@
 //!     Ok(())
 //! }
 //! ```
-//!
-//! Firmware more often loads an [`Image`] that `jred export` made from a machine file. [`axis`] has the steps between the encoder's count and the
-//! drive's torque command: phase, filter, lead time, feed-forward with a status, gearbox and limits, and the governor, which slows down ahead of
-//! places where the drive could not follow.
 //!
 //! # Numbers
 //!
@@ -113,7 +141,7 @@
 //! # Features
 //!
 //! - `mechanics`, the default: everything that creates tables from machines: [`machine`] except its motion laws, [`mechanism`], [`friction`],
-//!   [`tabulate`], the search for [`harmonic`]s and [`Error`]. It needs `heapless`. Firmware with a finished image does not need it, and compiles in
+//!   [`tabulate`], the search for [`harmonic`]s and [`error::Error`]. It needs `heapless`. Firmware with a finished image does not need it, and compiles in
 //!   a third of the time with `default-features = false`; with it firmware creates tables itself. The linked code is the same in both cases;
 //! - `defmt`: `defmt::Format` for the public value types;
 //! - `micromath`: `SliderCrankForm`, a slider-crank without a table, and `Phase::sin_cos_approx`.
@@ -124,7 +152,8 @@ pub mod axis;
 #[deny(clippy::indexing_slicing)]
 mod curve;
 #[cfg(feature = "mechanics")]
-mod error;
+pub mod error;
+mod firmware_error;
 #[cfg(feature = "mechanics")]
 pub mod friction;
 pub mod machine;
@@ -140,27 +169,15 @@ mod tick;
 
 #[cfg(feature = "micromath")]
 pub use curve::SliderCrankForm;
-pub use curve::{
-    Cubic, CurveSet, Harmonic, Quadratic, Rows16, Spline, Spline16, Table, TableError, curves,
-};
-#[cfg(feature = "mechanics")]
-pub use error::Error;
-#[cfg(feature = "mechanics")]
-pub use machine::link::Link;
-#[cfg(feature = "mechanics")]
-pub use machine::reducible::Reducible;
-#[cfg(feature = "mechanics")]
-pub use machine::reduction::{Machine, Reduction};
+pub use curve::{Cubic, CurveSet, Harmonic, Quadratic, Rows16, Spline, Spline16, curves};
+pub use firmware_error::FirmwareError;
 pub use number::phase::{Domain, Phase};
 pub use number::q15::Q15;
 pub use number::q31::Q31;
 pub use number::quantity::{Acceleration, MotorTorque, Speed, Torque};
 pub use number::scalar::Outcome;
 pub use number::scale::Scale;
-pub use tick::{
-    AccelerationRange, AnyModel, Image, ImageError, MachineUnits, Model, Pieces, TorqueTerms,
-    Validity, duty,
-};
+pub use tick::{AccelerationRange, AnyModel, Image, ImageError, Model, Pieces, TorqueTerms, duty};
 
 /// Tables: formats, words and curves, for programs that create or store their own.
 ///
@@ -168,7 +185,7 @@ pub use tick::{
 pub mod table {
     pub use crate::curve::{
         AccelerationOf, CellCurves, Constants, CurveValues, Format, MAX_CELLS, MotorTorqueOf,
-        RowConstants, Shape, SpeedOf, TorqueOf, Usage, words_len,
+        RowConstants, Shape, SpeedOf, Table, TableError, TorqueOf, Usage, words_len,
     };
     pub use crate::number::spline::{
         CubicSpline, MIN_CELLS, control_points, fit_bounded, fit_periodic, fit_quadratic_bounded,
@@ -182,12 +199,13 @@ pub mod table {
 /// [`Harmonic`].
 ///
 /// ```
+/// use jred::error::Error;
 /// use jred::harmonic::{fit, scratch_len, terms};
-/// use jred::machine::MassProperties;
+/// use jred::machine::{Link, Machine, MassProperties, Reducible};
 /// use jred::mechanism::{Branch, SliderCrank, SliderCrankDimensions};
-/// use jred::table::{Shape, words_len};
+/// use jred::table::{Shape, Table, words_len};
 /// use jred::tabulate::Request;
-/// use jred::{CurveSet, Error, Harmonic, Link, Machine, Model, Phase, Reducible, Table, curves};
+/// use jred::{CurveSet, Harmonic, Model, Phase, curves};
 ///
 /// fn main() -> Result<(), Error> {
 ///     // Crank 30 mm, rod 120 mm, ram 42 kg: weight acts along the guide, so J is even and the load odd in φ.
@@ -205,8 +223,8 @@ pub mod table {
 ///     let found = fit(&machine, SET, &request, &mut scratch, &mut words)?;
 ///     assert!(found.torque_error <= 0.001 && found.bytes <= 80);
 ///
-///     let table = Table::new(&words[..found.words], Shape::harmonics(found.harmonics, SET)).map_err(Error::Table)?;
-///     let model = Model::<Harmonic<f32>, SET>::new(table).map_err(Error::Table)?;
+///     let table = Table::new(&words[..found.words], Shape::harmonics(found.harmonics, SET))?;
+///     let model = Model::<Harmonic<f32>, SET>::new(table)?;
 ///     let torque = model.torque(Phase::from_radians(0.5), 10.0, 50.0);
 ///     let exact = machine.reduction(0.5)?.torque(10.0, 50.0).total();
 ///     assert!((f64::from(torque) - exact).abs() < 0.001);
@@ -225,11 +243,12 @@ pub mod harmonic {
 /// A slider-crank in closed form: lengths and masses instead of a table, ticked by [`Model`] in the format [`SliderCrankForm`].
 ///
 /// ```
-/// use jred::machine::MassProperties;
+/// use jred::error::Error;
+/// use jred::machine::{Link, Machine, MassProperties, Reducible};
 /// use jred::mechanism::{Branch, SliderCrank, SliderCrankDimensions};
 /// use jred::slider_crank::{form, terms};
-/// use jred::table::{Shape, words_len};
-/// use jred::{CurveSet, Error, Link, Machine, Model, Phase, Reducible, SliderCrankForm, Table, curves};
+/// use jred::table::{Shape, Table, words_len};
+/// use jred::{CurveSet, Model, Phase, SliderCrankForm, curves};
 ///
 /// fn main() -> Result<(), Error> {
 ///     // Crank 30 mm, rod 120 mm, ram 42 kg; weight acts along the guide.
@@ -244,8 +263,8 @@ pub mod harmonic {
 ///     const SET: CurveSet = curves::LOAD | terms::LOAD_SIN;
 ///     let mut words = [0.0; words_len::<SliderCrankForm>(0, SET)];
 ///     assert_eq!(form(&machine, SET, &mut words)?, 7);
-///     let table = Table::new(&words, Shape::slider_crank(SET)).map_err(Error::Table)?;
-///     let model = Model::<SliderCrankForm, SET>::new(table).map_err(Error::Table)?;
+///     let table = Table::new(&words, Shape::slider_crank(SET))?;
+///     let model = Model::<SliderCrankForm, SET>::new(table)?;
 ///     let torque = model.torque(Phase::from_radians(0.5), 10.0, 50.0);
 ///     let exact = machine.reduction(0.5)?.torque(10.0, 50.0).total();
 ///     assert!((f64::from(torque) - exact).abs() < 1e-6 * exact.abs());
@@ -262,7 +281,7 @@ pub mod slider_crank {
 /// Table images: a machine's curves as the tool exports them and firmware uses them, in place in flash.
 pub mod image {
     pub use crate::tick::{
-        Aligned, HEADER_WORDS, ImageCheck, VERSION, encode, identify, image_len,
+        Aligned, HEADER_WORDS, ImageCheck, VERSION, Validity, encode, identify, image_len,
     };
 }
 

@@ -6,13 +6,10 @@ use std::f64::consts::TAU;
 use crate::support::machines::{Spec, spec};
 use crate::support::rows::Rows;
 use crate::support::{assert_near, budget, config, derivative, largest, rk4};
-use jred::machine::Mechanism;
+use jred::machine::{Machine, Mechanism, Reducible, Reduction};
 use jred::mechanism::{Mesh, SliderCrank, Stage, Train};
-use jred::table::Format;
-use jred::{
-    Cubic, CurveSet, Domain, Machine, Phase, Quadratic, Reducible, Reduction, Scale, Spline, Table,
-    curves,
-};
+use jred::table::{Format, Table};
+use jred::{Cubic, CurveSet, Domain, Phase, Quadratic, Scale, Spline, curves};
 use proptest::prelude::*;
 
 proptest! {

@@ -4,10 +4,11 @@ use crate::support::budget::Q31_UNIT;
 use crate::support::machines::{Wave, spec};
 use crate::support::rows::Rows;
 use crate::support::{assert_near, budget, largest, samples, value};
+use jred::machine::Reducible;
 use jred::number::Number;
-use jred::table::{AccelerationOf, Format, MIN_CELLS, SpeedOf, TorqueOf, words_len};
+use jred::table::{AccelerationOf, Format, MIN_CELLS, SpeedOf, Table, TorqueOf, words_len};
 use jred::tabulate::{CHECKS_PER_CELL, Request, Tabulated, measure, scratch_len, tabulate};
-use jred::{Cubic, CurveSet, Phase, Q31, Quadratic, Reducible, Scale, Spline, Table, curves};
+use jred::{Cubic, CurveSet, Phase, Q31, Quadratic, Scale, Spline, curves};
 use proptest::prelude::any;
 
 const ALL: CurveSet = curves::ALL;

@@ -5,9 +5,8 @@ mod refused;
 
 use std::f64::consts::{PI, TAU};
 
-use jred::machine::{Action, Load, Mechanism, PoseError};
+use jred::machine::{Action, Link, Load, Machine, Mechanism, PoseError, Reducible};
 use jred::mechanism::{BuildError, FourBar, FourBarDimensions, Grashof, Side};
-use jred::{Link, Machine, Reducible};
 use proptest::prelude::*;
 
 use crate::support::{assert_near, budget, config, derivative, jointed, largest, link_of};

@@ -7,9 +7,8 @@ use jred::number::RangeError;
 use std::f64::consts::{PI, TAU};
 
 use crate::support::{assert_near, budget, config, derivative, largest, link_of};
-use jred::machine::{Action, Joint, Jointed, Load, Mechanism};
+use jred::machine::{Action, Joint, Jointed, Link, Load, Machine, Mechanism, Reducible};
 use jred::mechanism::{Geneva, Misfit};
-use jred::{Link, Machine, Reducible};
 use proptest::prelude::*;
 
 const WHEEL: usize = Geneva::WHEEL;

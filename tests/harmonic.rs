@@ -7,9 +7,10 @@ use crate::support::harmonics::{
 };
 use crate::support::{assert_near, budget, config, largest};
 use jred::harmonic::{Circular, terms};
+use jred::machine::Reducible;
 use jred::number::{Number, Real};
 use jred::table::{Format, Usage};
-use jred::{CurveSet, Harmonic, Phase, Reducible, curves};
+use jred::{CurveSet, Harmonic, Phase, curves};
 use proptest::prelude::*;
 
 #[test]

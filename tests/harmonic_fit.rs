@@ -8,10 +8,11 @@ use crate::support::harmonics::{
 };
 use crate::support::machines::{Wave, spec};
 use crate::support::{assert_near, budget, config};
+use jred::error::Error;
 use jred::harmonic::{HarmonicError, measure, scratch_len, terms};
-use jred::machine::{Action, Load};
+use jred::machine::{Action, Load, Reducible, Reduction};
 use jred::mechanism::SliderCrank;
-use jred::{CurveSet, Domain, Error, Phase, Reducible, Reduction, curves};
+use jred::{CurveSet, Domain, Phase, curves};
 use proptest::prelude::*;
 
 proptest! {

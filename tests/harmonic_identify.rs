@@ -1,22 +1,21 @@
 //! Harmonics from measurements.
 
-use jred::machine::MassProperties;
+use jred::machine::{Link, Machine, MassProperties, Reducible};
 use jred::mechanism::SliderCrankDimensions;
 use jred::number::RangeError;
 use std::f64::consts::TAU;
 
 use crate::support::harmonics::model;
 use crate::support::{assert_near, budget, config, largest};
+use jred::error::Error;
 use jred::harmonic::{
     Coefficient, Curve, HarmonicError, Identification, Identified, Kind, Sample, fit, identify,
     scratch_len, terms,
 };
 use jred::mechanism::{Branch, SliderCrank};
-use jred::table::{Shape, words_len};
+use jred::table::{Shape, Table, TableError, words_len};
 use jred::tabulate::Request;
-use jred::{
-    AnyModel, CurveSet, Error, Harmonic, Link, Machine, Phase, Reducible, Table, TableError, curves,
-};
+use jred::{AnyModel, CurveSet, Harmonic, Phase, curves};
 use proptest::prelude::*;
 
 const SET: CurveSet = curves::ALL;

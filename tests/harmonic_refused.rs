@@ -7,11 +7,12 @@ use std::f64::consts::TAU;
 use crate::support::assert_near;
 use crate::support::harmonics::{Waves, fitted, model, press, request, rubbing, terms_of};
 use crate::support::machines::Wave;
+use jred::error::Error;
 use jred::harmonic::{HarmonicError, fit, scratch_len, terms};
 use jred::machine::{Action, Load, Window};
 use jred::mechanism::SliderCrank;
-use jred::table::Shape;
-use jred::{AnyModel, CurveSet, Domain, Error, Harmonic, Phase, Scale, Table, TableError, curves};
+use jred::table::{Shape, Table, TableError};
+use jred::{AnyModel, CurveSet, Domain, Harmonic, Phase, Scale, curves};
 
 /// A load between all samples is measured at its edges.
 #[test]

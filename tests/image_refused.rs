@@ -2,8 +2,8 @@
 
 use crate::support::images::{refused, sealed, small, stroke, stroke_in};
 use jred::image::{HEADER_WORDS, VERSION};
-use jred::table::Format;
-use jred::{Cubic, CurveSet, Image, ImageError, Q31, Quadratic, Spline, TableError, curves};
+use jred::table::{Format, TableError};
+use jred::{Cubic, CurveSet, Image, ImageError, Q31, Quadratic, Spline, curves};
 
 /// Words of the smallest image: header, seven points, CRC.
 const SMALL: u32 = HEADER_WORDS as u32 + 7 + 1;

@@ -6,10 +6,10 @@ use jred::axis::{FeedForward, ImageSlot};
 use jred::harmonic::terms;
 use jred::image::{HEADER_WORDS, ImageCheck, encode, image_len};
 use jred::number::{FrictionSign, Quantity};
-use jred::table::{Format, Shape, SpeedOf};
+use jred::table::{Format, Shape, SpeedOf, Table, TableError};
 use jred::{
     Cubic, CurveSet, Harmonic, Image, ImageError, Phase, Q31, Quadratic, Rows16, Spline, Spline16,
-    Table, TableError, curves,
+    curves,
 };
 
 /// Enough for every image of these tests.

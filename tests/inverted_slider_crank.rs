@@ -6,9 +6,8 @@ use jred::number::RangeError;
 use std::f64::consts::{PI, TAU};
 
 use crate::support::{assert_near, budget, config, link_of};
-use jred::machine::{Action, Load, Mechanism};
+use jred::machine::{Action, Link, Load, Machine, Mechanism};
 use jred::mechanism::{InvertedSliderCrank, LeverMotion, Misfit};
-use jred::{Link, Machine};
 use proptest::prelude::*;
 
 const LEVER: usize = InvertedSliderCrank::LEVER;

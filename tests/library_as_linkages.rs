@@ -2,7 +2,8 @@
 //! same motion.
 
 use crate::support::{assert_near, budget, config, forces, jointed, link_of};
-use jred::machine::{Body, Frame, Joint, Jointed, Marker, Mechanism};
+use jred::Domain;
+use jred::machine::{Body, Frame, Joint, Jointed, Link, Machine, Marker, Mechanism, Reducible};
 use jred::mechanism::linkage::{Assembly, Linkage, Pair, Pose};
 use jred::mechanism::{
     Branch, DrivenShaft, FourBar, FourBarDimensions, Geneva, Hoist, InvertedSliderCrank,
@@ -10,7 +11,6 @@ use jred::mechanism::{
     PlanetaryGears, RackAndPinion, Rope, ScotchYoke, ScotchYokeDimensions, Side, SixLink,
     SixLinkDimensions, Stage, Suspended, TogglePress, TogglePressDimensions, Train,
 };
-use jred::{Domain, Link, Machine, Reducible};
 use proptest::prelude::*;
 
 const O: [f64; 2] = [0.0, 0.0];

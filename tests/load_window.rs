@@ -4,11 +4,12 @@ use std::f64::consts::TAU;
 
 use crate::support::budget;
 use crate::support::harmonics::press;
-use jred::machine::{Action, Load, Mechanism as _, Window};
+use jred::error::Error;
+use jred::machine::{Action, Link, Load, Machine, Mechanism as _, Reducible as _, Window};
 use jred::mechanism::{Geneva, SliderCrank};
 use jred::table::words_len;
 use jred::tabulate::{Part, Request, edge_places, fill, measure, scratch_len, tabulate};
-use jred::{CurveSet, Domain, Error, Link, Machine, Reducible as _, Scale, Spline, curves};
+use jred::{CurveSet, Domain, Scale, Spline, curves};
 
 #[track_caller]
 fn near(found: f64, expected: f64) {

@@ -2,11 +2,13 @@
 
 use crate::support::rows::Rows;
 use crate::support::scale_of;
+use jred::error::Error;
+use jred::machine::{Reducible, Reduction};
 use jred::number::RangeError;
+use jred::table::TableError;
 use jred::tabulate::{Request, tabulate};
 use jred::{
-    Acceleration, Cubic, CurveSet, Domain, Error, Phase, Q31, Reducible, Reduction, Scale, Speed,
-    Spline, TableError, Torque, curves,
+    Acceleration, Cubic, CurveSet, Domain, Phase, Q31, Scale, Speed, Spline, Torque, curves,
 };
 
 const SPAN: f32 = core::f32::consts::TAU;

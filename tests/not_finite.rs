@@ -1,8 +1,9 @@
 //! Nothing that is not a finite number gets into the core.
 
 use crate::support::machines::Wave;
+use jred::error::Error;
 use jred::machine::motion::{Law, Move};
-use jred::machine::{Action, Load, MassProperties, Mechanism, Window};
+use jred::machine::{Action, Link, Load, Machine, MassProperties, Mechanism, Reducible, Window};
 use jred::mechanism::{
     BeltDimensions, Branch, BuildError, GearDimensions, Mesh, SliderCrank, SliderCrankDimensions,
     Stage, Train,
@@ -11,7 +12,7 @@ use jred::number::Bases;
 use jred::number::RangeError;
 use jred::table::CubicSpline;
 use jred::tabulate::{Request, tabulate};
-use jred::{Domain, Error, Link, Machine, Reducible, Scale, Spline, curves};
+use jred::{Domain, Scale, Spline, curves};
 
 fn slider_crank(r: f64, l: f64, e: f64) -> Result<SliderCrank, BuildError> {
     let link = Link::new(MassProperties {

@@ -1,10 +1,9 @@
 //! Several driven shafts on one drive shaft.
 
 use crate::support::{assert_near, budget, config, link_of};
-use jred::machine::{Action, Load, Mechanism, PoseError};
+use jred::machine::{Action, Link, Load, Machine, Mechanism, PoseError, Reducible};
 use jred::mechanism::{BuildError, DrivenShaft, Misfit, ParallelShafts, Stage, Train};
 use jred::number::RangeError;
-use jred::{Link, Machine, Reducible};
 use proptest::prelude::*;
 
 fn shaft(ratio: f64, inertia: f64) -> DrivenShaft {

@@ -6,15 +6,13 @@ use std::f64::consts::TAU;
 use crate::support::rows::Rows;
 use crate::support::{assert_near, budget, largest, link_of, quantity, value};
 use jred::machine::motion::Law;
+use jred::machine::{Machine, Reducible, Reduction};
 use jred::mechanism::cam::{Program, Segment};
 use jred::mechanism::{Branch, DiscCam, Follower, Roller, RollerDimensions, SliderCrank};
 use jred::number::Number;
 use jred::table::{Format, words_len};
 use jred::tabulate::{Part, Request, scratch_len, tabulate};
-use jred::{
-    Cubic, CurveSet, Domain, Machine, Phase, Pieces, Q31, Quadratic, Reducible, Reduction, Scale,
-    Spline, curves,
-};
+use jred::{Cubic, CurveSet, Domain, Phase, Pieces, Q31, Quadratic, Scale, Spline, curves};
 
 const SET: CurveSet = curves::LOAD;
 /// Speed and acceleration at which tables are compared.

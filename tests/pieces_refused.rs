@@ -5,10 +5,10 @@ use std::f64::consts::TAU;
 use crate::support::machines::Wave;
 use crate::support::rows::Rows;
 use crate::support::{budget, config, scale_of};
+use jred::machine::{Reducible, Reduction};
+use jred::table::TableError;
 use jred::tabulate::Part;
-use jred::{
-    CurveSet, Domain, Phase, Pieces, Reducible, Reduction, Scale, Spline, TableError, curves,
-};
+use jred::{CurveSet, Domain, Phase, Pieces, Scale, Spline, curves};
 use proptest::prelude::*;
 
 const SET: CurveSet = curves::LOAD;

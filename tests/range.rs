@@ -7,10 +7,9 @@ use crate::support::exact::place_bits;
 use crate::support::machines::Wave;
 use crate::support::rows::{Fixed, Rows};
 use crate::support::{config, scale_of};
-use jred::table::Format;
+use jred::table::{Format, TableError};
 use jred::{
-    Acceleration, Cubic, CurveSet, Domain, Phase, Q31, Quadratic, Scale, Speed, Spline, TableError,
-    curves,
+    Acceleration, Cubic, CurveSet, Domain, Phase, Q31, Quadratic, Scale, Speed, Spline, curves,
 };
 use proptest::prelude::*;
 

@@ -7,9 +7,10 @@ use crate::support::machines::{Spec, Wave, spec};
 use crate::support::rows::{Fixed, Meaning as _, Plain, Rows};
 use crate::support::{assert_near, config, largest, rk4, scale_of, value};
 use jred::number::Role;
+use jred::table::TableError;
 use jred::{
-    Acceleration, Cubic, CurveSet, Model, Phase, Q31, Quadratic, Scale, Speed, Spline, TableError,
-    Torque, curves,
+    Acceleration, Cubic, CurveSet, Model, Phase, Q31, Quadratic, Scale, Speed, Spline, Torque,
+    curves,
 };
 use proptest::prelude::*;
 
@@ -332,7 +333,7 @@ fn too_few_cells_are_refused() {
         let rows = Rows::<Quadratic<Q31>>::of(&machine, SET, cells, &scale)?;
         rows.try_model::<SET>(&scale)
             .map(|_| ())
-            .map_err(jred::Error::Table)
+            .map_err(jred::error::Error::Table)
     };
     for cells in [8, 12] {
         assert!(build(cells).is_err(), "{cells} cells");
@@ -343,7 +344,7 @@ fn too_few_cells_are_refused() {
 fn refused_in_floating_point<F: Plain>() {
     let refused = Rows::<F>::of(&wave(), SET, 16, &Scale::SI).map(|_| ());
     let expected = TableError::Curves(SET);
-    assert_eq!(refused, Err(jred::Error::Table(expected)));
+    assert_eq!(refused, Err(jred::error::Error::Table(expected)));
     let word = F::Word::of(Role::Inertia, 0.1);
     let words = vec![word; jred::table::words_len::<F>(16, curves::RECIPROCAL)];
     let rows = Rows::<F>::plain(words, curves::RECIPROCAL, 16, jred::Domain::Turn);

@@ -10,8 +10,8 @@ mod tick;
 
 use crate::support::rows::Rows;
 use jred::number::Quantity;
-use jred::table::CurveValues;
-use jred::{CurveSet, Model, Q15, Rows16, Scale, Table, curves};
+use jred::table::{CurveValues, Table};
+use jred::{CurveSet, Model, Q15, Rows16, Scale, curves};
 
 type Short = Rows<Rows16>;
 

@@ -5,9 +5,8 @@ use std::f64::consts::TAU;
 use crate::support::machines::{Wave, spec};
 use crate::support::rows::{Fixed, Rows};
 use crate::support::{assert_near, budget, config, largest, scale_of};
-use jred::{
-    Acceleration, Cubic, CurveSet, Outcome, Phase, Q31, Quadratic, Reducible, Scale, Spline, curves,
-};
+use jred::machine::Reducible;
+use jred::{Acceleration, Cubic, CurveSet, Outcome, Phase, Q31, Quadratic, Scale, Spline, curves};
 use proptest::prelude::*;
 
 const ALL: CurveSet = curves::ALL;

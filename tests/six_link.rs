@@ -6,10 +6,9 @@ use jred::mechanism::SixLinkDimensions;
 use std::f64::consts::{PI, TAU};
 
 use crate::support::{assert_near, budget, config, derivative, jointed, largest, link_of};
-use jred::machine::{Action, Jointed, Load, Mechanism};
+use jred::machine::{Action, Jointed, Link, Load, Machine, Mechanism, Reducible};
 use jred::mechanism::{Branch, SixLink};
 use jred::number::Transfer;
-use jred::{Link, Machine, Reducible};
 use proptest::prelude::*;
 
 /// A random six-link mechanism.

@@ -5,15 +5,13 @@ use std::f64::consts::TAU;
 use crate::support::cranks::{ALPHA, Given, OMEGA, cranks, model_of, words_of};
 use crate::support::{assert_near, budget, config, largest, link_of, samples};
 use jred::axis::{FeedForward, MotionState};
-use jred::image::{encode, image_len};
+use jred::image::{Validity, encode, image_len};
+use jred::machine::{Link, Machine, Reducible};
 use jred::mechanism::{Branch, SliderCrank, SliderCrankDimensions};
 use jred::number::FrictionSign;
 use jred::slider_crank::{STEEPEST, form, set_in_use, terms};
-use jred::table::{Shape, Usage};
-use jred::{
-    CurveSet, Image, ImageError, Link, Machine, Phase, Reducible, SliderCrankForm, Spline, Table,
-    TableError, Validity, curves,
-};
+use jred::table::{Shape, Table, TableError, Usage};
+use jred::{CurveSet, Image, ImageError, Phase, SliderCrankForm, Spline, curves};
 use proptest::prelude::*;
 
 fn phases(count: u32) -> impl Iterator<Item = Phase> {

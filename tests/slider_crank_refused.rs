@@ -2,16 +2,14 @@
 
 use crate::support::cranks::{model_of, words_of};
 use crate::support::{link_of, scale_of};
-use jred::image::{encode, image_len};
-use jred::machine::{Action, Element, Load, Marker, Window};
+use jred::error::Error;
+use jred::image::{Validity, encode, image_len};
+use jred::machine::{Action, Element, Load, Machine, Marker, Window};
 use jred::mechanism::{Branch, SliderCrank, SliderCrankDimensions};
 use jred::number::RangeError;
 use jred::slider_crank::{Coefficient, STEEPEST, SliderCrankError, form, set_in_use, terms};
-use jred::table::{Format, Shape};
-use jred::{
-    CurveSet, Domain, Error, Image, ImageError, Machine, Phase, SliderCrankForm, Table, TableError,
-    Validity, curves,
-};
+use jred::table::{Format, Shape, Table, TableError};
+use jred::{CurveSet, Domain, Image, ImageError, Phase, SliderCrankForm, curves};
 
 fn press() -> Machine<SliderCrank> {
     let links = [

@@ -5,13 +5,11 @@ use std::f64::consts::TAU;
 use crate::support::machines::Wave;
 use crate::support::rows::Rows;
 use crate::support::{assert_near, largest, scale_of};
-use jred::machine::PoseError;
+use jred::error::Error;
+use jred::machine::{PoseError, Reducible, Reduction};
 use jred::table::{Format, words_len};
 use jred::tabulate::{EXHAUSTIVE, Request, Tabulated, measure, scratch_len, tabulate};
-use jred::{
-    Cubic, CurveSet, Domain, Error, Q31, Quadratic, Reducible, Reduction, Rows16, Scale, Spline,
-    curves,
-};
+use jred::{Cubic, CurveSet, Domain, Q31, Quadratic, Rows16, Scale, Spline, curves};
 
 fn request(torque_error: f64, max_cells: u32) -> Request {
     Request::new(torque_error)

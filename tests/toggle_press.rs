@@ -6,9 +6,8 @@ use jred::mechanism::TogglePressDimensions;
 use std::f64::consts::TAU;
 
 use crate::support::{assert_near, budget, config, derivative, jointed, link_of};
-use jred::machine::{Action, Load, Mechanism};
+use jred::machine::{Action, Link, Load, Machine, Mechanism, Reducible};
 use jred::mechanism::{Blocked, Branch, Side, SliderCrank, Standstill, TogglePress};
-use jred::{Link, Machine, Reducible};
 use proptest::prelude::*;
 
 /// A random press: its four-bar is a crank-rocker or a drag link, by Grashof's condition.

@@ -5,14 +5,11 @@ use std::f64::consts::TAU;
 
 use crate::support::rows::Rows;
 use crate::support::{assert_near, budget, config, largest, link_of, quantity, scale_of, value};
-use jred::machine::{Action, Load};
+use jred::machine::{Action, Link, Load, Machine, Reducible, Reduction};
 use jred::mechanism::{Branch, SliderCrank};
 use jred::table::Format;
 use jred::tabulate::curves_in_use;
-use jred::{
-    Cubic, CurveSet, Domain, Link, Machine, Phase, Q31, Quadratic, Reducible, Reduction, Scale,
-    Spline, curves,
-};
+use jred::{Cubic, CurveSet, Domain, Phase, Q31, Quadratic, Scale, Spline, curves};
 use proptest::prelude::*;
 
 /// J = 1 and c = |v|, of any v.

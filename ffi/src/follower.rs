@@ -3,9 +3,9 @@
 use core::mem::MaybeUninit;
 
 use jred::axis::plan::{Errors, PlanError};
-use jred::axis::{Override, Plan, PlanFollower, PlanState, SetPoint};
+use jred::axis::{MachineUnits, Override, Plan, PlanFollower, PlanState, SetPoint};
 use jred::number::Number;
-use jred::{MachineUnits, Q15, Q31};
+use jred::{Q15, Q31};
 
 use crate::memory::words;
 use crate::number::{CNumber, to_c};

@@ -2,8 +2,9 @@
 
 use core::mem::MaybeUninit;
 
+use jred::image::Validity;
 use jred::number::Bases;
-use jred::{Domain, Image, ImageError, Validity};
+use jred::{Domain, Image, ImageError};
 
 use crate::memory::words;
 use crate::status::Status;

@@ -3,8 +3,8 @@
 use core::mem::MaybeUninit;
 use core::slice;
 
-use jred::table::Format;
-use jred::{AnyModel, CurveSet, Image, ImageError, Model, TableError};
+use jred::table::{Format, TableError};
+use jred::{AnyModel, CurveSet, Image, ImageError, Model};
 
 use crate::status::Status;
 

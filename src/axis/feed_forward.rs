@@ -6,7 +6,8 @@ use super::error::{positive, within};
 use super::{AxisError, MotionRange, MotionState, Status};
 use crate::curve::{AccelerationOf, CurveSet, Format, SpeedOf};
 use crate::number::{Factor, FrictionSign, Number, Quantity};
-use crate::{MachineUnits, Model, Phase, Validity};
+use crate::tick::{MachineUnits, Validity};
+use crate::{Model, Phase};
 
 /// A torque on the drive link, and whether the table is valid for its motion.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -42,7 +43,7 @@ pub struct CheckedTorque<N: Number> {
 ///     Err(_) => panic!("the encoder's figures"),
 /// };
 ///
-/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// # fn main() -> Result<(), jred::FirmwareError> {
 /// // Once.
 /// let image = Image::from_bytes(include_image!("../../examples/data/press_f32.jred"))?;
 /// let press: Model<'_, Spline<f32>, PRESS> = image.model()?;

@@ -3,8 +3,8 @@
 use super::error::{positive, within};
 use super::plan::{Plan, PlanError, power_of_two, shifted};
 use super::{AxisError, MotionState};
-use crate::MachineUnits;
 use crate::number::{Factor, Number};
+use crate::tick::MachineUnits;
 
 /// The commanded rate of a plan as a share of its own pace, as the feed override of a machine tool.
 ///

@@ -25,7 +25,7 @@ use crate::number::{FrictionSign, Number, Quantity as _};
 ///
 /// const PRESS: CurveSet = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
 ///
-/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// # fn main() -> Result<(), jred::FirmwareError> {
 /// // Once.
 /// let image = Image::from_bytes(include_image!("../../examples/data/press_f32.jred"))?;
 /// let press: Model<'_, Spline<f32>, PRESS> = image.model()?;

@@ -5,7 +5,8 @@ use super::error::positive;
 use super::{AxisError, Envelope, Period};
 use crate::curve::{CurveSet, Format};
 use crate::number::{FrictionSign, Number, Quantity};
-use crate::{AccelerationRange, MachineUnits, Model, Outcome, Phase};
+use crate::tick::MachineUnits;
+use crate::{AccelerationRange, Model, Outcome, Phase};
 
 /// The limit of an acceleration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

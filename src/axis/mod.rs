@@ -48,6 +48,7 @@ mod stroke;
 mod tracker;
 mod transmission;
 
+pub use crate::tick::MachineUnits;
 pub use braking::Braking;
 pub use counter::Counter;
 pub use encoder::{Counting, Encoder, Mounting};

@@ -5,7 +5,8 @@ use core::marker::PhantomData;
 use super::error::{positive, within};
 use super::{AxisError, TrackerOutput};
 use crate::number::{Factor, Number, Quantity as _, Real as _};
-use crate::{Domain, MachineUnits, Outcome, Phase};
+use crate::tick::MachineUnits;
+use crate::{Domain, Outcome, Phase};
 
 /// Position, speed and acceleration of a drive link, in the machine units of a model.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -1,8 +1,9 @@
 //! The motions that a table is valid for, and the status of other motions.
 
 use super::MotionState;
+use crate::Scale;
 use crate::number::{FrictionSign, Number, Quantity as _};
-use crate::{Scale, Validity};
+use crate::tick::Validity;
 
 /// Factor on the validity.
 const MARGIN: f32 = 1.01;

@@ -1,8 +1,8 @@
 //! Memory for an image that is exchanged while the machine runs.
 
 use super::FeedForward;
-use crate::Validity;
 use crate::curve::{CurveSet, Format};
+use crate::tick::Validity;
 use crate::tick::{HEADER_WORDS, ImageError, Progress};
 
 /// Memory for an image and its feed-forward, to exchange the table while the machine runs.
@@ -30,7 +30,7 @@ use crate::tick::{HEADER_WORDS, ImageError, Progress};
 ///
 /// const PRESS: CurveSet = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
 ///
-/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// # fn main() -> Result<(), jred::FirmwareError> {
 /// let mut memory = [0; 600]; // words
 /// let mut slot = ImageSlot::<Spline<f32>, PRESS>::new(&mut memory);
 /// for packet in include_image!("../../examples/data/press_f32.jred").chunks(50) {

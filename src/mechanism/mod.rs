@@ -1,7 +1,7 @@
 //! Mechanisms: from the angle of the drive link to the position of every link.
 //!
 //! The first step of the data flow: dimensions and links form one of the closed forms below, or a [`linkage`] of any topology. Each is a
-//! [`Mechanism`](crate::machine::Mechanism), the basis of a [`Machine`](crate::Machine).
+//! [`Mechanism`](crate::machine::Mechanism), the basis of a [`Machine`](crate::machine::Machine).
 
 mod ball_screw;
 mod blocked;

@@ -2,17 +2,20 @@
 
 use super::{Request, Tabulated, fill, tabulate};
 use crate::curve::{CurveSet, Format, words_len};
+use crate::error::Error;
 use crate::machine::Reducible;
-use crate::{Error, Model, Scale};
+use crate::{Model, Scale};
 
 /// Memory for tables of up to `CELLS` cells and `WORDS` words, for firmware that makes its own tables. Filling it returns the model over it.
 ///
 /// ```
 /// use jred::mechanism::{ScotchYoke, ScotchYokeDimensions};
 /// # use core::f64::consts::FRAC_PI_2;
+/// use jred::error::Error;
+/// use jred::machine::{Link, Machine};
 /// use jred::table::words_len;
 /// use jred::tabulate::{TableBuffer, scratch_len};
-/// use jred::{CurveSet, Error, Link, Machine, Phase, Scale, Spline, curves};
+/// use jred::{CurveSet, Phase, Scale, Spline, curves};
 ///
 /// const SET: CurveSet = curves::INERTIA;
 /// const CELLS: u32 = 32;
@@ -47,10 +50,12 @@ use crate::{Error, Model, Scale};
 /// Nor does refilling it while the model over the last table is in use:
 ///
 /// ```
+/// # use jred::error::Error;
+/// # use jred::machine::Machine;
 /// # use jred::tabulate::TableBuffer;
-/// # use jred::{Error, Machine, Phase, Scale, Spline};
+/// # use jred::{Phase, Scale, Spline};
 /// # type Buffer = TableBuffer::<Spline<f32>, 0, 32, 35>;
-/// # fn twice(buffer: &mut Buffer, machine: &impl jred::Reducible, scratch: &mut [f64]) -> Result<f32, Error> {
+/// # fn twice(buffer: &mut Buffer, machine: &impl jred::machine::Reducible, scratch: &mut [f64]) -> Result<f32, Error> {
 /// let before = buffer.fill(machine, 32, &Scale::SI, scratch)?.torque(Phase::default(), 0.0, 1.0);
 /// let after = buffer.fill(machine, 32, &Scale::SI, scratch)?.torque(Phase::default(), 0.0, 1.0);
 /// # Ok(after - before)
@@ -58,10 +63,12 @@ use crate::{Error, Model, Scale};
 /// ```
 ///
 /// ```compile_fail,E0499
+/// # use jred::error::Error;
+/// # use jred::machine::Machine;
 /// # use jred::tabulate::TableBuffer;
-/// # use jred::{Error, Machine, Phase, Scale, Spline};
+/// # use jred::{Phase, Scale, Spline};
 /// # type Buffer = TableBuffer::<Spline<f32>, 0, 32, 35>;
-/// # fn twice(buffer: &mut Buffer, machine: &impl jred::Reducible, scratch: &mut [f64]) -> Result<f32, Error> {
+/// # fn twice(buffer: &mut Buffer, machine: &impl jred::machine::Reducible, scratch: &mut [f64]) -> Result<f32, Error> {
 /// let before = buffer.fill(machine, 32, &Scale::SI, scratch)?;
 /// let after = buffer.fill(machine, 32, &Scale::SI, scratch)?;
 /// # Ok(after.torque(Phase::default(), 0.0, 1.0) - before.torque(Phase::default(), 0.0, 1.0))

@@ -4,11 +4,12 @@ use super::scratch_len;
 use crate::curve::{
     CurveSet, Format, MAX_CELLS, Sample, Samples, Shape, Table, TableError, words_len,
 };
+use crate::error::Error;
 use crate::machine::Reducible;
 use crate::machine::error::PoseError;
 use crate::number::error::RangeError;
 use crate::number::spline::MIN_CELLS;
-use crate::{Domain, Error, Scale};
+use crate::{Domain, Scale};
 
 /// Fills `words` with a table of exactly `cells` cells and this set of [`curves`](crate::curves), and returns it.
 ///

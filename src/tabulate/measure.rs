@@ -2,9 +2,10 @@
 
 use super::{CHECKS_PER_CELL, Request, Tabulated};
 use crate::curve::{CurveValues, Format, Table};
+use crate::error::Error;
 use crate::machine::reducible::Reducible;
 use crate::machine::reduction::Reduction;
-use crate::{Domain, Error, Phase, math};
+use crate::{Domain, Phase, math};
 
 /// The largest torque error of a table within the range of the request. With 16 bits the rounding of the tick is significant and is added: at most ¾
 /// of a unit of 2⁻¹⁵ of the torque base (`tests/proofs/q15_rows.g`). So at the places checked no tick within the range of the request, with ω and α

@@ -1,6 +1,6 @@
 //! From a machine to the smallest table that meets a torque error.
 //!
-//! In the data flow it comes between a [`Reduction`](crate::Reduction) and a [`Table`](crate::Table): on the host, or in firmware after a change of
+//! In the data flow it comes between a [`Reduction`](crate::machine::Reduction) and a [`Table`](crate::table::Table): on the host, or in firmware after a change of
 //! payload.
 //!
 //! At every position checked, the error of the drive torque of a table is bounded by the sum of its curves' errors at the ends of the stated range:
@@ -31,10 +31,12 @@ pub use search::{growing, smallest, tabulate};
 
 use crate::curve::MAX_CELLS;
 use crate::curve::curves::{self, CurveSet};
+use crate::error::Error;
 use crate::machine::Reducible;
 use crate::number::error::positive;
 use crate::number::spline::{MIN_CELLS, control_points};
-use crate::{Error, Scale, Validity, math};
+use crate::tick::Validity;
+use crate::{Scale, math};
 
 /// Places in each cell at which a table is compared with the exact curves.
 pub const CHECKS_PER_CELL: u32 = 64;

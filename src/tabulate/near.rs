@@ -7,8 +7,8 @@
 use super::measure::{Places, measure_until, scan_places, torque_error};
 use super::search::smallest;
 use super::{CHECKS_PER_CELL, COARSE_CHECKS, EXHAUSTIVE, Request, Tabulated};
-use crate::Error;
 use crate::curve::{Format, Table};
+use crate::error::Error;
 use crate::machine::reducible::Reducible;
 
 /// Cells on each side of the worst place that are checked.

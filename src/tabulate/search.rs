@@ -3,10 +3,11 @@
 use super::measure::{measure, measure_until};
 use super::near::{Look, meets_near, search_near};
 use super::{CHECKS_PER_CELL, COARSE_CHECKS, EXHAUSTIVE, Request, Tabulated, fill};
+use crate::Scale;
 use crate::curve::{CurveSet, Format, Table};
+use crate::error::Error;
 use crate::machine::Reducible;
 use crate::number::spline::MIN_CELLS;
-use crate::{Error, Scale};
 
 /// Finds the table with the fewest cells that meets the request, fills `words` with it, and returns its figures.
 ///

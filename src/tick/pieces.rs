@@ -22,9 +22,10 @@ use crate::{AccelerationRange, Domain, Model, Phase, Scale};
 ///
 /// ```
 /// use core::f64::consts::TAU;
-/// use jred::machine::PoseError;
+/// use jred::error::Error;
+/// use jred::machine::{PoseError, Reducible, Reduction};
 /// use jred::tabulate::{Part, Request, fill, scratch_len, tabulate};
-/// use jred::{CurveSet, Domain, Error, Model, Phase, Pieces, Reducible, Reduction, Scale, Spline, curves};
+/// use jred::{CurveSet, Domain, Model, Phase, Pieces, Scale, Spline, curves};
 ///
 /// /// A flywheel, and a brake that is on from 1 to 2 rad.
 /// struct Braked;
@@ -52,11 +53,11 @@ use crate::{AccelerationRange, Domain, Model, Phase, Scale};
 ///         let words: &mut [f32; 2 * (MOST as usize + 3)] = words;
 ///         let cells = tabulate::<Spline<f32>>(&part, SET, &request, &Scale::SI, &mut scratch, &mut words[..])?.cells;
 ///         let table = fill::<Spline<f32>>(&part, SET, cells, &Scale::SI, &mut scratch, words)?;
-///         let model = Model::new(table).map_err(Error::Table)?;
+///         let model = Model::new(table)?;
 ///         Ok::<_, Error>((Phase::from_radians(from), model))
 ///     };
 ///     let turn: Pieces<'_, Spline<f32>, SET, 2> =
-///         Pieces::new(Domain::Turn, [model(1.0, 2.0, on)?, model(2.0, 1.0 + TAU, off)?]).map_err(Error::Table)?;
+///         Pieces::new(Domain::Turn, [model(1.0, 2.0, on)?, model(2.0, 1.0 + TAU, off)?])?;
 ///     let torque = |phi: f64| turn.torque(Phase::from_radians(phi), 0.0, 0.0);
 ///     assert!(torque(0.999_999).abs() < 0.001 && (torque(1.000_001) - 5.0).abs() < 0.001);
 ///     assert!((torque(1.999_999) - 5.0).abs() < 0.001 && torque(2.000_001).abs() < 0.001);

@@ -1,11 +1,11 @@
 use core::f64::consts::TAU;
 
 use jred::axis::{FeedForward, FrictionRamp, MotionState};
+use jred::image::Validity;
 use jred::number::{FrictionSign, Number, Quantity};
 use jred::table::{AccelerationOf, Format, SpeedOf};
 use jred::{
-    Cubic, CurveSet, Domain, Phase, Q15, Q31, Quadratic, Rows16, Scale, Speed, Spline, Validity,
-    curves,
+    Cubic, CurveSet, Domain, Phase, Q15, Q31, Quadratic, Rows16, Scale, Speed, Spline, curves,
 };
 
 use super::machine::{in_units, si, with_model};

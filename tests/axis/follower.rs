@@ -3,9 +3,9 @@
 use core::f64::consts::TAU;
 
 use jred::axis::plan::{Knot, Place, PlanError, with_ramp};
-use jred::axis::{Override, Plan, PlanFollower, PlanState};
+use jred::axis::{MachineUnits, Override, Plan, PlanFollower, PlanState};
 use jred::number::{Number, Quantity as _};
-use jred::{Domain, MachineUnits, Q31, Rows16, Scale, Spline};
+use jred::{Domain, Q31, Rows16, Scale, Spline};
 
 use super::machine::in_units;
 use super::plan::{evenly, exact, found, image, trapezoid};

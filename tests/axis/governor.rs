@@ -5,10 +5,9 @@ use jred::axis::{
     Braking, Direction, Envelope, FeedForward, Governor, Limit, Limits, LookAhead, MotionState,
     Period,
 };
+use jred::image::Validity;
 use jred::table::Format;
-use jred::{
-    Cubic, CurveSet, Domain, Phase, Q31, Quadratic, Rows16, Scale, Spline, Validity, curves,
-};
+use jred::{Cubic, CurveSet, Domain, Phase, Q31, Quadratic, Rows16, Scale, Spline, curves};
 
 use super::machine::{WAVE, si, with_model, with_model_of};
 use crate::support::machines::Wave;

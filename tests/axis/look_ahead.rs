@@ -1,8 +1,9 @@
 use core::f64::consts::TAU;
 
 use jred::axis::{AxisError, Braking, Direction, LookAhead, Period};
+use jred::machine::Reducible;
 use jred::table::Format;
-use jred::{Cubic, CurveSet, Domain, Model, Phase, Q31, Reducible, Scale, Spline, curves};
+use jred::{Cubic, CurveSet, Domain, Model, Phase, Q31, Scale, Spline, curves};
 
 use super::machine::{WAVE, with_model, with_model_of};
 use crate::support::machines::Wave;

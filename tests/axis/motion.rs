@@ -1,9 +1,9 @@
 use core::f64::consts::TAU;
 
 use jred::axis::{MotionState, Period};
+use jred::machine::Reducible;
 use jred::{
-    Acceleration, Cubic, CurveSet, Domain, Phase, Q15, Q31, Reducible, Rows16, Scale, Speed,
-    Spline, curves,
+    Acceleration, Cubic, CurveSet, Domain, Phase, Q15, Q31, Rows16, Scale, Speed, Spline, curves,
 };
 
 use super::machine::{WAVE, in_units, si, with_model};

@@ -9,8 +9,9 @@ use jred::axis::{
     MotionRange, MotionState, Period, Plan, PlanFollower, StrokeEncoder, StrokeMounting,
     TorqueLimits, Tracker, Transmission,
 };
+use jred::image::Validity;
 use jred::number::FrictionSign;
-use jred::{CurveSet, Domain, Model, Phase, Scale, Spline, Validity, curves, include_image};
+use jred::{CurveSet, Domain, Model, Phase, Scale, Spline, curves, include_image};
 
 use super::machine::with_model;
 use crate::no_panic_list::public_of;

@@ -2,10 +2,10 @@
 
 use core::f64::consts::TAU;
 
-use jred::axis::Plan;
 use jred::axis::plan::{Errors, Knot, Place, PlanError, encode, image_len};
+use jred::axis::{MachineUnits, Plan};
 use jred::number::{Number, Quantity as _};
-use jred::{Domain, MachineUnits, Q31, Rows16, Scale, Spline};
+use jred::{Domain, Q31, Rows16, Scale, Spline};
 use proptest::prelude::*;
 
 use super::machine::in_units;

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use jred::Error;
+use jred::error::Error;
 use jred::machine::Mechanism;
 use jred::mechanism::{Blocked, BuildError};
 

@@ -1,15 +1,15 @@
 //! Machines of which no table can be made, and words that are no table.
 
+use jred::error::Error;
 use jred::machine::{
-    Action, Element, Frame, Frames, Load, Marker, MassProperties, Mechanism, PoseError, Window,
+    Action, Element, Frame, Frames, Link, Load, Machine, Marker, MassProperties, Mechanism,
+    PoseError, Reducible, Window,
 };
 use jred::mechanism::{Branch, Geneva, RackAndPinion, SliderCrank, SliderCrankDimensions};
 use jred::number::{RangeError, Transfer};
-use jred::table::{CubicSpline, Format, MAX_CELLS};
+use jred::table::{CubicSpline, Format, MAX_CELLS, TableError};
 use jred::tabulate::{Request, fill, tabulate};
-use jred::{
-    CurveSet, Domain, Error, Link, Machine, Q31, Reducible, Scale, Spline, TableError, curves,
-};
+use jred::{CurveSet, Domain, Q31, Scale, Spline, curves};
 
 use super::says;
 use crate::support::machines::Wave;

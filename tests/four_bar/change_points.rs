@@ -3,9 +3,11 @@
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use jred::machine::{Action, Jointed, Load, MachineError, Mechanism, PoseError};
+use jred::Domain;
+use jred::machine::{
+    Action, Jointed, Link, Load, Machine, MachineError, Mechanism, PoseError, Reducible,
+};
 use jred::mechanism::{BuildError, FourBar, FourBarDimensions, Misfit, Side};
-use jred::{Domain, Link, Machine, Reducible};
 use proptest::prelude::*;
 
 use super::links;

@@ -7,8 +7,8 @@ use crate::axis::machine::in_units;
 use crate::support::images::sealed;
 use crate::support::search::extremes;
 use jred::axis::plan::{Errors, HEADER_WORDS, Knot, encode, image_len};
-use jred::axis::{Override, Plan, PlanFollower};
-use jred::{Domain, MachineUnits, Scale, Spline};
+use jred::axis::{MachineUnits, Override, Plan, PlanFollower};
+use jred::{Domain, Scale, Spline};
 
 const SCRIPT: &str = include_str!("../proofs/plan.g");
 

@@ -1,7 +1,8 @@
 //! Images of tables of 16-bit rows: word by word, back again, and refused.
 
 use jred::image::{HEADER_WORDS, encode, image_len};
-use jred::{CurveSet, Domain, Image, ImageError, Phase, Rows16, Spline, TableError, curves};
+use jred::table::TableError;
+use jred::{CurveSet, Domain, Image, ImageError, Phase, Rows16, Spline, curves};
 
 use super::{Short, model, q15};
 use crate::support::images::{VALIDITY, sealed, small};

@@ -2,9 +2,11 @@
 
 use std::f64::consts::TAU;
 
+use jred::error::Error;
+use jred::machine::Reducible;
 use jred::table::words_len;
 use jred::tabulate::{Request, measure, scratch_len, tabulate};
-use jred::{CurveSet, Error, Phase, Reducible, Rows16, Scale, curves};
+use jred::{CurveSet, Phase, Rows16, Scale, curves};
 use proptest::prelude::*;
 
 use super::{Short, model, q15};

@@ -1,7 +1,8 @@
 //! What a table reads, against the machine, for every set, on a turn and on a stroke.
 
+use jred::machine::{Reducible, Reduction};
 use jred::table::Usage;
-use jred::{CurveSet, Domain, Phase, Reducible, Reduction, curves};
+use jred::{CurveSet, Domain, Phase, curves};
 
 use super::{Short, read_at, row_words};
 use crate::support::{budget, grid, largest, scale_of};

@@ -1,10 +1,11 @@
 //! What is not a table, and not a machine that 16 bits can hold.
 
-use jred::machine::PoseError;
+use jred::error::Error;
+use jred::machine::{PoseError, Reducible, Reduction};
 use jred::number::RangeError;
-use jred::table::{MAX_CELLS, RowConstants, words_len};
+use jred::table::{MAX_CELLS, RowConstants, TableError, words_len};
 use jred::tabulate::{Request, fill, scratch_len, tabulate};
-use jred::{CurveSet, Domain, Error, Reducible, Reduction, Rows16, Scale, TableError, curves};
+use jred::{CurveSet, Domain, Rows16, Scale, curves};
 
 use super::{CONSTANT, Short, model, row_words};
 use crate::support::machines::Wave;

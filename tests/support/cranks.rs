@@ -1,10 +1,11 @@
 //! Random slider-cranks with everything that their closed form can hold.
 
-use jred::machine::{Action, Load};
+use jred::error::Error;
+use jred::machine::{Action, Load, Machine};
 use jred::mechanism::{Branch, SliderCrank, SliderCrankDimensions};
 use jred::slider_crank::{form, set_in_use};
-use jred::table::{Shape, words_len};
-use jred::{AnyModel, CurveSet, Error, Machine, SliderCrankForm, Table};
+use jred::table::{Shape, Table, words_len};
+use jred::{AnyModel, CurveSet, SliderCrankForm};
 use proptest::prelude::*;
 
 use super::link_of;

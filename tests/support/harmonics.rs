@@ -3,16 +3,14 @@
 use jred::mechanism::SliderCrankDimensions;
 use std::f64::consts::TAU;
 
+use jred::error::Error;
 use jred::harmonic::{Circular, Fitted, fit, scratch_len, terms_in_use};
-use jred::machine::{Action, Load};
+use jred::machine::{Action, Link, Load, Machine, Reducible, Reduction};
 use jred::mechanism::{Branch, SliderCrank};
 use jred::number::Number;
-use jred::table::{Format, Shape, words_len};
+use jred::table::{Format, Shape, Table, TableError, words_len};
 use jred::tabulate::Request;
-use jred::{
-    CurveSet, Domain, Error, Harmonic, Link, Machine, Model, Phase, Reducible, Reduction, Table,
-    TableError,
-};
+use jred::{CurveSet, Domain, Harmonic, Model, Phase};
 use proptest::prelude::*;
 
 use super::largest;

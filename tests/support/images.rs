@@ -1,8 +1,8 @@
 //! Images to test with, and an independent CRC.
 
-use jred::image::{ImageCheck, encode, image_len};
+use jred::image::{ImageCheck, Validity, encode, image_len};
 use jred::table::Format;
-use jred::{CurveSet, Domain, Image, ImageError, Q31, Scale, Spline, Validity, curves};
+use jred::{CurveSet, Domain, Image, ImageError, Q31, Scale, Spline, curves};
 
 use super::machines::Wave;
 use super::rows::Rows;

@@ -1,9 +1,11 @@
 //! A table with the memory it lies in.
 
+use jred::error::Error;
+use jred::machine::Reducible;
 use jred::number::Role;
-use jred::table::{Constants, Format, Shape, words_len};
+use jred::table::{Constants, Format, Shape, Table, TableError, words_len};
 use jred::tabulate::{fill, scratch_len};
-use jred::{CurveSet, Domain, Error, Model, Reducible, Scale, Table, TableError};
+use jred::{CurveSet, Domain, Model, Scale};
 
 /// Words of a table, and what they stand for.
 #[derive(Clone, Debug)]

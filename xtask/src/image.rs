@@ -1,11 +1,11 @@
 //! Table images of the example machine, made by the library from its own mechanism.
 
 use anyhow::{Result, anyhow, bail};
-use jred::image::{encode, image_len};
+use jred::image::{Validity, encode, image_len};
 use jred::slider_crank::form;
-use jred::table::{Format, Shape, words_len};
+use jred::table::{Format, Shape, Table, words_len};
 use jred::tabulate::{fill, scratch_len};
-use jred::{CurveSet, Q31, Scale, SliderCrankForm, Table, Validity, curves};
+use jred::{CurveSet, Q31, Scale, SliderCrankForm, curves};
 
 use crate::data::Words;
 use crate::machine::{ALPHA, Example, OMEGA};

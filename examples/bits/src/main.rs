@@ -16,14 +16,14 @@
 #[allow(dead_code, reason = "here everything is printed as bits")]
 mod support;
 
-use jred::axis::plan::PlanError;
 use jred::axis::{Override, Plan, PlanFollower};
 use jred::harmonic::terms;
+use jred::image::Validity;
 use jred::number::{Number, Quantity};
 use jred::table::Format;
 use jred::{
     Cubic, CurveSet, Domain, Harmonic, Image, Model, Outcome, Phase, Pieces, Q15, Q31, Quadratic,
-    Rows16, SliderCrankForm, Spline, Spline16, Validity, curves, include_image, slider_crank,
+    Rows16, SliderCrankForm, Spline, Spline16, curves, include_image, slider_crank,
 };
 use support::{Failure, println, program};
 
@@ -173,12 +173,11 @@ fn of_plan<F: Format<Number: Word>, const SET: CurveSet>(
     run: &mut Run,
     until: u32,
 ) -> Result<(), Failure> {
-    let wrong = |_: PlanError| "the plan is not one of the press";
     let model: Model<'_, F, SET> = Image::from_bytes(image)?.model()?;
     let plan = include_image!("../../data/press_plan.jred");
-    let plan = Plan::from_bytes(plan, &model).map_err(wrong)?;
+    let plan = Plan::from_bytes(plan, &model)?;
     let follower = PlanFollower::new(plan, 0.000_5, 0.13, &model);
-    let mut follower = follower.and_then(PlanFollower::repeating).map_err(wrong)?;
+    let mut follower = follower.and_then(PlanFollower::repeating)?;
     follower.start();
     let mut rate = Override::FULL;
     while run.ticks < until {
@@ -215,8 +214,7 @@ fn of_piece<F: Format<Number: Word>, const SET: CurveSet>(
     let turn: Pieces<'_, F, SET, 1> = Pieces::new(
         Domain::Turn,
         [(Phase::from_bits(0x1234_5679), image.model()?)],
-    )
-    .map_err(|_| "a turn is a piece")?;
+    )?;
     ticks::<F::Number>(
         run,
         until,

@@ -1,9 +1,7 @@
 //! A table and the values computed from its machine units, exchanged together.
 
-use core::fmt;
-
 use jred::axis::{AxisError, FrictionRamp, ImageSlot, Period, TorqueLimits, Transmission};
-use jred::{ImageError, Phase};
+use jred::{FirmwareError, Phase};
 
 use crate::board::RATE;
 use crate::machine::{
@@ -28,23 +26,6 @@ pub struct Units {
     pub limits: TorqueLimits<MotorTorque>,
 }
 
-/// Why a table is not used.
-pub enum Refused {
-    /// The image.
-    Image(ImageError),
-    /// A figure of the drive that does not fit its machine units.
-    Drive(AxisError),
-}
-
-impl fmt::Display for Refused {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Image(error) => error.fmt(f),
-            Self::Drive(error) => error.fmt(f),
-        }
-    }
-}
-
 impl Table {
     pub const fn new(memory: &'static mut [u32; WORDS]) -> Self {
         Self {
@@ -59,9 +40,9 @@ impl Table {
     }
 
     /// Checks `words` more words; returns the verdict at the end.
-    pub fn check(&mut self, words: usize) -> Option<Result<(), Refused>> {
-        let verdict = self.slot.check(words)?.map_err(Refused::Image);
-        Some(verdict.and_then(|()| self.convert().map_err(Refused::Drive)))
+    pub fn check(&mut self, words: usize) -> Option<Result<(), FirmwareError>> {
+        let verdict = self.slot.check(words)?.map_err(FirmwareError::from);
+        Some(verdict.and_then(|()| Ok(self.convert()?)))
     }
 
     fn convert(&mut self) -> Result<(), AxisError> {

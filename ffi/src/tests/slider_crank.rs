@@ -3,9 +3,9 @@
 use core::mem::zeroed;
 use core::ptr::{null, null_mut};
 
-use jred::image::{encode, image_len};
-use jred::table::Shape;
-use jred::{CurveSet, Image, Model, SliderCrankForm, Table, Validity, curves};
+use jred::image::{Validity, encode, image_len};
+use jred::table::{Shape, Table};
+use jred::{CurveSet, Image, Model, SliderCrankForm, curves};
 
 use super::ticks::same_bits;
 use super::{PRESS, Press, jred_spline_f32_load, press};

@@ -17,7 +17,8 @@ pub use image::{HEADER_WORDS, VERSION};
 
 use super::{AxisError, MotionState};
 use crate::number::{Factor, Number, Quantity as _, Real as _};
-use crate::{Domain, MachineUnits, Outcome, Phase};
+use crate::tick::MachineUnits;
+use crate::{Domain, Outcome, Phase};
 use image::Header;
 pub(super) use row::shifted;
 use row::{Row, State, TIME_BITS, Words};
@@ -55,7 +56,7 @@ const UNIT: f32 = 1.0 / 4_294_967_296.0;
 ///
 /// const PRESS: CurveSet = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
 ///
-/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// # fn main() -> Result<(), jred::FirmwareError> {
 /// // Once.
 /// let image = Image::from_bytes(include_image!("../../../examples/data/press_f32.jred"))?;
 /// let press: Model<'_, Spline<f32>, PRESS> = image.model()?;

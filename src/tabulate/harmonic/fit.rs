@@ -13,11 +13,12 @@ use crate::curve::{
     Circular, Coefficient, Curve, Format, Harmonic, Kind, MAX_HARMONICS, Shape, Table, in_use,
     words_len,
 };
+use crate::error::Error;
 use crate::machine::reducible::Reducible;
 use crate::number::Number;
 use crate::number::error::{RangeError, positive};
 use crate::tabulate::{Request, edge_places, torque_between};
-use crate::{AnyModel, CurveSet, Domain, Error, Phase, math};
+use crate::{AnyModel, CurveSet, Domain, Phase, math};
 
 /// Largest torque of one unit of the k-th harmonic of a curve.
 fn weight(request: &Request, curve: Curve, k: usize) -> f64 {
@@ -122,7 +123,7 @@ fn spectrum<'s>(
 /// slider-crank on a host (`docs/harmonics.md`).
 ///
 /// # Errors
-/// [`HarmonicError::Stroke`]; [`HarmonicError::NotConverged`], in particular for a curve with a kink; [`TableError`](crate::TableError) if J cannot
+/// [`HarmonicError::Stroke`]; [`HarmonicError::NotConverged`], in particular for a curve with a kink; [`TableError`](crate::table::TableError) if J cannot
 /// be proven positive between the samples; [`PoseError::NoInertia`](crate::machine::PoseError::NoInertia) if it is not positive at one; buffers too
 /// short; the machine's errors.
 pub fn fit<T: Circular + Number>(

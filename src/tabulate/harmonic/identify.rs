@@ -17,8 +17,9 @@ use crate::CurveSet;
 use crate::curve::{
     Circular, Coefficient, Curve, Harmonic, Kind, MAX_HARMONICS, TableError, words_len,
 };
+use crate::error::Error;
 use crate::number::error::finite;
-use crate::{Error, Phase, math};
+use crate::{Phase, math};
 
 /// A coefficient counts as excited if more than this share of its effect in the samples is independent of the others. Measurement errors are
 /// amplified by 1/share.
@@ -246,15 +247,16 @@ fn norm(values: impl IntoIterator<Item = f64>) -> f64 {
 /// The coefficients of a machine from samples of its motion: [`Identification`] in one call.
 ///
 /// ```
+/// use jred::error::Error;
 /// use jred::harmonic::{Sample, identify, terms};
-/// use jred::table::Shape;
-/// use jred::{CurveSet, Error, Harmonic, Model, Phase, Table, curves};
+/// use jred::table::{Shape, Table};
+/// use jred::{CurveSet, Harmonic, Model, Phase, curves};
 ///
 /// // J = 0.5 − 0.2·cos 2φ kg·m², 3 N·m of Coulomb friction.
 /// const SET: CurveSet = curves::COULOMB | terms::INERTIA_COS;
 /// let made = [0.5, 3.0, 0.0, -0.2];
-/// let table = Table::new(&made, Shape::harmonics(2, SET)).map_err(Error::Table)?;
-/// let machine = Model::<Harmonic<f64>, SET>::new(table).map_err(Error::Table)?;
+/// let table = Table::new(&made, Shape::harmonics(2, SET))?;
+/// let machine = Model::<Harmonic<f64>, SET>::new(table)?;
 /// let samples = core::array::from_fn::<_, 50, _>(|k| {
 ///     let time = k as f64 * 0.1;
 ///     let (phase, omega, alpha) = (Phase::from_radians(time + time.sin()), 1.0 + 2.0 * time.cos(), -2.0 * time.sin());
@@ -262,7 +264,7 @@ fn norm(values: impl IntoIterator<Item = f64>) -> f64 {
 /// });
 /// let found = identify::<4, SET>(&samples)?;
 /// assert!(found.words.iter().zip(made).all(|(found, made)| (found - made).abs() < 1e-12));
-/// # Ok::<(), jred::Error>(())
+/// # Ok::<(), jred::error::Error>(())
 /// ```
 ///
 /// # Errors

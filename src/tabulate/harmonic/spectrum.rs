@@ -15,9 +15,10 @@ use core::f64::consts::TAU;
 
 use crate::curve::Curve;
 use crate::curve::unfold;
+use crate::error::Error;
 use crate::machine::reducible::Reducible;
+use crate::math;
 use crate::number::error::finite;
-use crate::{Error, math};
 
 /// Initial number of samples; also the least memory for them.
 pub(super) const FIRST: usize = 32;

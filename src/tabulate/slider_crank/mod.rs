@@ -18,11 +18,12 @@ mod error;
 pub use error::SliderCrankError;
 
 use crate::curve::curves::CurveSet;
-use crate::curve::{COEFFICIENTS, CrankCoefficient as C, SliderCrankForm, words_len};
-use crate::machine::{Action, Load, Mechanism as _};
+use crate::curve::{COEFFICIENTS, CrankCoefficient as C, SliderCrankForm, TableError, words_len};
+use crate::error::Error;
+use crate::machine::{Action, Load, Machine, Mechanism as _};
 use crate::mechanism::{Branch, SliderCrank};
 use crate::number::error::RangeError;
-use crate::{Domain, Error, Machine, TableError, math};
+use crate::{Domain, math};
 
 /// A coefficient below this share of the largest of its curve counts as rounding of a rotated drawing.
 const NOTHING: f64 = 1e-9;

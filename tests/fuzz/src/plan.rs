@@ -1,9 +1,9 @@
 //! Plans: what is let in is followed.
 
-use jred::axis::{MotionState, Override, Plan, PlanFollower, PlanState};
+use jred::axis::{MachineUnits, MotionState, Override, Plan, PlanFollower, PlanState};
 use jred::number::{Bases, Number, Quantity as _};
-use jred::table::{Format, Shape};
-use jred::{Domain, MachineUnits, Model, Q31, Scale, Spline, Table, curves};
+use jred::table::{Format, Shape, Table};
+use jred::{Domain, Model, Q31, Scale, Spline, curves};
 
 use crate::harness::with_crc;
 

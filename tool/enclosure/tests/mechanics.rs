@@ -1,9 +1,9 @@
 //! A machine of the core with joints that close, as curves for a proof; and a search for the error of a table.
 
-use jred::machine::Jointed;
-use jred::table::{CurveValues, Format, words_len};
+use jred::machine::{Jointed, Machine, Reducible, Reduction};
+use jred::table::{CurveValues, Format, Table, words_len};
 use jred::tabulate::{Request, fill, measure, scratch_len, torque_between};
-use jred::{CurveSet, Machine, Phase, Reducible, Reduction, Scale, Table, curves};
+use jred::{CurveSet, Phase, Scale, curves};
 use jred_enclosure::{Closure, Curves, Goal, Parts, Proof, Unproven, prove};
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt as _, SeedableRng as _};

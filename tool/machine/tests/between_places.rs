@@ -1,9 +1,10 @@
 //! How far a table errs beyond what `Tabulated::bound` says, which rests on places at equal distances: a search by hill climbing
 //! between them, for every machine file in `machines/`.
 
-use jred::table::{Format, words_len};
+use jred::machine::Reducible;
+use jred::table::{Format, Table, words_len};
 use jred::tabulate::{Request, curves_in_use, fill, measure, scratch_len, torque_between};
-use jred::{Cubic, CurveSet, Phase, Quadratic, Reducible, Scale, Spline, Table, curves};
+use jred::{Cubic, CurveSet, Phase, Quadratic, Scale, Spline, curves};
 
 use crate::every_machine::machines;
 

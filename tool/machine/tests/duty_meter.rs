@@ -1,8 +1,8 @@
 //! The firmware's duty meter against the figures of sizing: the same machine, the same cycle, two ways of summing.
 
 use crate::support::{budget, press_file};
-use jred::Reducible as _;
 use jred::duty::{Curve, Figures, Limits, Meter, Verdict, Window};
+use jred::machine::Reducible as _;
 use jred::mechanism::TrainOutput;
 use jred_machine::analysis::duty::{Duty, STEPS};
 use jred_machine::model::machine::MachineFile;

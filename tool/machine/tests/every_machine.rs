@@ -3,8 +3,8 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use jred::machine::{Jointed, Mechanism};
-use jred::{Domain, Reducible};
+use jred::Domain;
+use jred::machine::{Jointed, Mechanism, Reducible};
 use jred_machine::model::machine::MachineFile;
 use jred_machine::number::numerics::integral;
 use jred_machine::read;
@@ -91,7 +91,7 @@ fn energy_balances_over_a_cycle() {
             let r = machine.bare_reduction(phi).unwrap();
             drive(phi) + r.process - r.viscous * OMEGA - r.coulomb
         };
-        let unbalanced = |phi: f64| Ok::<f64, jred::Error>(unbalanced(phi));
+        let unbalanced = |phi: f64| Ok::<f64, jred::error::Error>(unbalanced(phi));
         let work = integral(unbalanced, [from, to], 48, 1e-11 * size).unwrap();
         let gap = work - kinetic - potential;
         println!(

@@ -1,9 +1,10 @@
 //! The proven error of exported tables, for every machine file in `machines/`, against random places.
 
 use jred::image::HEADER_WORDS;
+use jred::machine::{Machine, Reducible};
 use jred::table::Format;
 use jred::tabulate::{Request, torque_between};
-use jred::{Cubic, Image, Machine, Phase, Q31, Reducible, Rows16, Spline};
+use jred::{Cubic, Image, Phase, Q31, Rows16, Spline};
 use jred_machine::export::{Export, LayoutChoice, Number, Proven, Task};
 use jred_machine::model::machine::MachineFile;
 use jred_machine::model::mechanism::AnyMechanism;

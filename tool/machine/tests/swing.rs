@@ -3,8 +3,8 @@
 use std::f64::consts::TAU;
 use std::path::Path;
 
-use jred::machine::Mechanism;
-use jred::{Domain, Reducible};
+use jred::Domain;
+use jred::machine::{Mechanism, Reducible};
 use jred_machine::analysis::duty::Duty;
 use jred_machine::analysis::reduce::{At, Over, Request, Sets, reduce_at};
 use jred_machine::model::axis::Axis;

@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use jred::Reducible as _;
+use jred::machine::Reducible as _;
 use jred_machine::analysis::duty::Duty;
 use jred_machine::model::coordinate::positions;
 use jred_machine::model::machine::MachineFile;

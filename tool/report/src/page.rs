@@ -4,7 +4,7 @@
 //! script draws with uPlot (`templates/vendor/uplot`, MIT licence), to be zoomed and read out.
 
 use askama::Template;
-use jred::Error;
+use jred::error::Error;
 
 use crate::list;
 use crate::list::listing::{self, Explanation};

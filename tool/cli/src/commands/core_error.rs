@@ -1,6 +1,6 @@
 //! The core's errors in a report: what is wrong, and its cure as help.
 
-use jred::Error;
+use jred::error::Error;
 use jred_machine::analysis::duty::Fault;
 use miette::{Report, miette};
 

@@ -6,7 +6,7 @@ use crate::commands::core_error::core_report;
 use crate::commands::{Done, print_answer, warn};
 use crate::options;
 use crate::output;
-use jred::Reducible as _;
+use jred::machine::Reducible as _;
 use jred_machine::analysis::reduce;
 use jred_machine::analysis::reduce::{Over, Sets, reduce};
 use jred_machine::model::axis::Axis;

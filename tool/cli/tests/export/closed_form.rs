@@ -1,7 +1,8 @@
 //! A slider-crank in closed form: chosen, loaded, ticked; and refused where there is none.
 
+use jred::machine::Reducible as _;
 use jred::slider_crank::terms;
-use jred::{CurveSet, Image, ImageError, Phase, Reducible as _, SliderCrankForm, Spline, curves};
+use jred::{CurveSet, Image, ImageError, Phase, SliderCrankForm, Spline, curves};
 
 use super::images::{errors, machine};
 use super::{export_of, feeder_form, number_after, words_of};

@@ -1,7 +1,8 @@
 //! Harmonics: exported, loaded, ticked; and refused where a table is needed.
 
 use jred::harmonic::terms;
-use jred::{CurveSet, Harmonic, Image, ImageError, Phase, Reducible as _, Spline, curves};
+use jred::machine::Reducible as _;
+use jred::{CurveSet, Harmonic, Image, ImageError, Phase, Spline, curves};
 
 use super::images::{machine, random};
 use super::{export, export_of, number_after, words_of};
@@ -92,7 +93,7 @@ fn an_image_of_harmonics_holds_its_error() {
         ));
         assert!(matches!(
             image.model::<Harmonic<f32>, { curves::LOAD }>(),
-            Err(ImageError::Table(jred::TableError::Curves(SET)))
+            Err(ImageError::Table(jred::table::TableError::Curves(SET)))
         ));
     }
 }

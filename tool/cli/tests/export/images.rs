@@ -1,10 +1,11 @@
 //! Every exported type and layout, loaded and ticked as firmware does it, against the exact reduction.
 
+use jred::machine::Reducible as _;
 use jred::number::{Number, Quantity};
 use jred::table::Format;
 use jred::{
-    Cubic, CurveSet, Image, ImageError, Phase, Q31, Quadratic, Reducible as _, Rows16,
-    SliderCrankForm, Spline, Spline16, curves,
+    Cubic, CurveSet, Image, ImageError, Phase, Q31, Quadratic, Rows16, SliderCrankForm, Spline,
+    Spline16, curves,
 };
 use jred_machine::model::machine::MachineFile;
 use jred_machine::model::mechanism::AnyMechanism;
@@ -27,14 +28,14 @@ pub(super) fn random() -> impl FnMut() -> f64 {
     }
 }
 
-pub(super) fn machine(file: &MachineFile) -> jred::Machine<AnyMechanism> {
+pub(super) fn machine(file: &MachineFile) -> jred::machine::Machine<AnyMechanism> {
     file.with_drive_train().unwrap()
 }
 
 /// The largest errors of torque (N·m) and, times J, of the acceleration that it gives, at random states; `spread` makes a phase
 /// of a number from 0 to 1.
 pub(super) fn errors<N: Number>(
-    machine: &jred::Machine<AnyMechanism>,
+    machine: &jred::machine::Machine<AnyMechanism>,
     image: &Image<'_>,
     spread: impl Fn(f64) -> Phase,
     torque: impl Fn(Phase, N::Speed, N::Acceleration) -> N::Torque,
@@ -359,7 +360,7 @@ fn a_damaged_file_is_refused() {
     ));
     assert!(matches!(
         image.model::<Spline<f32>, 0>(),
-        Err(ImageError::Table(jred::TableError::Curves(SET)))
+        Err(ImageError::Table(jred::table::TableError::Curves(SET)))
     ));
 }
 

@@ -2,10 +2,11 @@
 
 use std::path::PathBuf;
 
+use jred::machine::Reducible as _;
 use jred::table::Format;
 use jred::{
-    Cubic, CurveSet, Domain, Image, Model, Phase, Pieces, Q31, Quadratic, Reducible as _, Rows16,
-    Spline, Spline16, curves,
+    Cubic, CurveSet, Domain, Image, Model, Phase, Pieces, Q31, Quadratic, Rows16, Spline, Spline16,
+    curves,
 };
 
 use jred_machine::export::{Answer, Export, LayoutChoice, Number, Task};

@@ -1,8 +1,9 @@
 //! Results of a search: the table of one range, and the tables of a machine, one for each of its pieces.
 
+use jred::error::Error;
 use jred::table::Usage;
 use jred::tabulate::Tabulated;
-use jred::{CurveSet, Error, Scale};
+use jred::{CurveSet, Scale};
 
 use super::choice::{LayoutName, Number};
 use super::proof::Proven;

@@ -1,11 +1,13 @@
 //! The fewest harmonics that meet a torque error, or the most accurate ones for their bytes.
 
+use jred::error::Error;
 use jred::harmonic::{self, MAX_HARMONICS, fit, scratch_len, terms_in_use};
-use jred::image::{encode, image_len};
+use jred::image::{Validity, encode, image_len};
+use jred::machine::Reducible as _;
 use jred::number::RangeError;
-use jred::table::{Shape, Usage, words_len};
+use jred::table::{Shape, Table, Usage, words_len};
 use jred::tabulate::{Request, Tabulated};
-use jred::{CurveSet, Error, Harmonic, Image, Reducible as _, Scale, Table, Validity};
+use jred::{CurveSet, Harmonic, Image, Scale};
 
 use super::candidate::{Answer, Made};
 use super::search::Search;

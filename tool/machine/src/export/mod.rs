@@ -34,8 +34,10 @@ pub use search::EXHAUSTIVE;
 pub use ticks::Ticks;
 
 use crc::{CRC_32_ISO_HDLC, Crc};
+use jred::error::Error;
 use jred::image::identify;
-use jred::{Domain, Error, Machine, Phase, Reducible as _};
+use jred::machine::{Machine, Reducible as _};
+use jred::{Domain, Phase};
 
 use crate::model::by_motion::ByMotion;
 use crate::model::coordinate::Coordinate;

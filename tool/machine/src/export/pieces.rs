@@ -3,10 +3,12 @@
 use std::f64::consts::TAU;
 use std::ops::RangeInclusive;
 
+use jred::error::Error;
+use jred::machine::{Machine, Reducible as _};
 use jred::mechanism::SliderCrank;
-use jred::table::Format;
+use jred::table::{Format, TableError};
 use jred::tabulate::{self, Part};
-use jred::{CurveSet, Domain, Error, Machine, Reducible as _, TableError, curves};
+use jred::{CurveSet, Domain, curves};
 
 use super::candidate::Answer;
 use super::choice::{LayoutName, Number, PLACES};

@@ -4,10 +4,11 @@ use std::cell::{OnceCell, RefCell};
 use std::collections::HashMap;
 use std::f64::consts::TAU;
 
-use jred::machine::PoseError;
+use jred::error::Error;
+use jred::machine::{PoseError, Reducible, Reduction};
 use jred::table::CurveValues;
 use jred::tabulate::{Part, Request, edge_places, torque_between};
-use jred::{Domain, Error, Phase, Reducible, Reduction};
+use jred::{Domain, Phase};
 
 use super::ways::BothWays;
 

@@ -5,11 +5,12 @@
 
 use std::collections::HashMap;
 
-use jred::machine::PoseError;
+use jred::error::Error;
+use jred::machine::{PoseError, Reducible as _};
 use jred::number::RangeError;
-use jred::table::{Format, MAX_CELLS, MIN_CELLS};
+use jred::table::{Format, MAX_CELLS, MIN_CELLS, TableError};
 use jred::tabulate::{self, Request};
-use jred::{CurveSet, Domain, Error, Reducible as _, Scale, TableError};
+use jred::{CurveSet, Domain, Scale};
 
 use super::candidate::{Answer, Made};
 use super::reference::{Range, Reference, Remembered};

@@ -1,9 +1,10 @@
 //! One size of a table of one format: evaluated, made, and ticked.
 
-use jred::image::{encode, image_len};
-use jred::table::{Format, Usage, words_len};
+use jred::error::Error;
+use jred::image::{Validity, encode, image_len};
+use jred::table::{Format, Table, Usage, words_len};
 use jred::tabulate::{self, Request, Tabulated};
-use jred::{CurveSet, Error, Image, Scale, Table, Validity};
+use jred::{CurveSet, Image, Scale};
 
 use super::candidate::Made;
 use super::search::Search;

@@ -1,15 +1,14 @@
 //! A slider-crank in closed form, if the machine is one.
 
+use jred::error::Error;
 use jred::harmonic::measure;
-use jred::image::{encode, image_len};
-use jred::machine::Mechanism as _;
+use jred::image::{Validity, encode, image_len};
+use jred::machine::{Machine, Mechanism as _, Reducible as _};
 use jred::mechanism::SliderCrank;
 use jred::slider_crank::{SliderCrankError, form, set_in_use};
-use jred::table::{Shape, Usage, words_len};
+use jred::table::{Shape, Table, Usage, words_len};
 use jred::tabulate::{Request, Tabulated};
-use jred::{
-    Domain, Error, Image, Machine, Reducible as _, Scale, SliderCrankForm, Table, Validity,
-};
+use jred::{Domain, Image, Scale, SliderCrankForm};
 
 use super::Failure;
 use super::candidate::{Answer, Made};

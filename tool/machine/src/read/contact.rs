@@ -1,6 +1,6 @@
 //! Checks that followers stay on their cams and ropes stay taut during the prescribed motion.
 
-use jred::Error;
+use jred::error::Error;
 
 use crate::analysis::contact::lost;
 use crate::model::machine::MachineFile;

@@ -1,7 +1,7 @@
 //! Andrews' squeezing mechanism against its published initial values and its published solution.
 
-use jred::Reducible;
 use jred::machine::Mechanism;
+use jred::machine::Reducible;
 use jred_machine::analysis::simulate::simulate;
 use jred_machine::model::machine::MachineFile;
 use jred_machine::read;

@@ -1,7 +1,7 @@
 //! `[[spring]]` and `[[damper]]` of every mechanism.
 
-use jred::Reducible as _;
 use jred::machine::Mechanism as _;
+use jred::machine::Reducible as _;
 use jred_machine::analysis::simulate::simulate;
 use jred_machine::model::simulation::Shaft;
 

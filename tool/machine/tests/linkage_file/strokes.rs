@@ -1,7 +1,7 @@
 //! Bounded drives: a boom lifted by a cylinder, and a crank that swings.
 
-use jred::machine::Mechanism as _;
-use jred::{Domain, Reducible as _};
+use jred::Domain;
+use jred::machine::{Mechanism as _, Reducible as _};
 use jred_machine::analysis::duty::Duty;
 use jred_machine::analysis::reduce::{Over, Request, Sets, reduce};
 use jred_machine::analysis::simulate::simulate;

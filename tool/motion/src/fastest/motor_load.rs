@@ -2,7 +2,7 @@
 
 use std::convert::Infallible;
 
-use jred::Error;
+use jred::error::Error;
 use jred::machine::motion::State;
 use jred_machine::model::machine::MachineFile;
 use jred_machine::number::numerics;

@@ -3,7 +3,7 @@
 mod cure;
 mod words;
 
-use jred::Error;
+use jred::error::Error;
 use jred_machine::analysis::duty;
 use jred_machine::model::axis::Axis;
 use jred_machine::model::coordinate::Coordinate;

@@ -12,7 +12,7 @@ use super::contact::of_fastest;
 use crate::answer::Answer;
 use crate::list::kept;
 use crate::table::output::Format;
-use jred::Error;
+use jred::error::Error;
 use jred_machine::model::machine::MachineFile;
 use jred_machine::number::columns::{Column, Columns, Quantity};
 use jred_machine::number::rounding::{percent, short};

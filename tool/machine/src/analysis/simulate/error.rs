@@ -1,6 +1,6 @@
 //! Why a simulation ended early.
 
-use jred::Error;
+use jred::error::Error;
 
 use crate::number::numerics::dormand_prince::Stopped;
 

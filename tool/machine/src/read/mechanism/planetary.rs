@@ -1,6 +1,6 @@
 //! `type = "planetary"`.
 
-use jred::Link;
+use jred::machine::Link;
 use jred::mechanism::{BuildError, Member, Misfit, Planetary, PlanetaryDimensions, PlanetaryGears};
 
 use super::{core, parts};

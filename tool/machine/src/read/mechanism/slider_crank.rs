@@ -1,6 +1,6 @@
 //! `type = "slider-crank"`.
 
-use jred::Link;
+use jred::machine::Link;
 use jred::machine::MassProperties;
 use jred::mechanism::{Blocked, Branch, BuildError, SliderCrank, SliderCrankDimensions};
 
