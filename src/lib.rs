@@ -235,7 +235,7 @@ pub mod harmonic {
     pub use crate::curve::{Circular, Coefficient, Curve, Kind, MAX_HARMONICS, terms};
     #[cfg(feature = "mechanics")]
     pub use crate::tabulate::harmonic::{
-        EXCITED, Fitted, HarmonicError, Identification, Identified, Sample, fit, identify, measure,
+        EXCITED, Fit, HarmonicError, Identification, Identified, Sample, fit, identify, measure,
         scratch_len, terms_in_use,
     };
 }

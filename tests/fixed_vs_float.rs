@@ -7,7 +7,7 @@ use crate::support::{assert_near, budget, largest, samples, value};
 use jred::machine::Reducible;
 use jred::number::Number;
 use jred::table::{AccelerationOf, Format, MIN_CELLS, SpeedOf, Table, TorqueOf, words_len};
-use jred::tabulate::{CHECKS_PER_CELL, Request, Tabulated, measure, scratch_len, tabulate};
+use jred::tabulate::{CHECKS_PER_CELL, Request, TableFigures, measure, scratch_len, tabulate};
 use jred::{Cubic, CurveSet, Phase, Q31, Quadratic, Scale, Spline, curves};
 use proptest::prelude::any;
 
@@ -17,7 +17,7 @@ fn table_of<F: Format>(
     machine: &impl Reducible,
     request: &Request,
     scale: &Scale,
-) -> (Tabulated, Rows<F>) {
+) -> (TableFigures, Rows<F>) {
     let mut scratch = vec![0.0; scratch_len(request.max_cells, ALL)];
     let mut words = vec![F::Word::default(); words_len::<F>(request.max_cells, ALL)];
     let found = tabulate::<F>(machine, ALL, request, scale, &mut scratch, &mut words).unwrap();

@@ -231,7 +231,7 @@ proptest! {
         let pivot = [ground * f64::cos(gamma), ground * f64::sin(gamma)];
         let side = if left { Side::Left } else { Side::Right };
         let refused = FourBar::new(FourBarDimensions { crank: lengths[0], coupler: lengths[1], rocker: lengths[2], pivot }, side, links()).unwrap_err();
-        let BuildError::Blocked(jred::mechanism::Blocked::FourBar { reach: [from, to], .. }) = refused else {
+        let BuildError::Rotation(jred::mechanism::RotationError::FourBar { reach: [from, to], .. }) = refused else {
             panic!("{refused:?}");
         };
         let inset = 1e-3 * (to - from);
@@ -296,7 +296,8 @@ fn a_crank_that_can_only_fold_swings_over_the_far_side() {
             pivot,
         };
         let refused = FourBar::new(dimensions, Side::Left, links()).unwrap_err();
-        let BuildError::Blocked(jred::mechanism::Blocked::FourBar { reach, .. }) = refused else {
+        let BuildError::Rotation(jred::mechanism::RotationError::FourBar { reach, .. }) = refused
+        else {
             panic!("{refused:?}");
         };
         let [from, to] = reach;

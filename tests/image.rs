@@ -6,7 +6,7 @@ use crate::support::rows::Rows;
 use crate::support::{config, quantity, samples, scale_of};
 use jred::image::{HEADER_WORDS, VERSION, encode, identify, image_len};
 use jred::table::Format;
-use jred::tabulate::{Request, Tabulated};
+use jred::tabulate::{Request, TableFigures};
 use jred::{
     Cubic, CurveSet, Domain, Image, ImageError, Model, Phase, Q31, Quadratic, Scale, Spline, curves,
 };
@@ -53,7 +53,7 @@ fn known_crc_and_layout() {
     );
     let scale = scale_of(60.0, 11.0, 2.0);
     assert_eq!(*read.scale(), scale.for_cells(12, 2.0));
-    let mut found = Tabulated::default();
+    let mut found = TableFigures::default();
     found.cells = 12;
     found.torque_error = 0.01;
     let request = Request::new(0.02)

@@ -326,7 +326,7 @@ proptest! {
         let rise = if turns { rocker } else { rocker * crank / centres };
         let rod = short * (rise + below.abs());
         let error = SixLink::new(SixLinkDimensions { crank, rocker, rod, centres, below }, Branch::Right, rotors()).unwrap_err();
-        let BuildError::Blocked(jred::mechanism::Blocked::TooShort { phi, shortest, .. }) = error else {
+        let BuildError::Rotation(jred::mechanism::RotationError::TooShort { phi, shortest, .. }) = error else {
             panic!("{error:?}")
         };
         assert_near("shortest", shortest, rise + below.abs(), budget::CLOSED_FORM);

@@ -8,7 +8,7 @@ use crate::support::{assert_near, largest, scale_of};
 use jred::error::Error;
 use jred::machine::{PoseError, Reducible, Reduction};
 use jred::table::{Format, words_len};
-use jred::tabulate::{EXHAUSTIVE, Request, Tabulated, measure, scratch_len, tabulate};
+use jred::tabulate::{EXHAUSTIVE, Request, TableFigures, measure, scratch_len, tabulate};
 use jred::{Cubic, CurveSet, Domain, Q31, Quadratic, Rows16, Scale, Spline, curves};
 
 fn request(torque_error: f64, max_cells: u32) -> Request {
@@ -24,7 +24,7 @@ fn found<F: Format>(
     set: CurveSet,
     request: &Request,
     scale: &Scale,
-) -> [Tabulated; 2] {
+) -> [TableFigures; 2] {
     let mut words = vec![F::Word::default(); words_len::<F>(request.max_cells, set)];
     let mut scratch = vec![0.0; scratch_len(request.max_cells, set)];
     let found = tabulate::<F>(machine, set, request, scale, &mut scratch, &mut words).unwrap();

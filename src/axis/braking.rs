@@ -67,7 +67,7 @@ impl Way {
 
 /// Terms of the model for braking at a place, in units of the torque base.
 #[derive(Clone, Copy, Default)]
-struct Place {
+struct NodeTerms {
     /// J·α_b
     inertial: f32,
     /// T_brake + c − load
@@ -104,7 +104,7 @@ fn place<F: Format, const SET: CurveSet>(
     way: Way,
     braking: &Braking,
     half: u32,
-) -> Result<Place, AxisError> {
+) -> Result<NodeTerms, AxisError> {
     let phase = way.node(half);
     // 1.0, the greatest number that a model takes in fixed point.
     let one = F::Number::per_unit(1.0, 1.0).value;
@@ -120,7 +120,7 @@ fn place<F: Format, const SET: CurveSet>(
     } else {
         resistance.min(0.0)
     };
-    let place = Place {
+    let place = NodeTerms {
         inertial: terms.acceleration.to_si(1.0) / one.si(1.0),
         braking: braking.torque / model.table().scale().torque() + helping,
     };

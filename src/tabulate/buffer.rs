@@ -1,6 +1,6 @@
 //! A table and its memory.
 
-use super::{Request, Tabulated, fill, tabulate};
+use super::{Request, TableFigures, fill, tabulate};
 use crate::curve::{CurveSet, Format, words_len};
 use crate::error::Error;
 use crate::machine::Reducible;
@@ -121,7 +121,7 @@ impl<F: Format, const SET: CurveSet, const CELLS: u32, const WORDS: usize>
         request: &Request,
         scale: &Scale,
         scratch: &mut [f64],
-    ) -> Result<(Model<'_, F, SET>, Tabulated), Error> {
+    ) -> Result<(Model<'_, F, SET>, TableFigures), Error> {
         let request = request.with_max_cells(request.max_cells.min(CELLS));
         let found = tabulate::<F>(machine, SET, &request, scale, scratch, &mut self.words)?;
         let model = self.fill(machine, found.cells, &found.scale, scratch)?;

@@ -132,7 +132,7 @@ impl Request {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
-pub struct Tabulated {
+pub struct TableFigures {
     /// Number of cells.
     pub cells: u32,
     /// Largest error of the drive torque (N·m) at the places checked: of curves and words; for 16 bits also the rounding of the tick's sums; without
@@ -152,7 +152,7 @@ pub struct Tabulated {
     pub scale: Scale,
 }
 
-impl Tabulated {
+impl TableFigures {
     /// The validity for the header of an image.
     #[must_use]
     pub fn validity(&self, request: &Request) -> Validity {

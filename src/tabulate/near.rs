@@ -6,7 +6,7 @@
 
 use super::measure::{Places, measure_until, scan_places, torque_error};
 use super::search::smallest;
-use super::{CHECKS_PER_CELL, COARSE_CHECKS, EXHAUSTIVE, Request, Tabulated};
+use super::{CHECKS_PER_CELL, COARSE_CHECKS, EXHAUSTIVE, Request, TableFigures};
 use crate::curve::{Format, Table};
 use crate::error::Error;
 use crate::machine::reducible::Reducible;
@@ -26,8 +26,8 @@ pub(super) enum Look {
 /// As [`smallest`], for a `meets` that can check fewer places.
 pub(super) fn search_near(
     request: &Request,
-    mut meets: impl FnMut(u32, Look) -> Result<Option<Tabulated>, Error>,
-) -> Result<Option<Tabulated>, Error> {
+    mut meets: impl FnMut(u32, Look) -> Result<Option<TableFigures>, Error>,
+) -> Result<Option<TableFigures>, Error> {
     let most = request.most_cells();
     let near = smallest(most, EXHAUSTIVE, |cells| meets(cells, Look::Near))?;
     let Some((guess, found)) = near else {
@@ -58,9 +58,9 @@ pub(super) fn meets_near<F: Format>(
     table: &Table<'_, F>,
     request: &Request,
     worst: &mut Worst,
-) -> Result<Option<Tabulated>, Error> {
+) -> Result<Option<TableFigures>, Error> {
     let (domain, cells) = (machine.domain(), table.cells());
-    let meets = |found: &Tabulated| found.torque_error <= request.torque_error;
+    let meets = |found: &TableFigures| found.torque_error <= request.torque_error;
     let survey = || measure_until(machine, table, request, (0.0, COARSE_CHECKS), false);
     let around = |place: f64| {
         let first = domain.phase(place).cell(cells).0 + cells - NEIGHBOURS;
@@ -94,7 +94,7 @@ pub(super) fn meets_near<F: Format>(
 #[cfg(test)]
 mod tests {
     use super::{Look, search_near};
-    use crate::tabulate::{EXHAUSTIVE, Request, Tabulated};
+    use crate::tabulate::{EXHAUSTIVE, Request, TableFigures};
 
     /// Result of a search where sizes from `near` on pass the check near the worst place, and those from `all` on pass every check; and the number of
     /// checks at all places of sizes beyond [`EXHAUSTIVE`].
@@ -108,9 +108,9 @@ mod tests {
             let near_only = look == Look::Near && cells > EXHAUSTIVE;
             looks += u32::from(!near_only && cells > EXHAUSTIVE);
             let enough = if near_only { near } else { all };
-            Ok((cells >= enough).then(|| Tabulated {
+            Ok((cells >= enough).then(|| TableFigures {
                 cells,
-                ..Tabulated::default()
+                ..TableFigures::default()
             }))
         });
         (found.ok().flatten().map(|found| found.cells), looks)

@@ -2,7 +2,7 @@
 
 use core::f64::consts::TAU;
 
-use jred::axis::plan::{Knot, Place, PlanError, with_ramp};
+use jred::axis::plan::{Knot, PlanError, PlanPoint, with_ramp};
 use jred::axis::{MachineUnits, Override, Plan, PlanFollower, PlanState};
 use jred::number::{Number, Quantity as _};
 use jred::{Domain, Q31, Rows16, Scale, Spline};
@@ -32,7 +32,7 @@ fn a_follower_is_on_time() {
                 break;
             }
             assert_eq!(planned.state, PlanState::Running);
-            let place = Place {
+            let place = PlanPoint {
                 motion: planned.motion,
                 turns: planned.turns,
             };
@@ -74,7 +74,7 @@ fn an_override_is_a_motion() {
     let mut rows: Vec<([f64; 3], PlanState)> = Vec::new();
     for k in 0..20_000 {
         let planned = follower.next(rate(k));
-        let place = Place {
+        let place = PlanPoint {
             motion: planned.motion,
             turns: planned.turns,
         };
@@ -220,7 +220,7 @@ fn a_long_ramp_takes_its_time() {
         );
         // One tick at the first rate, then the mean of both ends of each. The place in a row of 16 s is known to 32 s·2⁻³².
         let time = f64::from(period) * (began + changes * 0.5 * (began + rate));
-        let place = Place {
+        let place = PlanPoint {
             motion: last.motion,
             turns: last.turns,
         };

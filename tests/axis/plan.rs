@@ -2,7 +2,7 @@
 
 use core::f64::consts::TAU;
 
-use jred::axis::plan::{Errors, Knot, Place, PlanError, encode, image_len};
+use jred::axis::plan::{Errors, Knot, PlanError, PlanPoint, encode, image_len};
 use jred::axis::{MachineUnits, Plan};
 use jred::number::{Number, Quantity as _};
 use jred::{Domain, Q31, Rows16, Scale, Spline};
@@ -73,7 +73,7 @@ pub(super) fn between(a: &Knot, b: &Knot, t: f64) -> [f64; 3] {
 }
 
 pub(super) fn found<N: Number>(
-    place: &Place<N>,
+    place: &PlanPoint<N>,
     model: &impl MachineUnits<Number = N>,
 ) -> [f64; 3] {
     let scale = model.scale();

@@ -7,7 +7,7 @@ use jred::Domain;
 use jred::machine::{
     Action, Jointed, Link, Load, Machine, MachineError, Mechanism, PoseError, Reducible,
 };
-use jred::mechanism::{BuildError, FourBar, FourBarDimensions, Misfit, Side};
+use jred::mechanism::{BuildError, DimensionError, FourBar, FourBarDimensions, Side};
 use proptest::prelude::*;
 
 use super::links;
@@ -336,5 +336,5 @@ fn what_has_no_branch_to_keep_is_refused() {
         Err(BuildError::Range(_))
     ));
     let error = kept([0.1, 0.2, 0.3, 0.4], 0.0, Side::Left, Domain::Turn, links()).unwrap_err();
-    assert_eq!(error, BuildError::Misfit(Misfit::TwoTurns));
+    assert_eq!(error, BuildError::Dimensions(DimensionError::TwoTurns));
 }

@@ -37,7 +37,7 @@ fn scale() -> Scale {
     Scale::limited_to(&press(), OMEGA, ALPHA, 1440).unwrap()
 }
 
-fn tabulated(share: f64) -> Result<(Short, jred::tabulate::Tabulated), Error> {
+fn tabulated(share: f64) -> Result<(Short, jred::tabulate::TableFigures), Error> {
     let mut scratch = vec![0.0; scratch_len(1024, SET)];
     let mut words = vec![0; words_len::<Rows16>(1024, SET)];
     let request = request(share * peak());

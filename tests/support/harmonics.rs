@@ -4,7 +4,7 @@ use jred::mechanism::SliderCrankDimensions;
 use std::f64::consts::TAU;
 
 use jred::error::Error;
-use jred::harmonic::{Circular, Fitted, fit, scratch_len, terms_in_use};
+use jred::harmonic::{Circular, Fit, fit, scratch_len, terms_in_use};
 use jred::machine::{Action, Link, Load, Machine, Reducible, Reduction};
 use jred::mechanism::{Branch, SliderCrank};
 use jred::number::Number;
@@ -133,7 +133,7 @@ pub(crate) fn peak(machine: &impl Reducible) -> f64 {
 pub(crate) fn fitted<T, const SET: CurveSet>(
     machine: &impl Reducible,
     request: &Request,
-) -> Result<(Fitted, Vec<T>), Error>
+) -> Result<(Fit, Vec<T>), Error>
 where
     T: Circular + Number,
     Harmonic<T>: Format<Number = T, Word = T, Constants = ()>,

@@ -21,7 +21,7 @@ use crate::tick::MachineUnits;
 use crate::{Domain, Outcome, Phase};
 use image::Header;
 pub(super) use row::shifted;
-use row::{Row, State, TIME_BITS, Words};
+use row::{Row, RowState, TIME_BITS, Words};
 
 /// Tolerance of a rounded position or speed, in units.
 const NEAR: u64 = 16;
@@ -105,7 +105,7 @@ pub struct Errors {
 /// The state of a plan at a time, in machine units, and whole turns since φ = 0.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Place<N: Number> {
+pub struct PlanPoint<N: Number> {
     /// Position, speed and acceleration.
     pub motion: MotionState<N>,
     /// Whole turns; 0 on a stroke. Counted within the plan: each repeat of a plan that advances by whole turns starts with the same turns again.
@@ -255,7 +255,7 @@ impl<'a, N: Number> Plan<'a, N> {
     /// For a program's own time, such as the position of a line shaft; [`PlanFollower`](super::PlanFollower) counts ticks.
     #[inline]
     #[must_use]
-    pub fn at(&self, time: u64) -> Outcome<Place<N>> {
+    pub fn at(&self, time: u64) -> Outcome<PlanPoint<N>> {
         let state = self.state(time);
         let alpha = N::of_count(state.acceleration, &self.acceleration);
         self.place(state, alpha)
@@ -263,7 +263,7 @@ impl<'a, N: Number> Plan<'a, N> {
 
     /// The same in units of the plan.
     #[inline]
-    pub(super) fn state(&self, time: u64) -> State {
+    pub(super) fn state(&self, time: u64) -> RowState {
         let units = self.header.units;
         let whole = time >> (TIME_BITS.saturating_sub(units.time) & 63);
         let whole = u32::try_from(whole).unwrap_or(u32::MAX);
@@ -280,12 +280,12 @@ impl<'a, N: Number> Plan<'a, N> {
             step /= 2;
         }
         let Some(words) = self.rows.get(k) else {
-            return State::default();
+            return RowState::default();
         };
         let row = Row::read(words);
         match self.rows.get(k + 1) {
             Some([next, ..]) => row.at(time, next.wrapping_sub(row.start), units),
-            None => State {
+            None => RowState {
                 position: row.position,
                 speed: row.speed,
                 acceleration: 0,
@@ -306,7 +306,7 @@ impl<'a, N: Number> Plan<'a, N> {
 
     /// A state in machine units, with this acceleration.
     #[inline]
-    pub(super) fn place(&self, state: State, alpha: Outcome<N>) -> Outcome<Place<N>> {
+    pub(super) fn place(&self, state: RowState, alpha: Outcome<N>) -> Outcome<PlanPoint<N>> {
         let omega = N::of_count(state.speed, &self.speed);
         let (phase, turns) = match self.header.domain {
             Domain::Turn => (state.position as u32, (state.position >> 32) as i32),
@@ -315,7 +315,7 @@ impl<'a, N: Number> Plan<'a, N> {
             Domain::Stroke { .. } => (u32::try_from(state.position).unwrap_or(u32::MAX), 0),
         };
         Outcome {
-            value: Place {
+            value: PlanPoint {
                 motion: MotionState {
                     phase: Phase::from_bits(phase),
                     omega: N::Speed::of(omega.value),

@@ -35,7 +35,7 @@ fn weight(request: &Request, curve: Curve, k: usize) -> f64 {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
-pub struct Fitted {
+pub struct Fit {
     /// Number of harmonics.
     pub harmonics: u32,
     /// Number of coefficients.
@@ -132,7 +132,7 @@ pub fn fit<T: Circular + Number>(
     request: &Request,
     scratch: &mut [f64],
     words: &mut [T],
-) -> Result<Fitted, Error>
+) -> Result<Fit, Error>
 where
     Harmonic<T>: Format<Number = T, Word = T, Constants = ()>,
 {
@@ -170,7 +170,7 @@ where
             }
             if torque_error <= request.torque_error && bound <= request.torque_error {
                 AnyModel::new(table).map_err(Error::Table)?;
-                return Ok(Fitted {
+                return Ok(Fit {
                     bound: bound.max(torque_error),
                     harmonics,
                     words: count,

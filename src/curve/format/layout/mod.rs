@@ -141,7 +141,7 @@ macro_rules! format {
             type Number = $number;
             type Word = <$number as Number>::Word;
             type Constants = Constants<<$number as Number>::Word>;
-            type Tick<'a> = check::Proven<'a, Self>;
+            type Tick<'a> = check::LayoutTick<'a, Self>;
 
             const NAME: &'static str = $name;
             const CODES: Option<[u8; 2]> = match <$number as Kernel>::CODE {
@@ -343,7 +343,7 @@ fn outcome<L: Layout>(
     resisting: Raw<L>,
     inertia: Raw<L>,
     reciprocal: Option<Raw<L>>,
-    tick: &check::Proven<'_, L>,
+    tick: &check::LayoutTick<'_, L>,
 ) -> Outcome<L::Number> {
     let Some(reciprocal) = reciprocal else {
         return L::Number::quotient(torque, resisting, inertia);

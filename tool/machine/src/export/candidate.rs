@@ -2,7 +2,7 @@
 
 use jred::error::Error;
 use jred::table::Usage;
-use jred::tabulate::Tabulated;
+use jred::tabulate::TableFigures;
 use jred::{CurveSet, Scale};
 
 use super::choice::{LayoutName, Number};
@@ -17,7 +17,7 @@ pub struct Made {
     /// Set of [`curves`](jred::curves).
     pub curves: CurveSet,
     /// Accuracy of its curves.
-    pub found: Tabulated,
+    pub found: TableFigures,
     /// The largest error of the drive torque (N·m, or N): of the curves and of the ticks.
     pub error: f64,
     /// Its torque error at the places of the search only (N·m, or N).

@@ -6,7 +6,7 @@ use jred::image::{Validity, encode, image_len};
 use jred::machine::Reducible as _;
 use jred::number::RangeError;
 use jred::table::{Shape, Table, Usage, words_len};
-use jred::tabulate::{Request, Tabulated};
+use jred::tabulate::{Request, TableFigures};
 use jred::{CurveSet, Harmonic, Image, Scale};
 
 use super::candidate::{Answer, Made};
@@ -112,7 +112,7 @@ impl Search<'_> {
         let made = Image::new(&made).map_err(ticks::refusal)?;
         let ticks = ticks::measure::<F>(&made, &self.reference, self.goal.range)?;
         let error = bound.max(looked).max(ticks.torque);
-        let mut found = Tabulated::default();
+        let mut found = TableFigures::default();
         found.cells = fitted.harmonics;
         (found.torque_error, found.bound, found.worst) = (measured, bound, worst);
         Ok(Made {

@@ -3,7 +3,7 @@
 use jred::error::Error;
 use jred::image::{Validity, encode, image_len};
 use jred::table::{Format, Table, Usage, words_len};
-use jred::tabulate::{self, Request, Tabulated};
+use jred::tabulate::{self, Request, TableFigures};
 use jred::{CurveSet, Image, Scale};
 
 use super::candidate::Made;
@@ -128,7 +128,7 @@ impl Size<'_> {
 }
 
 /// The error for the image: in single precision, not rounded down.
-fn validity(found: &Tabulated, request: &Request, error: f64) -> Validity {
+fn validity(found: &TableFigures, request: &Request, error: f64) -> Validity {
     Validity {
         torque_error: rounded_up(error),
         ..found.validity(request)

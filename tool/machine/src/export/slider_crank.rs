@@ -7,7 +7,7 @@ use jred::machine::{Machine, Mechanism as _, Reducible as _};
 use jred::mechanism::SliderCrank;
 use jred::slider_crank::{SliderCrankError, form, set_in_use};
 use jred::table::{Shape, Table, Usage, words_len};
-use jred::tabulate::{Request, Tabulated};
+use jred::tabulate::{Request, TableFigures};
 use jred::{Domain, Image, Scale, SliderCrankForm};
 
 use super::Failure;
@@ -158,7 +158,7 @@ impl Search<'_> {
         let made = Image::new(&made).map_err(ticks::refusal)?;
         let ticks = ticks::measure::<F>(&made, &self.reference, self.goal.range)?;
         let error = measured.max(looked).max(ticks.torque);
-        let mut found = Tabulated::default();
+        let mut found = TableFigures::default();
         found.cells = words.len() as u32;
         (found.torque_error, found.bound, found.worst) = (measured, measured.max(looked), worst);
         let made = Box::new(Made {
