@@ -66,7 +66,7 @@ fn run() -> Result<(), Failure> {
         "{} rows, {} ms, up to {} mrad/s",
         plan.rows(),
         milli(plan.duration()),
-        milli(plan.most()[0])
+        milli(plan.max_speed())
     );
     println!("tick   stage        at        speed     torque");
     follower.start();

@@ -213,9 +213,8 @@ fn every_term(bytes: &'static [u8]) -> Result<(), ImageError> {
         black_box((Phase::default(), [0.0; 2], FrictionSign::Scaled(0.5)));
     black_box(AnyModel::torque_with(&any, phase, omega, alpha, friction));
     black_box(AnyModel::torque_terms(&any, phase, omega, alpha, friction));
-    let torques = [omega, alpha];
     black_box(AnyModel::acceleration_range_with(
-        &any, phase, omega, friction, torques,
+        &any, phase, omega, friction, omega, alpha,
     ));
     black_box(Image::is_of::<Spline<f32>, PRESS>(black_box(&[0; 30])));
     black_box(Image::bytes_are_of::<Spline<f32>, PRESS>(black_box(bytes)));
@@ -232,8 +231,6 @@ fn every_crank(bytes: &'static [u8]) -> Result<(), ImageError> {
     let shape = Shape::<SliderCrankForm>::slider_crank(black_box(0));
     let table = Table::new(black_box(&[0.25, 0.0, 0.1, 0.1, 0.0]), shape);
     black_box(table.is_ok());
-    #[cfg(not(short_multiply))]
-    black_box(Phase::sin_cos_approx(black_box(Phase::default())));
     Ok(())
 }
 

@@ -129,7 +129,8 @@ fn every_plan<F: Format, const SET: CurveSet>(model: &Model<'_, F, SET>) {
     else {
         return;
     };
-    black_box((Plan::machine(&plan), Plan::errors(&plan), Plan::most(&plan)));
+    black_box((Plan::machine(&plan), Plan::errors(&plan)));
+    black_box((Plan::max_speed(&plan), Plan::max_acceleration(&plan)));
     black_box((Plan::duration(&plan), Plan::end(&plan)));
     black_box(Plan::least_ramp(&plan));
     black_box(Plan::at(&plan, black_box(1 << 38)));
@@ -211,13 +212,14 @@ fn every_limit<F: Format, const SET: CurveSet>(
         ));
     }
     let friction = FrictionSign::OfSpeed(motion.omega);
-    let torques = black_box([TorqueOf::<F>::default(); 2]);
+    let [least, greatest] = black_box([TorqueOf::<F>::default(); 2]);
     black_box(Model::acceleration_range_with(
         model,
         motion.phase,
         motion.omega,
         friction,
-        torques,
+        least,
+        greatest,
     ));
 }
 

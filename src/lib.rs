@@ -81,9 +81,9 @@
 //!                                                └─► encode ─► Image (flash) ─┘
 //! ```
 //!
-//! The root has what a tick needs. The rest is in the modules of the layers: [`number`]; [`table`] and [`machine`]; [`mechanism`], [`friction`] and the
-//! tick ([`image`], [`duty`]); [`axis`]; [`tabulate`], [`harmonic`] and [`error`]. A layer uses only those before it; each can be used alone. Every
-//! item has one path.
+//! The root has what a tick needs. The rest is in the modules of the layers: [`number`]; [`table`] and [`machine`]; [`mechanism`], [`friction`] and
+//! the tick ([`image`], [`duty`]); [`axis`]; [`tabulate`], [`harmonic`] and [`error`]. A layer uses only those before it; each can be used alone.
+//! Every item has one path.
 //!
 //! # From dimensions to a tick
 //!
@@ -141,10 +141,11 @@
 //! # Features
 //!
 //! - `mechanics`, the default: everything that creates tables from machines: [`machine`] except its motion laws, [`mechanism`], [`friction`],
-//!   [`tabulate`], the search for [`harmonic`]s and [`error::Error`]. It needs `heapless`. Firmware with a finished image does not need it, and compiles in
-//!   a third of the time with `default-features = false`; with it firmware creates tables itself. The linked code is the same in both cases;
+//!   [`tabulate`], the search for [`harmonic`]s and [`error::Error`]. It needs `heapless`. Firmware with a finished image does not need it, and
+//!   compiles in a third of the time with `default-features = false`; with it firmware creates tables itself. The linked code is the same in both
+//! cases;
 //! - `defmt`: `defmt::Format` for the public value types;
-//! - `micromath`: `SliderCrankForm`, a slider-crank without a table, and `Phase::sin_cos_approx`.
+//! - `micromath`: `SliderCrankForm`, a slider-crank without a table.
 
 #[deny(clippy::indexing_slicing)]
 pub mod axis;
@@ -188,15 +189,16 @@ pub mod table {
         RowConstants, Shape, SpeedOf, Table, TableError, TorqueOf, Usage, words_len,
     };
     pub use crate::number::spline::{
-        CubicSpline, MIN_CELLS, control_points, fit_bounded, fit_periodic, fit_quadratic_bounded,
-        fit_quadratic_periodic,
+        CubicSpline, MIN_CELLS, control_points, fit_bounded, fit_periodic,
     };
+    // For tests of their accuracy: programs fill a quadratic table by `tabulate`.
+    #[doc(hidden)]
+    pub use crate::number::spline::{fit_quadratic_bounded, fit_quadratic_periodic};
 }
 
 /// Harmonics: a smooth machine as short Fourier series instead of a table of cells.
 ///
-/// Found from its mechanism ([`fit`](harmonic::fit)) or from measurements ([`identify`](harmonic::identify)); ticked by [`Model`] in the format
-/// [`Harmonic`].
+/// Found from its mechanism by [`fit`](harmonic::fit); ticked by [`Model`] in the format [`Harmonic`].
 ///
 /// ```
 /// use jred::error::Error;
@@ -235,9 +237,12 @@ pub mod harmonic {
     pub use crate::curve::{Circular, Coefficient, Curve, Kind, MAX_HARMONICS, terms};
     #[cfg(feature = "mechanics")]
     pub use crate::tabulate::harmonic::{
-        EXCITED, Fit, HarmonicError, Identification, Identified, Sample, fit, identify, measure,
-        scratch_len, terms_in_use,
+        Fit, HarmonicError, fit, measure, scratch_len, terms_in_use,
     };
+    // Identification from measurements is not part of 1.0: no machine has tried it yet, so that its interface may change.
+    #[cfg(feature = "mechanics")]
+    #[doc(hidden)]
+    pub use crate::tabulate::harmonic::{EXCITED, Identification, Identified, Sample, identify};
 }
 
 /// A slider-crank in closed form: lengths and masses instead of a table, ticked by [`Model`] in the format [`SliderCrankForm`].

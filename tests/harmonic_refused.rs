@@ -98,7 +98,7 @@ fn bad_requests_are_named() {
     assert!(error.cure().to_string().contains("use a table"));
     assert_eq!(terms_of(&stroke, curves::ALL).unwrap_err(), error);
     for (bad, what) in [
-        (request(1.0, 8).with_torque_error(0.0), "torque error"),
+        (request(0.0, 8), "torque error"),
         (request(1.0, 8).with_max_speed(-1.0), "largest speed"),
         (
             request(1.0, 8).with_max_acceleration(0.0),

@@ -117,7 +117,6 @@ pub(crate) struct CPlan {
 
 impl CPlan {
     pub(crate) fn of<N: Number>(plan: &Plan<'_, N>) -> Self {
-        let [max_speed, max_acceleration] = plan.most();
         let Errors {
             position,
             speed,
@@ -126,8 +125,8 @@ impl CPlan {
         Self {
             rows: plan.rows() as u32,
             duration: plan.duration(),
-            max_speed,
-            max_acceleration,
+            max_speed: plan.max_speed(),
+            max_acceleration: plan.max_acceleration(),
             position_error: position,
             speed_error: speed,
             acceleration_error: acceleration,

@@ -209,7 +209,7 @@ impl<const NODES: usize> Course<NODES> {
     /// A tick that begins just before a limit falls moves `tick` = ω_top·τ along it at full speed: then ω² is 2·a·ω_top·τ above the limit, and could
     /// not be reduced if the limit itself used all of a. The reserved share makes up for it by standstill: 2·a·(2·a·τ/ω_top)·s along the way s =
     /// ω_top²/(2·a).
-    pub(super) fn slow_down(&self, squares: &mut [u32; NODES], [top, tick]: [f32; 2]) {
+    pub(super) fn slow_down(&self, squares: &mut [u32; NODES], top: f32, tick: f32) {
         let gained = self.gained / top / top;
         let most = self.most / top / top;
         // 2·a·τ/ω_top, for a braking distance longer than a few ticks.

@@ -65,10 +65,10 @@ pub struct GovernorOutput<N: Number> {
     pub alpha: N::Acceleration,
     /// The limit that binds; `None`: the commanded speed is reached at the end of the tick.
     pub by: Option<Limit>,
-    /// As [`FeasibleAccelerations::unkept`](super::FeasibleAccelerations::unkept); [`Limit::Ahead`]: too fast to satisfy all limits ahead; [`Limit::Speed`]: also for a command
-    /// that is NaN.
+    /// As [`FeasibleAccelerations::unkept`](super::FeasibleAccelerations::unkept); [`Limit::Ahead`]: too fast to satisfy all limits ahead;
+    /// [`Limit::Speed`]: also for a command that is NaN.
     pub unkept: Option<Limit>,
-    /// The motion that friction opposes: the speed, or at rest the beginning motion with the least speed in its direction. [`Model::torque_with`]
+    /// The sign of friction: of the speed, or at rest of the beginning motion, with the least speed in its direction. [`Model::torque_with`]
     /// then gives a torque that the drive has. Where friction keeps the machine at rest, which a torque does not consider,
     /// [`TorqueLimits`](super::TorqueLimits) ensures that.
     pub friction: FrictionSign<N>,

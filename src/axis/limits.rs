@@ -122,7 +122,8 @@ impl<N: Number, const POINTS: usize> Limits<N, POINTS> {
         omega: N::Speed,
     ) -> FeasibleAccelerations<N> {
         let torques = self.envelope.torques(omega);
-        let given = |friction| model.acceleration_range_with(phase, omega, friction, torques);
+        let [low, high] = torques;
+        let given = |friction| model.acceleration_range_with(phase, omega, friction, low, high);
         // At rest, once against friction of a forward motion and once of a backward one: only the sign of the speed counts.
         let [back, forth] = self.acceleration.map(|alpha| N::Speed::of(alpha.number()));
         let rests = omega == N::Speed::default();

@@ -135,7 +135,7 @@ impl<N: Number, const NODES: usize> LookAhead<N, NODES> {
             .moved(in_range(SPEED, top, scale.speed(), scale.omega(top))?)
             .to_bits();
         let tick = moved as f32 / way.width as f32 * course.step;
-        course.slow_down(&mut squares, [top, tick]);
+        course.slow_down(&mut squares, top, tick);
         let shift = course.works(&mut works, &mut inertias, top)?;
         let mut inverses = [0; NODES];
         for (k, inverse) in (0..).zip(&mut inverses) {

@@ -23,7 +23,7 @@ pub struct MotionState<N: Number> {
 /// A period of time, such as the tick or a lead time, for motions in the machine units of one model.
 ///
 /// Fixed-point results outside the number range are limited and flagged. Accuracy: 2⁻²³ of a result (its factors have single precision), plus six
-/// units of 2⁻³¹, in `Q15` one of 2⁻¹⁵.
+/// units of 2⁻³¹, in `Q15` one of 2⁻¹⁵ (test `the_middle_of_a_tick_is_the_mean`).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Period<N> {

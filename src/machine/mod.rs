@@ -30,7 +30,9 @@ pub(crate) mod reduction;
 pub use element::{Element, ElementLaw, MAX_ELEMENTS};
 #[cfg(feature = "mechanics")]
 pub use error::{MachineError, PoseError};
+// Not part of 1.0: only tests use it yet, so that its interface may change.
 #[cfg(feature = "mechanics")]
+#[doc(hidden)]
 pub use free_motion::FreeMotion;
 #[cfg(feature = "mechanics")]
 pub use joint::{Body, Joint, Joints, MAX_JOINTS, Marker, UnitReactions, Wrench};

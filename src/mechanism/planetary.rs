@@ -150,8 +150,8 @@ impl PlanetaryGears {
 /// planet's axis, turning with it). The fixed member is a link at rest, so that its holding moment is among the reactions.
 ///
 /// The N planets are identical and balance each other. One link represents all of them, at the position of the first, with N·J_p. Their mass N·m_p,
-/// with its common centre on the axis, belongs to the carrier, with N·m_p·a² in its inertia. In [`link_inertias`](crate::machine::Machine::link_inertias) the
-/// carrier's share includes the planets' orbital motion.
+/// with its common centre on the axis, belongs to the carrier, with N·m_p·a² in its inertia. In
+/// [`link_inertias`](crate::machine::Machine::link_inertias) the carrier's share includes the planets' orbital motion.
 ///
 /// Accuracy: 1e-13 against Willis' equation by the tabular method and the energy of N separate planets (tests `speeds_by_the_tabular_method`,
 /// `inertia_of_planets_one_by_one`).

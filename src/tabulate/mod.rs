@@ -1,7 +1,7 @@
 //! From a machine to the smallest table that meets a torque error.
 //!
-//! In the data flow it comes between a [`Reduction`](crate::machine::Reduction) and a [`Table`](crate::table::Table): on the host, or in firmware after a change of
-//! payload.
+//! In the data flow it comes between a [`Reduction`](crate::machine::Reduction) and a [`Table`](crate::table::Table): on the host, or in firmware
+//! after a change of payload.
 //!
 //! At every position checked, the error of the drive torque of a table is bounded by the sum of its curves' errors at the ends of the stated range:
 //!
@@ -82,15 +82,6 @@ impl Request {
             max_speed: 0.0,
             max_acceleration: 0.0,
             max_cells: MAX_CELLS,
-        }
-    }
-
-    /// Changes the largest error of the drive torque (N·m).
-    #[must_use]
-    pub const fn with_torque_error(self, torque_error: f64) -> Self {
-        Self {
-            torque_error,
-            ..self
         }
     }
 

@@ -256,8 +256,8 @@ macro_rules! dynamics {
                 friction: FrictionSign<F::Number>,
             ) -> TorqueOf<F> {
                 let $any = self.any();
-                let motion = [omega.number(), alpha.number()];
-                TorqueOf::<F>::of(F::torque(&$any.table, &$any.tick, $curves, phase, motion, friction))
+                let (omega, alpha) = (omega.number(), alpha.number());
+                TorqueOf::<F>::of(F::torque(&$any.table, &$any.tick, $curves, phase, omega, alpha, friction))
             }
 
             /// The separate terms of [`torque_with`](Self::torque_with). Their sum is the torque except for their roundings, each of four units in
@@ -270,9 +270,9 @@ macro_rules! dynamics {
                 friction: FrictionSign<F::Number>,
             ) -> TorqueTerms<F::Number> {
                 let $any = self.any();
-                let motion = [omega.number(), alpha.number()];
+                let (omega, alpha) = (omega.number(), alpha.number());
                 let [acceleration, velocity, load, viscous, coulomb] =
-                    F::torque_terms(&$any.table, &$any.tick, $curves, phase, motion, friction)
+                    F::torque_terms(&$any.table, &$any.tick, $curves, phase, omega, alpha, friction)
                         .map(TorqueOf::<F>::of);
                 TorqueTerms { acceleration, velocity, load, viscous, coulomb }
             }
@@ -304,7 +304,7 @@ macro_rules! dynamics {
                 least: TorqueOf<F>,
                 greatest: TorqueOf<F>,
             ) -> AccelerationRange<F::Number> {
-                self.acceleration_range_with(phase, omega, FrictionSign::OfSpeed(omega), [least, greatest])
+                self.acceleration_range_with(phase, omega, FrictionSign::OfSpeed(omega), least, greatest)
             }
 
             /// As [`acceleration_range`](Self::acceleration_range), with Coulomb friction given by `friction`: at rest, against the motion that is to
@@ -315,10 +315,10 @@ macro_rules! dynamics {
                 phase: Phase,
                 omega: SpeedOf<F>,
                 friction: FrictionSign<F::Number>,
-                torques: [TorqueOf<F>; 2],
+                least: TorqueOf<F>,
+                greatest: TorqueOf<F>,
             ) -> AccelerationRange<F::Number> {
                 let $any = self.any();
-                let [least, greatest] = torques;
                 let [least, greatest] = F::accelerations(
                     &$any.table, &$any.tick, $curves, phase, omega.number(), friction,
                     [least.number(), greatest.number()],

@@ -207,11 +207,19 @@ impl<'a, N: Number> Plan<'a, N> {
         self.header.errors
     }
 
-    /// Greatest magnitudes of its speed (rad/s, or m/s) and acceleration (rad/s², or m/s²): those of its polynomials, to single precision (test
+    /// Greatest magnitude of its speed (rad/s, or m/s): of its polynomials, to single precision (test
     /// `the_greatest_rates_are_those_of_the_polynomials`).
     #[must_use]
-    pub const fn most(&self) -> [f32; 2] {
-        self.header.most
+    pub const fn max_speed(&self) -> f32 {
+        let [speed, _] = self.header.most;
+        speed
+    }
+
+    /// Greatest magnitude of its acceleration (rad/s², or m/s²), likewise.
+    #[must_use]
+    pub const fn max_acceleration(&self) -> f32 {
+        let [_, acceleration] = self.header.most;
+        acceleration
     }
 
     /// Number of rows, including the end.

@@ -192,7 +192,8 @@ pub trait Format: crate::sealed::Sealed + Copy + core::fmt::Debug + PartialEq + 
         tick: &Self::Tick<'_>,
         set: CurveSet,
         phase: Phase,
-        motion: [Self::Number; 2],
+        omega: Self::Number,
+        alpha: Self::Number,
         friction: FrictionSign<Self::Number>,
     ) -> Self::Number;
     /// J·α, ½·J′·ω², −load, b·ω and c·sgn ω: the terms of [`torque`](Self::torque).
@@ -202,7 +203,8 @@ pub trait Format: crate::sealed::Sealed + Copy + core::fmt::Debug + PartialEq + 
         tick: &Self::Tick<'_>,
         set: CurveSet,
         phase: Phase,
-        motion: [Self::Number; 2],
+        omega: Self::Number,
+        alpha: Self::Number,
         friction: FrictionSign<Self::Number>,
     ) -> [Self::Number; 5];
     /// Forward dynamics for two torques, as [`torque`](Self::torque).

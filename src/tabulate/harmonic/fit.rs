@@ -123,9 +123,9 @@ fn spectrum<'s>(
 /// slider-crank on a host (`docs/harmonics.md`).
 ///
 /// # Errors
-/// [`HarmonicError::Stroke`]; [`HarmonicError::NotConverged`], in particular for a curve with a kink; [`TableError`](crate::table::TableError) if J cannot
-/// be proven positive between the samples; [`PoseError::NoInertia`](crate::machine::PoseError::NoInertia) if it is not positive at one; buffers too
-/// short; the machine's errors.
+/// [`HarmonicError::Stroke`]; [`HarmonicError::NotConverged`], in particular for a curve with a kink; [`TableError`](crate::table::TableError) if J
+/// cannot be proven positive between the samples; [`PoseError::NoInertia`](crate::machine::PoseError::NoInertia) if it is not positive at one;
+/// buffers too short; the machine's errors.
 pub fn fit<T: Circular + Number>(
     machine: &impl Reducible,
     set: CurveSet,

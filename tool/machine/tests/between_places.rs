@@ -1,4 +1,4 @@
-//! How far a table errs beyond what `Tabulated::bound` says, which rests on places at equal distances: a search by hill climbing
+//! How far a table errs beyond what `TableFigures::bound` says, which rests on places at equal distances: a search by hill climbing
 //! between them, for every machine file in `machines/`.
 
 use jred::machine::Reducible;

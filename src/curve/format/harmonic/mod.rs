@@ -230,7 +230,8 @@ macro_rules! harmonic {
                 tick: &Self::Tick<'_>,
                 set: CurveSet,
                 phase: Phase,
-                [omega, alpha]: [$number; 2],
+                omega: $number,
+                alpha: $number,
                 friction: FrictionSign<$number>,
             ) -> $number {
                 let values = tick.at(set, phase);
@@ -243,7 +244,8 @@ macro_rules! harmonic {
                 tick: &Self::Tick<'_>,
                 set: CurveSet,
                 phase: Phase,
-                [omega, alpha]: [$number; 2],
+                omega: $number,
+                alpha: $number,
                 friction: FrictionSign<$number>,
             ) -> [$number; 5] {
                 let values = tick.at(set, phase);

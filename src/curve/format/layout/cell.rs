@@ -95,7 +95,8 @@ impl<'a, L: Layout> Cell<'a, L> {
     pub(super) fn torque_terms(
         &self,
         factor: <L::Number as Kernel>::Factor,
-        [omega, alpha]: [L::Number; 2],
+        omega: L::Number,
+        alpha: L::Number,
         friction: FrictionSign<L::Number>,
     ) -> [L::Number; 5] {
         let zero = Raw::<L>::default();

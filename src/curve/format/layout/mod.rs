@@ -267,7 +267,8 @@ macro_rules! format {
                 tick: &Self::Tick<'_>,
                 set: CurveSet,
                 phase: Phase,
-                [omega, alpha]: [Self::Number; 2],
+                omega: Self::Number,
+                alpha: Self::Number,
                 friction: FrictionSign<Self::Number>,
             ) -> Self::Number {
                 let Some(cell) = Cell::of(table, &tick.rows, phase, set) else {
@@ -290,12 +291,13 @@ macro_rules! format {
                 tick: &Self::Tick<'_>,
                 set: CurveSet,
                 phase: Phase,
-                motion: [Self::Number; 2],
+                omega: Self::Number,
+                alpha: Self::Number,
                 friction: FrictionSign<Self::Number>,
             ) -> [Self::Number; 5] {
                 let cell = Cell::of(table, &tick.rows, phase, set);
                 cell.map_or_else(Default::default, |cell| {
-                    cell.torque_terms(tick.factor, motion, friction)
+                    cell.torque_terms(tick.factor, omega, alpha, friction)
                 })
             }
 

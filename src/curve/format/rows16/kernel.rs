@@ -9,8 +9,8 @@
 //! | V·ω + b, Q30 | i16·i16, and b | < 2³¹ |
 //! | T − resisting, times 1/J | 17 bits·u15 | 65535·32767 < 2³¹ |
 //!
-//! The product (V·ω + b)·ω and the partial sums may wrap: they are modulo 2³², and only the whole sum matters, which [`Table`](crate::table::Table) ensures
-//! to fit.
+//! The product (V·ω + b)·ω and the partial sums may wrap: they are modulo 2³², and only the whole sum matters, which [`Table`](crate::table::Table)
+//! ensures to fit.
 
 use crate::number::{FrictionSign, Outcome, fence};
 use crate::{Phase, Q15};

@@ -258,10 +258,11 @@ impl Format for Rows16 {
         tick: &tick::Tick<'_>,
         set: CurveSet,
         phase: Phase,
-        motion: [Q15; 2],
+        omega: Q15,
+        alpha: Q15,
         friction: FrictionSign<Q15>,
     ) -> Q15 {
-        tick.torque(set, phase, motion, friction)
+        tick.torque(set, phase, omega, alpha, friction)
     }
 
     fn torque_terms(
@@ -269,11 +270,12 @@ impl Format for Rows16 {
         tick: &tick::Tick<'_>,
         set: CurveSet,
         phase: Phase,
-        motion: [Q15; 2],
+        omega: Q15,
+        alpha: Q15,
         friction: FrictionSign<Q15>,
     ) -> [Q15; 5] {
         let (cell, u) = kernel::locate(phase, table.cells());
-        tick.torque_terms(set, row_of(table, cell as u32), u, motion, friction)
+        tick.torque_terms(set, row_of(table, cell as u32), u, omega, alpha, friction)
     }
 
     #[inline(always)]

@@ -66,16 +66,17 @@ impl<'a> Tick<'a> {
         &self,
         set: CurveSet,
         phase: Phase,
-        motion: [Q15; 2],
+        omega: Q15,
+        alpha: Q15,
         friction: FrictionSign<Q15>,
     ) -> Q15 {
         let rows = &self.rows;
         match row::length(set) {
-            3 => self.torque_of(rows.a, set, phase, motion, friction),
-            4 => self.torque_of(rows.b, set, phase, motion, friction),
-            5 => self.torque_of(rows.c, set, phase, motion, friction),
-            6 => self.torque_of(rows.d, set, phase, motion, friction),
-            _ => self.torque_of(rows.e, set, phase, motion, friction),
+            3 => self.torque_of(rows.a, set, phase, omega, alpha, friction),
+            4 => self.torque_of(rows.b, set, phase, omega, alpha, friction),
+            5 => self.torque_of(rows.c, set, phase, omega, alpha, friction),
+            6 => self.torque_of(rows.d, set, phase, omega, alpha, friction),
+            _ => self.torque_of(rows.e, set, phase, omega, alpha, friction),
         }
     }
 
@@ -85,7 +86,8 @@ impl<'a> Tick<'a> {
         rows: &[[u32; W]],
         set: CurveSet,
         phase: Phase,
-        [omega, alpha]: [Q15; 2],
+        omega: Q15,
+        alpha: Q15,
         friction: FrictionSign<Q15>,
     ) -> Q15 {
         let (index, u) = kernel::locate(phase, rows.len() as u32);
@@ -183,7 +185,8 @@ impl<'a> Tick<'a> {
         set: CurveSet,
         row: &[u32],
         u: i32,
-        [omega, alpha]: [Q15; 2],
+        omega: Q15,
+        alpha: Q15,
         friction: FrictionSign<Q15>,
     ) -> [Q15; 5] {
         let half = 1 << 15;

@@ -181,7 +181,8 @@ impl Format for SliderCrankForm {
         tick: &Crank,
         set: CurveSet,
         phase: Phase,
-        [omega, alpha]: [f32; 2],
+        omega: f32,
+        alpha: f32,
         friction: FrictionSign<f32>,
     ) -> f32 {
         let values = tick.at(set, phase);
@@ -199,7 +200,8 @@ impl Format for SliderCrankForm {
         tick: &Crank,
         set: CurveSet,
         phase: Phase,
-        [omega, alpha]: [f32; 2],
+        omega: f32,
+        alpha: f32,
         friction: FrictionSign<f32>,
     ) -> [f32; 5] {
         let values = tick.at(set, phase);
