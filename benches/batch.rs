@@ -23,15 +23,16 @@ use std::process::{Command, ExitCode};
 use std::{fs, io};
 
 use bench::{Bench, best, once};
+use jred::error::Error;
 use jred::harmonic::{self, terms};
-use jred::machine::{Action, Load};
+use jred::machine::{Action, Link, Load, Machine, Reducible, Reduction};
 use jred::mechanism::{Branch, SliderCrank};
 use jred::number::{Number, Quantity};
-use jred::table::{Format, Shape, words_len};
+use jred::table::{Format, Shape, Table, words_len};
 use jred::tabulate::{Request, fill, scratch_len, tabulate};
 use jred::{
-    Cubic, Domain, Error, Harmonic, Link, Machine, Model, Phase, Q31, Quadratic, Reducible,
-    Reduction, Scale, Set, Spline, Spline16, Table, curves,
+    Cubic, CurveSet, Domain, Harmonic, Model, Phase, Q31, Quadratic, Scale, Spline, Spline16,
+    curves,
 };
 
 /// Samples of a timed batch, and of a batch whose instructions are counted.
@@ -40,7 +41,7 @@ const COUNTED: u32 = 10_000;
 /// Cells of the batch's table.
 const CELLS: u32 = 128;
 /// Its curves: inertia and load, constant friction.
-const SET: Set = curves::LOAD | curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB;
+const SET: CurveSet = curves::LOAD | curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB;
 /// Largest speed and acceleration (rad/s, rad/s²).
 const OMEGA: f64 = 60.0;
 const ALPHA: f64 = 400.0;
@@ -292,8 +293,8 @@ fn table<F: Format>(
 ) -> Result<(), Error> {
     let set = curves::LOAD;
     let request = Request::new(share * peak)
-        .with_omega(OMEGA)
-        .with_alpha(ALPHA)
+        .with_max_speed(OMEGA)
+        .with_max_acceleration(ALPHA)
         .with_max_cells(MOST);
     let mut scratch = vec![0.0; scratch_len(MOST, set)];
     let mut words = vec![F::Word::default(); words_len::<F>(MOST, set)];
@@ -327,11 +328,11 @@ where
     T: harmonic::Circular + Number,
     Harmonic<T>: Format<Number = T, Word = T, Constants = ()>,
 {
-    const SET: Set = curves::LOAD | terms::SYMMETRIC;
+    const SET: CurveSet = curves::LOAD | terms::SYMMETRIC;
     const MOST: u32 = 16;
     let request = Request::new(share * peak)
-        .with_omega(OMEGA)
-        .with_alpha(ALPHA)
+        .with_max_speed(OMEGA)
+        .with_max_acceleration(ALPHA)
         .with_max_cells(MOST);
     let mut scratch = [0.0; harmonic::scratch_len(MOST)];
     let mut words = vec![T::default(); words_len::<Harmonic<T>>(MOST, SET)];

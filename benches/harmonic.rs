@@ -4,13 +4,15 @@ use jred::mechanism::SliderCrankDimensions;
 use std::hint::black_box;
 use std::time::Instant;
 
+use jred::error::Error;
 use jred::harmonic::{Identification, Sample, fit, scratch_len, terms};
+use jred::machine::{Link, Machine};
 use jred::mechanism::{Branch, SliderCrank};
-use jred::table::{Shape, words_len};
+use jred::table::{Shape, Table, words_len};
 use jred::tabulate::Request;
-use jred::{Error, Harmonic, Link, Machine, Model, Phase, Set, Table, curves};
+use jred::{CurveSet, Harmonic, Model, Phase, curves};
 
-const SET: Set = curves::LOAD | terms::SYMMETRIC;
+const SET: CurveSet = curves::LOAD | terms::SYMMETRIC;
 /// J and load, eleven harmonics.
 const WORDS: usize = words_len::<Harmonic<f64>>(11, SET);
 
@@ -51,8 +53,8 @@ fn main() -> Result<(), Error> {
     let mut single = [0.0f32; words_len::<Harmonic<f64>>(16, SET)];
     for torque_error in [1e-3, 1e-5, 1e-7] {
         let request = Request::new(torque_error)
-            .with_omega(60.0)
-            .with_alpha(400.0)
+            .with_max_speed(60.0)
+            .with_max_acceleration(400.0)
             .with_max_cells(16);
         let found = fit(&machine, SET, &request, &mut scratch, &mut words)?;
         let what = format!(
@@ -65,8 +67,8 @@ fn main() -> Result<(), Error> {
         });
     }
     let request = Request::new(1e-4)
-        .with_omega(60.0)
-        .with_alpha(400.0)
+        .with_max_speed(60.0)
+        .with_max_acceleration(400.0)
         .with_max_cells(16);
     let found = fit(&machine, SET, &request, &mut scratch, &mut single)?;
     let single = single.get(..found.words).unwrap_or_default();

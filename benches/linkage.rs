@@ -24,9 +24,9 @@ use std::hint::black_box;
 use std::process::ExitCode;
 
 use bench::{Bench, best};
-use jred::machine::Mechanism;
+use jred::error::Error;
+use jred::machine::{Machine, Mechanism, Reducible};
 use jred::mechanism::{Branch, SixLink};
-use jred::{Error, Machine, Reducible};
 use memory::{Counting, Memory};
 
 #[global_allocator]

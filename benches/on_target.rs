@@ -33,13 +33,12 @@ mod target {
     use cortex_m_rt::entry;
     use cortex_m_semihosting::{debug, hprintln};
     use jred::axis::plan::{Errors, Knot, encode, image_len};
-    use jred::axis::{Follower, Plan, Rate};
+    use jred::axis::{Override, Plan, PlanFollower};
     use jred::duty::{Curve, Limits, Meter, Window};
-    use jred::machine::Mechanism;
+    use jred::error::Error;
+    use jred::machine::{Machine, Mechanism, Reducible};
     use jred::tabulate::{fill, scratch_len};
-    use jred::{
-        Domain, Error, Image, Machine, Model, Reducible, Scale, Set, Spline, curves, include_image,
-    };
+    use jred::{CurveSet, Domain, Image, Model, Scale, Spline, curves, include_image};
     use panic_semihosting as _;
 
     use crate::ceilings::judge;
@@ -175,7 +174,7 @@ mod target {
 
     /// A set-point of a plan of 256 rows, and of its follower while the rate changes; the model is in single precision.
     fn plan(counter: &mut Counter, report: &mut dyn FnMut(&str, u32)) -> Option<()> {
-        const PRESS: Set = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
+        const PRESS: CurveSet = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
         const ROWS: usize = 256;
         let image = Image::from_bytes(include_image!("../examples/data/press_f32.jred")).ok()?;
         let model: Model<'_, Spline<f32>, PRESS> = image.model().ok()?;
@@ -200,11 +199,11 @@ mod target {
             }
         });
         report("plan-at", count / TICKS);
-        let mut follower = Follower::new(plan, 0.001, 2.0, &model).ok()?;
+        let mut follower = PlanFollower::new(plan, 0.001, 2.0, &model).ok()?;
         follower.start();
         let count = counter.count(|| {
             for k in 0..TICKS {
-                black_box(follower.next(black_box(Rate::percent(k & 128))));
+                black_box(follower.next(black_box(Override::percent(k & 128))));
             }
         });
         report("plan-next", count / TICKS);

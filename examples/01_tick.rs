@@ -10,11 +10,11 @@ mod support;
 
 use core::num::NonZeroU32;
 
-use jred::{Image, Model, Phase, Set, Spline, curves, include_image};
+use jred::{CurveSet, Image, Model, Phase, Spline, curves, include_image};
 use support::{Failure, milli, println, program};
 
 /// The curves of the press, as `jred export` prints them.
-const PRESS: Set = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
+const PRESS: CurveSet = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
 
 const ENCODER: NonZeroU32 = NonZeroU32::new(4096).unwrap();
 
@@ -32,8 +32,8 @@ fn run() -> Result<(), Failure> {
     );
     println!(
         "up to {} mrad/s and {} mrad/s2",
-        milli(validity.omega),
-        milli(validity.alpha)
+        milli(validity.max_speed),
+        milli(validity.max_acceleration)
     );
 
     // Every tick: a phase from the encoder's count, then one call.

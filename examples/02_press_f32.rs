@@ -13,11 +13,11 @@ mod support;
 use core::f32::consts::{PI, TAU};
 
 use jred::machine::motion::{Law, Move};
-use jred::{Image, Model, Set, Spline, curves, include_image};
+use jred::{CurveSet, Image, Model, Spline, curves, include_image};
 use support::{Failure, milli, println, program};
 
 /// The curves of the press, as `jred export` prints them.
-const PRESS: Set = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
+const PRESS: CurveSet = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
 
 /// Period of a tick (s).
 const TICK: f32 = 0.001;
@@ -31,8 +31,7 @@ fn run() -> Result<(), Failure> {
     let press: Model<'_, Spline<f32>, PRESS> = image.model()?;
     // From top dead centre (180 deg) to top dead centre; before and after, the crank is at rest. The 3-4-5 polynomial needs no sine, and in f32 no
     // double precision.
-    let stroke =
-        Move::new(Law::Polynomial345, PI, TAU, 0.4).map_err(|_| "the move is not valid")?;
+    let stroke = Move::new(Law::Polynomial345, PI, TAU, 0.4)?;
 
     println!("  ms     phase   torque bits     torque   acceleration bits");
     let (mut worst, mut saturated, mut checksum) = (0.0f32, 0u32, 0u32);

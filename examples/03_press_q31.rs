@@ -13,11 +13,11 @@ mod support;
 use core::f32::consts::{PI, TAU};
 
 use jred::machine::motion::{Law, Move};
-use jred::{Acceleration, Image, Model, Outcome, Q31, Set, Spline, curves, include_image};
+use jred::{Acceleration, CurveSet, Image, Model, Outcome, Q31, Spline, curves, include_image};
 use support::{Failure, milli, println, program};
 
 /// The curves of the press, as `jred export` prints them.
-const PRESS: Set = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
+const PRESS: CurveSet = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
 
 /// Period of a tick (s).
 const TICK: f32 = 0.001;
@@ -41,8 +41,7 @@ fn run() -> Result<(), Failure> {
     // For comparison only: firmware carries one of the two images.
     let float = Image::from_bytes(include_image!("data/press_f32.jred"))?;
     let float: Model<'_, Spline<f32>, PRESS> = float.model()?;
-    let stroke =
-        Move::new(Law::Polynomial345, PI, TAU, 0.4).map_err(|_| "the move is not valid")?;
+    let stroke = Move::new(Law::Polynomial345, PI, TAU, 0.4)?;
 
     println!("  ms     phase   torque bits     torque   acceleration bits");
     let (mut worst, mut apart, mut saturated, mut checksum) = (0u32, 0.0f32, 0u32, 0u32);

@@ -15,12 +15,13 @@
 #![cfg_attr(target_os = "none", no_std, no_main)]
 
 mod support;
-use jred::machine::{Joint, Marker, MassProperties, Mechanism};
+use jred::error::Error;
+use jred::machine::{Joint, Link, Machine, Marker, MassProperties, Mechanism};
 use jred::mechanism::linkage::{Assembly, Linkage, Pair, Pose};
 use jred::mechanism::{FourBar, FourBarDimensions, Side};
-use jred::table::words_len;
+use jred::table::{Table, words_len};
 use jred::tabulate::{Request, fill, measure, scratch_len};
-use jred::{Domain, Error, Link, Machine, Model, Phase, Scale, Spline, Table, curves};
+use jred::{Domain, Model, Phase, Scale, Spline, curves};
 use support::{Failure, milli, println, program};
 
 /// Dimensions (m).
@@ -43,8 +44,8 @@ const CELLS: u32 = 40;
 const WORDS: usize = words_len::<Spline<f32>>(CELLS, curves::LOAD);
 /// Its requirements.
 const DESIGN: Request = Request::new(0.02)
-    .with_omega(12.0)
-    .with_alpha(60.0)
+    .with_max_speed(12.0)
+    .with_max_acceleration(60.0)
     .with_max_cells(CELLS);
 
 type Words = [f32; WORDS];

@@ -22,11 +22,11 @@ use core::hint::black_box;
 
 use cycles::Counter;
 use jred::number::Scalar;
-use jred::{Image, Model, Phase, Q31, Set, Spline, curves, include_image};
+use jred::{CurveSet, Image, Model, Phase, Q31, Spline, curves, include_image};
 use support::{Failure, milli, println, program};
 
 /// The curves of the press, as `jred export` prints them.
-const PRESS: Set = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
+const PRESS: CurveSet = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
 
 type Press<S> = Model<'static, Spline<S>, PRESS>;
 

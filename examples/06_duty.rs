@@ -13,11 +13,11 @@ mod support;
 
 use jred::duty::{Curve, Limits, Meter, Verdict, Window};
 use jred::machine::motion::{Law, Move};
-use jred::{Image, Model, Phase, Set, Spline, curves, include_image};
+use jred::{CurveSet, Image, Model, Phase, Spline, curves, include_image};
 use support::{Failure, milli, println, program};
 
 /// The curves of the press, as `jred export` prints them.
-const PRESS: Set = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
+const PRESS: CurveSet = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
 
 /// Period of a tick (s).
 const STEP: f32 = 0.5e-3;
@@ -49,19 +49,16 @@ fn run() -> Result<(), Failure> {
         0.0,
         core::f32::consts::TAU,
         f32::from(TURN) * STEP,
-    )
-    .map_err(|_| "the move is not possible")?;
+    )?;
 
-    let curve = |points: &[[f32; 2]]| Curve::new(points).map_err(|_| "the curve is not possible");
     let limits = Limits::new()
-        .with_continuous(curve(&CONTINUOUS)?)
-        .with_peak(curve(&PEAK)?)
+        .with_continuous(Curve::new(&CONTINUOUS)?)
+        .with_peak(Curve::new(&PEAK)?)
         .with_speed(209.0)
         .with_output_peak(220.0)
         .with_output_mean(110.0)
         .with_cycles_per_hour(1000.0);
-    let mut meter =
-        Meter::new(limits, STEP, Window::SinceStart).map_err(|_| "the meter is not possible")?;
+    let mut meter = Meter::new(limits, STEP, Window::SinceStart)?;
 
     for _ in 0..2 {
         for k in 0..TURN + REST {

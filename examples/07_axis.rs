@@ -15,22 +15,22 @@ mod support;
 use core::f32::consts::TAU;
 
 use jred::axis::{
-    Checked, Counter, Counting, Encoder, FeedForward, Gearbox, Limited, Motion, Mounting, Period,
-    Ramp, TorqueLimits, Tracker, Transmission,
+    CheckedTorque, Counter, Counting, Encoder, FeedForward, FrictionRamp, Gearbox, LimitedTorque,
+    MotionState, Mounting, Period, TorqueLimits, Tracker, Transmission,
 };
 use jred::machine::motion::{Law, Move};
-use jred::{Image, Model, Set, Spline, curves, include_image};
+use jred::{CurveSet, Image, Model, Spline, curves, include_image};
 use support::{Failure, milli, println, program};
 
 /// The curves of the press, as `jred export` prints them.
-const PRESS: Set = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
+const PRESS: CurveSet = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
 
 /// A wrong figure does not compile.
 const ENCODER: Encoder = match Encoder::new(Mounting {
     counts_per_turn: 10_000,
     gear: [20, 1],
     counting: Counting::Down,
-    home: 1234,
+    homing_offset: 1234,
 }) {
     Ok(encoder) => encoder,
     Err(_) => panic!("the encoder's figures"),
@@ -56,7 +56,7 @@ struct Axis<'a> {
     tracker: Tracker,
     tick: Period<f32>,
     lead: Period<f32>,
-    ramp: Ramp<f32>,
+    ramp: FrictionRamp<f32>,
     press: FeedForward<'a, Spline<f32>, PRESS>,
     gearbox: Transmission<f32>,
     limits: TorqueLimits<f32>,
@@ -66,26 +66,23 @@ struct Axis<'a> {
 struct Found {
     count: i64,
     speed: f32,
-    needed: Checked<f32>,
-    motor: Limited<f32>,
+    needed: CheckedTorque<f32>,
+    motor: LimitedTorque<f32>,
 }
 
 impl<'a> Axis<'a> {
     fn new(image: &Image<'a>) -> Result<Self, Failure> {
         let model: Model<'a, Spline<f32>, PRESS> = image.model()?;
-        let wrong = |_| "a figure of the axis is wrong";
         Ok(Self {
             counter: Counter::at(START),
             // Start at the machine's position, otherwise the filter would start with a jump.
-            tracker: Tracker::with_bandwidth(60.0, TICK)
-                .map_err(wrong)?
-                .at(ENCODER.phase_wide(START)),
-            tick: Period::new(TICK, &model).map_err(wrong)?,
-            lead: Period::new(LEAD, &model).map_err(wrong)?,
-            ramp: Ramp::new(0.05, &model).map_err(wrong)?,
+            tracker: Tracker::with_bandwidth(60.0, TICK)?.at(ENCODER.phase_wide(START)),
+            tick: Period::new(TICK, &model)?,
+            lead: Period::new(LEAD, &model)?,
+            ramp: FrictionRamp::new(0.05, &model)?,
             press: FeedForward::new(model, image.validity()),
-            gearbox: Transmission::new(GEARBOX, &model).map_err(wrong)?,
-            limits: TorqueLimits::new(-6.0, 6.0).map_err(wrong)?,
+            gearbox: Transmission::new(GEARBOX, &model)?,
+            limits: TorqueLimits::new(-6.0, 6.0)?,
         })
     }
 
@@ -95,13 +92,13 @@ impl<'a> Axis<'a> {
         let count = self.counter.extend(register.into());
         let tracked = self.tracker.update(ENCODER.phase_wide(count));
         let speed = self.tick.omega(tracked).value;
-        let reference = Motion {
+        let reference = MotionState {
             phase: tracked.phase,
             omega,
             alpha,
         };
         // Position of the machine when the torque acts; friction by the sign of the set-point.
-        let measured = Motion {
+        let measured = MotionState {
             omega: speed,
             ..reference
         };
@@ -124,7 +121,7 @@ fn run() -> Result<(), Failure> {
     let image = Image::from_bytes(include_image!("data/press_f32.jred"))?;
     let mut axis = Axis::new(&image)?;
     // A turn in 0.5 s: the set-point, and the machine, which follows it.
-    let turn = Move::new(Law::Polynomial345, 0.0, TAU, 0.5).map_err(|_| "the move is not valid")?;
+    let turn = Move::new(Law::Polynomial345, 0.0, TAU, 0.5)?;
     let (mut limited, mut checksum, mut worst) = (0u32, 0u32, 0.0f32);
     println!("tick   count     speed  of crank  set-point    needed    motor   clipped");
     for k in 0..TICKS {

@@ -13,13 +13,13 @@
 mod support;
 
 use jred::axis::{
-    AxisError, Braking, Direction, Envelope, Governor, Limit, Limits, LookAhead, Motion, Period,
+    Braking, Direction, Envelope, Governor, Limit, Limits, LookAhead, MotionState, Period,
 };
-use jred::{Image, Model, Phase, Q31, Set, Speed, Spline, curves, include_image};
+use jred::{CurveSet, Image, Model, Phase, Q31, Speed, Spline, curves, include_image};
 use support::{Failure, milli, println, program};
 
 /// The curves of the press, as `jred export` prints them.
-const PRESS: Set = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
+const PRESS: CurveSet = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
 
 /// Period of a tick (s), and the number of ticks; a stop is commanded from `STOP` on.
 const TICK: f32 = 0.000_5;
@@ -61,21 +61,19 @@ fn run() -> Result<(), Failure> {
     let image = Image::from_bytes(include_image!("data/press_q31.jred"))?;
     let press: Model<'_, Spline<Q31>, PRESS> = image.model()?;
     let scale = image.scale();
-    let wrong = |_: AxisError| "a figure of the drive is wrong";
-    let tick = Period::new(TICK, &press).map_err(wrong)?;
-    let envelope = Envelope::new(DRIVING, BRAKE, &press).map_err(wrong)?;
-    let limits = Limits::new(envelope, 22.0, 1400.0, tick, &press).map_err(wrong)?;
+    let tick = Period::new(TICK, &press)?;
+    let envelope = Envelope::new(DRIVING, BRAKE, &press)?;
+    let limits = Limits::new(envelope, 22.0, 1400.0, tick, &press)?;
     let braking = Braking {
         torque: BRAKE,
         deceleration: f32::INFINITY,
         helped: false, // the workpiece may be missing
     };
-    let ahead = LookAhead::<Q31, NODES>::new(&press, Direction::Forward, braking, limit, &tick)
-        .map_err(wrong)?;
+    let ahead = LookAhead::<Q31, NODES>::new(&press, Direction::Forward, braking, limit, &tick)?;
     let governor = Governor::one_way(&ahead);
 
     let fast = scale.omega(20.0).value;
-    let mut motion = Motion::default();
+    let mut motion = MotionState::default();
     let (mut most, mut least, mut checksum) = (0.0_f32, 0.0_f32, 0_u32);
     let mut promised = Phase::default();
     println!("tick     at     speed    torque  limited by       stops at");
@@ -83,7 +81,7 @@ fn run() -> Result<(), Failure> {
         let commanded = if k < STOP { fast } else { Speed::default() };
         let governed = governor.govern(&limits, &press, &motion, commanded);
         motion.alpha = governed.alpha;
-        let torque = press.torque_with(motion.phase, motion.omega, motion.alpha, governed.sliding);
+        let torque = press.torque_with(motion.phase, motion.omega, motion.alpha, governed.friction);
         let stop = ahead.stop(motion.phase, motion.omega);
         if k == STOP {
             promised = stop.phase;

@@ -18,14 +18,13 @@
 
 mod support;
 
-use jred::axis::plan::PlanError;
-use jred::axis::{FeedForward, Follower, Plan, Rate, Stage};
-use jred::number::Sliding;
-use jred::{Image, Model, Phase, Q31, Set, Spline, curves, include_image};
+use jred::axis::{FeedForward, Override, Plan, PlanFollower, PlanState};
+use jred::number::FrictionSign;
+use jred::{CurveSet, Image, Model, Phase, Q31, Spline, curves, include_image};
 use support::{Failure, milli, println, program};
 
 /// The curves of the press, as `jred export` prints them.
-const PRESS: Set = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
+const PRESS: CurveSet = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
 
 /// Period of a tick, and time of a change of the rate from 0 to 100 % (s).
 const TICK: f32 = 0.000_5;
@@ -34,8 +33,8 @@ const RAMP: f32 = 0.13;
 const TICKS: u16 = 2000;
 
 /// The operator's command.
-fn commanded(tick: u16) -> Rate {
-    Rate::percent(match tick {
+fn commanded(tick: u16) -> Override {
+    Override::percent(match tick {
         330..600 => 40,
         600..800 => 0,
         _ => 100,
@@ -46,30 +45,28 @@ fn tenths(phase: Phase) -> u32 {
     ((u64::from(phase.to_bits()) * 3600) >> 32) as u32
 }
 
-const fn name(stage: Stage) -> &'static str {
+const fn name(stage: PlanState) -> &'static str {
     match stage {
-        Stage::Waiting => "waiting",
-        Stage::Running => "running",
-        Stage::Held => "held",
-        Stage::Done => "done",
+        PlanState::Waiting => "waiting",
+        PlanState::Running => "running",
+        PlanState::Held => "held",
+        PlanState::Done => "done",
     }
 }
 
 fn run() -> Result<(), Failure> {
     let image = Image::from_bytes(include_image!("data/press_q31.jred"))?;
     let press: Model<'_, Spline<Q31>, PRESS> = image.model()?;
-    let wrong = |_: PlanError| "the plan or a figure beside it is wrong";
-    let plan = Plan::from_bytes(include_image!("data/press_plan.jred"), &press)
-        .and_then(|plan| plan.of_machine(image.machine()))
-        .map_err(wrong)?;
+    let plan = Plan::from_bytes(include_image!("data/press_plan.jred"), &press)?
+        .of_machine(image.machine())?;
     let feed_forward = FeedForward::new(press, image.validity());
-    let mut follower = Follower::new(plan, TICK, RAMP, &press).map_err(wrong)?;
+    let mut follower = PlanFollower::new(plan, TICK, RAMP, &press)?;
     let scale = image.scale();
     println!(
         "{} rows, {} ms, up to {} mrad/s",
         plan.rows(),
         milli(plan.duration()),
-        milli(plan.most()[0])
+        milli(plan.max_speed())
     );
     println!("tick   stage        at        speed     torque");
     follower.start();
@@ -77,7 +74,7 @@ fn run() -> Result<(), Failure> {
     for tick in 0..TICKS {
         let planned = follower.next(commanded(tick));
         let motion = planned.motion;
-        let needed = feed_forward.at_reference(motion, Sliding::Against(motion.omega));
+        let needed = feed_forward.at_reference(motion, FrictionSign::OfSpeed(motion.omega));
         if planned.limited || !needed.status.is_valid() {
             return Err("a motion that the table was not made for".into());
         }
@@ -85,13 +82,13 @@ fn run() -> Result<(), Failure> {
         most = most.max(torque.abs());
         checksum = (checksum ^ motion.phase.to_bits() ^ needed.torque.to_bits().cast_unsigned())
             .wrapping_mul(16_777_619);
-        let ended = planned.stage == Stage::Done;
+        let ended = planned.state == PlanState::Done;
         if tick % 50 == 0 || ended {
             let (turns, tenths) = (planned.turns, tenths(motion.phase));
             println!(
                 "{:4}   {:7} {} turn {:3}.{} deg {:6} mrad/s {:4} N m",
                 tick,
-                name(planned.stage),
+                name(planned.state),
                 turns,
                 tenths / 10,
                 tenths % 10,

@@ -25,11 +25,11 @@ use jred::duty::{Curve, Limits, Meter, Verdicts, Window};
 use jred::harmonic::{Coefficient, terms};
 use jred::image::{encode, identify, image_len};
 use jred::machine::motion::{Law, Move};
-use jred::number::{Bases, Sliding};
-use jred::table::{AccelerationOf, Format, Shape, SpeedOf, TorqueOf, Usage, words_len};
+use jred::number::{Bases, FrictionSign};
+use jred::table::{AccelerationOf, Format, Shape, SpeedOf, Table, TorqueOf, Usage, words_len};
 use jred::{
-    AnyModel, Cubic, Domain, Harmonic, Image, ImageError, Model, Outcome, Phase, Pieces, Q15, Q31,
-    Quadratic, Rows16, Scale, Set, Speed, Spline, Spline16, Table, include_image,
+    AnyModel, Cubic, CurveSet, Domain, Harmonic, Image, ImageError, Model, Outcome, Phase, Pieces,
+    Q15, Q31, Quadratic, Rows16, Scale, Speed, Spline, Spline16, include_image,
 };
 #[cfg(feature = "micromath")]
 use jred::{SliderCrankForm, slider_crank};
@@ -39,15 +39,15 @@ use jred::{SliderCrankForm, slider_crank};
 mod gate;
 
 /// The curves of the press, as `jred export` prints them.
-const PRESS: Set = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
+const PRESS: CurveSet = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
 
 /// Constant friction.
-const CONSTANTS: Set = curves::LOAD | curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB;
+const CONSTANTS: CurveSet = curves::LOAD | curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB;
 /// Every curve and term of a slider-crank.
 #[cfg(feature = "micromath")]
-const CRANK: Set = curves::ALL | CONSTANTS | slider_crank::terms::ALL;
+const CRANK: CurveSet = curves::ALL | CONSTANTS | slider_crank::terms::ALL;
 /// Every curve.
-const EVERY: Set = curves::ALL | curves::RECIPROCAL;
+const EVERY: CurveSet = curves::ALL | curves::RECIPROCAL;
 
 /// All calls of firmware, with arguments unknown to the optimiser; or only a panic.
 fn calls() -> Result<(), ImageError> {
@@ -108,7 +108,7 @@ fn calls() -> Result<(), ImageError> {
     Ok(())
 }
 
-fn every_tick<F: Format, const SET: Set>(bytes: &'static [u8]) -> Result<(), ImageError> {
+fn every_tick<F: Format, const SET: CurveSet>(bytes: &'static [u8]) -> Result<(), ImageError> {
     let image = Image::from_bytes(black_box(bytes))?;
     let image = Image::of_machine(image, black_box(Image::machine(&image)))?;
     let model = Image::model::<F, SET>(&image)?;
@@ -209,13 +209,12 @@ fn every_table<F: Format>(image: &Image<'_>, table: Table<'_, F>) {
 fn every_term(bytes: &'static [u8]) -> Result<(), ImageError> {
     let image = Image::from_bytes(black_box(bytes))?;
     let any = Image::any_model::<Spline<f32>>(&image)?;
-    let (phase, [omega, alpha], sliding) =
-        black_box((Phase::default(), [0.0; 2], Sliding::Share(0.5)));
-    black_box(AnyModel::torque_with(&any, phase, omega, alpha, sliding));
-    black_box(AnyModel::contributions(&any, phase, omega, alpha, sliding));
-    let torques = [omega, alpha];
+    let (phase, [omega, alpha], friction) =
+        black_box((Phase::default(), [0.0; 2], FrictionSign::Scaled(0.5)));
+    black_box(AnyModel::torque_with(&any, phase, omega, alpha, friction));
+    black_box(AnyModel::torque_terms(&any, phase, omega, alpha, friction));
     black_box(AnyModel::acceleration_range_with(
-        &any, phase, omega, sliding, torques,
+        &any, phase, omega, friction, omega, alpha,
     ));
     black_box(Image::is_of::<Spline<f32>, PRESS>(black_box(&[0; 30])));
     black_box(Image::bytes_are_of::<Spline<f32>, PRESS>(black_box(bytes)));
@@ -232,8 +231,6 @@ fn every_crank(bytes: &'static [u8]) -> Result<(), ImageError> {
     let shape = Shape::<SliderCrankForm>::slider_crank(black_box(0));
     let table = Table::new(black_box(&[0.25, 0.0, 0.1, 0.1, 0.0]), shape);
     black_box(table.is_ok());
-    #[cfg(not(short_multiply))]
-    black_box(Phase::sin_cos_approx(black_box(Phase::default())));
     Ok(())
 }
 

@@ -6,15 +6,15 @@ use core::hint::black_box;
 
 use jred::axis::plan::{Errors, Knot, encode, image_len, with_ramp};
 use jred::axis::{
-    Braking, Counter, Direction, Encoder, Envelope, FeedForward, Follower, Gearbox, Governor,
-    ImageSlot, Limits, LookAhead, Motion, MotionRange, Mounting, Period, Plan, Ramp, Rate, Scaled,
-    Status, StrokeEncoder, TorqueLimits, Tracker, Transmission,
+    Braking, Counter, Direction, Encoder, Envelope, FeedForward, FrictionRamp, Gearbox, Governor,
+    ImageSlot, Limits, LookAhead, MotionRange, MotionState, Mounting, Override, Period, Plan,
+    PlanFollower, Status, StrokeEncoder, StrokeMounting, TorqueLimits, Tracker, Transmission,
 };
 use jred::image::ImageCheck;
-use jred::number::Sliding;
+use jred::number::FrictionSign;
 use jred::table::{AccelerationOf, Format, SpeedOf, TorqueOf};
 use jred::{
-    Domain, Image, ImageError, Model, Phase, Q31, Rows16, Set, Spline, curves, include_image,
+    CurveSet, Domain, Image, ImageError, Model, Phase, Q31, Rows16, Spline, curves, include_image,
 };
 
 #[cfg(target_os = "none")]
@@ -22,7 +22,7 @@ use jred::{
 mod gate;
 
 /// The curves of the press, as `jred export` prints them.
-const PRESS: Set = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
+const PRESS: CurveSet = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
 
 /// All calls of firmware, with arguments unknown to the optimiser; or only a panic.
 fn calls() -> Result<(), ImageError> {
@@ -46,17 +46,17 @@ fn calls() -> Result<(), ImageError> {
 }
 
 /// The parts between an encoder and a torque command.
-fn every_axis<F: Format, const SET: Set>(bytes: &'static [u8]) -> Result<(), ImageError> {
+fn every_axis<F: Format, const SET: CurveSet>(bytes: &'static [u8]) -> Result<(), ImageError> {
     let image = Image::from_bytes(black_box(bytes))?;
     let model = Image::model::<F, SET>(&image)?;
     let feed_forward = FeedForward::new(model, Image::validity(&image));
     let model = FeedForward::model(&feed_forward);
     let (phase, omega, alpha) = black_box(<(Phase, SpeedOf<F>, AccelerationOf<F>)>::default());
-    let mut sliding = Sliding::Against(black_box(omega));
-    if let Ok(ramp) = Ramp::new(black_box(0.1), model) {
-        sliding = Ramp::at(&ramp, omega);
+    let mut friction = FrictionSign::OfSpeed(black_box(omega));
+    if let Ok(ramp) = FrictionRamp::new(black_box(0.1), model) {
+        friction = FrictionRamp::at(&ramp, omega);
     }
-    let mut motion = Motion {
+    let mut motion = MotionState {
         phase,
         omega,
         alpha,
@@ -76,11 +76,14 @@ fn every_axis<F: Format, const SET: Set>(bytes: &'static [u8]) -> Result<(), Ima
         black_box(Period::between(&time, phase, omega, motion.omega));
         motion = Period::later(&time, motion).value;
     }
-    let checked = FeedForward::at_reference(&feed_forward, motion, sliding);
+    let checked = FeedForward::at_reference(&feed_forward, motion, friction);
     let range = FeedForward::range(&feed_forward);
-    black_box(MotionRange::nearest(range, motion, sliding));
+    black_box(MotionRange::nearest(range, motion, friction));
     black_box(MotionRange::status(range, omega, alpha));
-    black_box((MotionRange::omega(range), MotionRange::alpha(range)));
+    black_box((
+        MotionRange::max_speed(range),
+        MotionRange::max_acceleration(range),
+    ));
     let scale = model.table().scale();
     let made: MotionRange<F::Number> = MotionRange::new(Image::validity(&image), scale);
     black_box(made);
@@ -89,15 +92,15 @@ fn every_axis<F: Format, const SET: Set>(bytes: &'static [u8]) -> Result<(), Ima
         phase,
         omega,
         motion,
-        sliding,
+        friction,
     ));
     black_box(Status::is_valid(FeedForward::status(
         &feed_forward,
         omega,
         alpha,
     )));
-    black_box(Model::torque_with(model, phase, omega, alpha, sliding));
-    black_box(Model::contributions(model, phase, omega, alpha, sliding));
+    black_box(Model::torque_with(model, phase, omega, alpha, friction));
+    black_box(Model::torque_terms(model, phase, omega, alpha, friction));
     let gearbox = black_box(Gearbox {
         ratio: 10.0,
         efficiency: 0.9,
@@ -118,7 +121,7 @@ fn every_axis<F: Format, const SET: Set>(bytes: &'static [u8]) -> Result<(), Ima
 }
 
 /// A plan and its follower.
-fn every_plan<F: Format, const SET: Set>(model: &Model<'_, F, SET>) {
+fn every_plan<F: Format, const SET: CurveSet>(model: &Model<'_, F, SET>) {
     if let Ok(plan) = Plan::new(black_box(&[0; 41]), model) {
         black_box(Plan::rows(&plan));
     }
@@ -126,27 +129,34 @@ fn every_plan<F: Format, const SET: Set>(model: &Model<'_, F, SET>) {
     else {
         return;
     };
-    black_box((Plan::machine(&plan), Plan::errors(&plan), Plan::most(&plan)));
+    black_box((Plan::machine(&plan), Plan::errors(&plan)));
+    black_box((Plan::max_speed(&plan), Plan::max_acceleration(&plan)));
     black_box((Plan::duration(&plan), Plan::end(&plan)));
     black_box(Plan::least_ramp(&plan));
     black_box(Plan::at(&plan, black_box(1 << 38)));
     let Ok(plan) = Plan::of_machine(plan, black_box(1)) else {
         return;
     };
-    let Ok(mut follower) = Follower::new(plan, black_box(1e-3), black_box(0.1), model) else {
+    let Ok(mut follower) = PlanFollower::new(plan, black_box(1e-3), black_box(0.1), model) else {
         return;
     };
-    if let Ok(repeating) = Follower::repeating(follower) {
+    if let Ok(repeating) = PlanFollower::repeating(follower) {
         follower = repeating;
     }
-    Follower::start(&mut follower);
-    black_box(Follower::next(&mut follower, Rate::percent(black_box(50))));
-    Follower::reset(&mut follower);
-    black_box(Follower::plan(&follower));
+    PlanFollower::start(&mut follower);
+    black_box(PlanFollower::next(
+        &mut follower,
+        Override::percent(black_box(50)),
+    ));
+    PlanFollower::reset(&mut follower);
+    black_box(PlanFollower::plan(&follower));
 }
 
 /// The limits of a drive, now and ahead.
-fn every_limit<F: Format, const SET: Set>(model: &Model<'_, F, SET>, motion: Motion<F::Number>) {
+fn every_limit<F: Format, const SET: CurveSet>(
+    model: &Model<'_, F, SET>,
+    motion: MotionState<F::Number>,
+) {
     let points = black_box([[6.0, 80.0], [12.0, 20.0]]);
     let gearbox = black_box(Gearbox {
         ratio: 1.0,
@@ -201,14 +211,15 @@ fn every_limit<F: Format, const SET: Set>(model: &Model<'_, F, SET>, motion: Mot
             motion.omega,
         ));
     }
-    let sliding = Sliding::Against(motion.omega);
-    let torques = black_box([TorqueOf::<F>::default(); 2]);
+    let friction = FrictionSign::OfSpeed(motion.omega);
+    let [least, greatest] = black_box([TorqueOf::<F>::default(); 2]);
     black_box(Model::acceleration_range_with(
         model,
         motion.phase,
         motion.omega,
-        sliding,
-        torques,
+        friction,
+        least,
+        greatest,
     ));
 }
 
@@ -241,10 +252,10 @@ fn every_encoder() {
 
 /// Functions in double precision.
 fn every_double() {
-    let scaled = black_box(Scaled {
+    let scaled = black_box(StrokeMounting {
         resolution: 1e-6,
-        home: 0,
-        at_home: 0.0,
+        homing_offset: 0,
+        home_position: 0.0,
     });
     let stroke = black_box(Domain::Stroke { from: 0.0, to: 0.5 });
     if let Ok(encoder) = StrokeEncoder::new(stroke, scaled) {

@@ -22,7 +22,7 @@ use crate::tick::ImageError;
 /// Later versions may add errors, so that a `match` needs a wildcard arm:
 ///
 /// ```
-/// # use jred::Error;
+/// # use jred::error::Error;
 /// fn is_about_the_image(error: &Error) -> bool {
 ///     match error {
 ///         Error::Image(_) => true,
@@ -32,7 +32,7 @@ use crate::tick::ImageError;
 /// ```
 ///
 /// ```compile_fail,E0004
-/// # use jred::Error;
+/// # use jred::error::Error;
 /// fn is_about_the_image(error: &Error) -> bool {
 ///     match error {
 ///         Error::Image(_) => true,

@@ -22,6 +22,37 @@
 //! computes that link from the machine's dimensions, tabulates it, and evaluates it in every control tick: the torque for a motion, and the
 //! acceleration for a torque. It is `no_std`, allocates nothing, contains no unsafe code, and its tick has no panic path.
 //!
+//! # In firmware
+//!
+//! A program names its table once, by three types, as `jred export` prints them:
+//!
+//! ```
+//! use jred::axis::{FeedForward, MotionState};
+//! use jred::number::FrictionSign;
+//! use jred::{CurveSet, FirmwareError, Image, Model, Phase, Spline, curves, include_image};
+//!
+//! const CURVES: CurveSet = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
+//! type Layout = Spline<f32>;
+//! type Press = Model<'static, Layout, CURVES>;
+//! type PressFeedForward = FeedForward<'static, Layout, CURVES>;
+//!
+//! fn start() -> Result<PressFeedForward, FirmwareError> {
+//!     let image = Image::from_bytes(include_image!("../examples/data/press_f32.jred"))?;
+//!     let press: Press = image.model()?;
+//!     Ok(FeedForward::new(press, image.validity()))
+//! }
+//!
+//! /// Every tick: the torque (N·m) on the crank for 10 rad/s and 50 rad/s² at φ = 0.5 rad.
+//! fn tick(press: &PressFeedForward) -> f32 {
+//!     let wanted = MotionState { phase: Phase::from_radians(0.5), omega: 10.0, alpha: 50.0 };
+//!     press.at_reference(wanted, FrictionSign::OfSpeed(wanted.omega)).torque
+//! }
+//! # assert!(tick(&start().unwrap()).is_finite());
+//! ```
+//!
+//! [`axis`] has all steps from an encoder's count to the torque command of a motor: phase, filter, lead time, feed-forward with a status, gearbox and
+//! limits, plans, and the governor, which slows down ahead of places where the drive could not follow.
+//!
 //! # The equation
 //!
 //! ```text
@@ -50,18 +81,19 @@
 //!                                                └─► encode ─► Image (flash) ─┘
 //! ```
 //!
-//! Firmware finds its items in the root. The rest is in the modules of the layers: [`number`]; [`table`] and [`machine`]; [`mechanism`], [`friction`]
-//! and the tick ([`image`], [`duty`]); [`axis`]; [`tabulate`] and [`harmonic`]. A layer uses only those before it; each can be used alone. Every item
-//! has one path.
+//! The root has what a tick needs. The rest is in the modules of the layers: [`number`]; [`table`] and [`machine`]; [`mechanism`], [`friction`] and
+//! the tick ([`image`], [`duty`]); [`axis`]; [`tabulate`], [`harmonic`] and [`error`]. A layer uses only those before it; each can be used alone.
+//! Every item has one path.
 //!
 //! # From dimensions to a tick
 //!
 //! ```
-//! use jred::machine::MassProperties;
+//! use jred::error::Error;
+//! use jred::machine::{Link, Machine, MassProperties, Reducible};
 //! use jred::mechanism::{Branch, SliderCrank, SliderCrankDimensions};
 //! use jred::table::words_len;
 //! use jred::tabulate::{Request, fill, scratch_len, tabulate};
-//! use jred::{Error, Link, Machine, Model, Phase, Reducible, Scale, Spline, curves};
+//! use jred::{Model, Phase, Scale, Spline, curves};
 //!
 //! fn main() -> Result<(), Error> {
 //!     // Crank 50 mm, rod 200 mm; masses in kg, inertias about the centres of mass in kg·m².
@@ -74,7 +106,7 @@
 //!
 //!     // The smallest f32 table whose drive torque is right to 0.01 N·m up to 60 rad/s and 400 rad/s².
 //!     const MOST: u32 = 128;
-//!     let request = Request::new(0.01).with_omega(60.0).with_alpha(400.0).with_max_cells(MOST);
+//!     let request = Request::new(0.01).with_max_speed(60.0).with_max_acceleration(400.0).with_max_cells(MOST);
 //!     let mut scratch = [0.0; scratch_len(MOST, curves::LOAD)];
 //!     let mut words = [0.0; words_len::<Spline<f32>>(MOST, curves::LOAD)];
 //!     let found = tabulate::<Spline<f32>>(&machine, curves::LOAD, &request, &Scale::SI, &mut scratch, &mut words)?;
@@ -83,7 +115,7 @@
 //!     // The tick: torque for a motion, and back.
 //!     let set = curves::LOAD;
 //!     let table = fill::<Spline<f32>>(&machine, set, found.cells, &found.scale, &mut scratch, &mut words)?;
-//!     let model = Model::<_, { curves::LOAD }>::new(table).map_err(Error::Table)?;
+//!     let model = Model::<_, { curves::LOAD }>::new(table)?;
 //!     let phase = Phase::from_radians(0.5);
 //!     let torque = model.torque(phase, 40.0, 200.0);
 //!     let alpha = model.acceleration(phase, 40.0, torque).value;
@@ -95,10 +127,6 @@
 //!     Ok(())
 //! }
 //! ```
-//!
-//! Firmware more often loads an [`Image`] that `jred export` made from a machine file. [`axis`] has the steps between the encoder's count and the
-//! drive's torque command: phase, filter, lead time, feed-forward with a status, gearbox and limits, and the governor, which slows down ahead of
-//! places where the drive could not follow.
 //!
 //! # Numbers
 //!
@@ -113,10 +141,11 @@
 //! # Features
 //!
 //! - `mechanics`, the default: everything that creates tables from machines: [`machine`] except its motion laws, [`mechanism`], [`friction`],
-//!   [`tabulate`], the search for [`harmonic`]s and [`Error`]. It needs `heapless`. Firmware with a finished image does not need it, and compiles in
-//!   a third of the time with `default-features = false`; with it firmware creates tables itself. The linked code is the same in both cases;
+//!   [`tabulate`], the search for [`harmonic`]s and [`error::Error`]. It needs `heapless`. Firmware with a finished image does not need it, and
+//!   compiles in a third of the time with `default-features = false`; with it firmware creates tables itself. The linked code is the same in both
+//! cases;
 //! - `defmt`: `defmt::Format` for the public value types;
-//! - `micromath`: `SliderCrankForm`, a slider-crank without a table, and `Phase::sin_cos_approx`.
+//! - `micromath`: `SliderCrankForm`, a slider-crank without a table.
 
 #[deny(clippy::indexing_slicing)]
 pub mod axis;
@@ -124,7 +153,8 @@ pub mod axis;
 #[deny(clippy::indexing_slicing)]
 mod curve;
 #[cfg(feature = "mechanics")]
-mod error;
+pub mod error;
+mod firmware_error;
 #[cfg(feature = "mechanics")]
 pub mod friction;
 pub mod machine;
@@ -140,27 +170,15 @@ mod tick;
 
 #[cfg(feature = "micromath")]
 pub use curve::SliderCrankForm;
-pub use curve::{
-    Cubic, Harmonic, Quadratic, Rows16, Set, Spline, Spline16, Table, TableError, curves,
-};
-#[cfg(feature = "mechanics")]
-pub use error::Error;
-#[cfg(feature = "mechanics")]
-pub use machine::link::Link;
-#[cfg(feature = "mechanics")]
-pub use machine::reducible::Reducible;
-#[cfg(feature = "mechanics")]
-pub use machine::reduction::{Machine, Reduction};
+pub use curve::{Cubic, CurveSet, Harmonic, Quadratic, Rows16, Spline, Spline16, curves};
+pub use firmware_error::FirmwareError;
 pub use number::phase::{Domain, Phase};
 pub use number::q15::Q15;
 pub use number::q31::Q31;
 pub use number::quantity::{Acceleration, MotorTorque, Speed, Torque};
 pub use number::scalar::Outcome;
 pub use number::scale::Scale;
-pub use tick::{
-    AccelerationRange, AnyModel, Contributions, Image, ImageError, MachineUnits, Model, Pieces,
-    Validity, duty,
-};
+pub use tick::{AccelerationRange, AnyModel, Image, ImageError, Model, Pieces, TorqueTerms, duty};
 
 /// Tables: formats, words and curves, for programs that create or store their own.
 ///
@@ -168,26 +186,28 @@ pub use tick::{
 pub mod table {
     pub use crate::curve::{
         AccelerationOf, CellCurves, Constants, CurveValues, Format, MAX_CELLS, MotorTorqueOf,
-        RowConstants, Shape, SpeedOf, TorqueOf, Usage, words_len,
+        RowConstants, Shape, SpeedOf, Table, TableError, TorqueOf, Usage, words_len,
     };
     pub use crate::number::spline::{
-        CubicSpline, MIN_CELLS, control_points, fit_bounded, fit_periodic, fit_quadratic_bounded,
-        fit_quadratic_periodic,
+        CubicSpline, MIN_CELLS, control_points, fit_bounded, fit_periodic,
     };
+    // For tests of their accuracy: programs fill a quadratic table by `tabulate`.
+    #[doc(hidden)]
+    pub use crate::number::spline::{fit_quadratic_bounded, fit_quadratic_periodic};
 }
 
 /// Harmonics: a smooth machine as short Fourier series instead of a table of cells.
 ///
-/// Found from its mechanism ([`fit`](harmonic::fit)) or from measurements ([`identify`](harmonic::identify)); ticked by [`Model`] in the format
-/// [`Harmonic`].
+/// Found from its mechanism by [`fit`](harmonic::fit); ticked by [`Model`] in the format [`Harmonic`].
 ///
 /// ```
+/// use jred::error::Error;
 /// use jred::harmonic::{fit, scratch_len, terms};
-/// use jred::machine::MassProperties;
+/// use jred::machine::{Link, Machine, MassProperties, Reducible};
 /// use jred::mechanism::{Branch, SliderCrank, SliderCrankDimensions};
-/// use jred::table::{Shape, words_len};
+/// use jred::table::{Shape, Table, words_len};
 /// use jred::tabulate::Request;
-/// use jred::{Error, Harmonic, Link, Machine, Model, Phase, Reducible, Set, Table, curves};
+/// use jred::{CurveSet, Harmonic, Model, Phase, curves};
 ///
 /// fn main() -> Result<(), Error> {
 ///     // Crank 30 mm, rod 120 mm, ram 42 kg: weight acts along the guide, so J is even and the load odd in φ.
@@ -199,14 +219,14 @@ pub mod table {
 ///     let machine = Machine::new(mechanism).with_gravity([9.81, 0.0])?;
 ///
 ///     const MOST: u32 = 16;
-///     const SET: Set = curves::LOAD | terms::SYMMETRIC;
-///     let request = Request::new(0.001).with_omega(12.0).with_alpha(60.0).with_max_cells(MOST);
+///     const SET: CurveSet = curves::LOAD | terms::SYMMETRIC;
+///     let request = Request::new(0.001).with_max_speed(12.0).with_max_acceleration(60.0).with_max_cells(MOST);
 ///     let (mut scratch, mut words) = ([0.0; scratch_len(MOST)], [0.0; words_len::<Harmonic<f32>>(MOST, SET)]);
 ///     let found = fit(&machine, SET, &request, &mut scratch, &mut words)?;
 ///     assert!(found.torque_error <= 0.001 && found.bytes <= 80);
 ///
-///     let table = Table::new(&words[..found.words], Shape::harmonics(found.harmonics, SET)).map_err(Error::Table)?;
-///     let model = Model::<Harmonic<f32>, SET>::new(table).map_err(Error::Table)?;
+///     let table = Table::new(&words[..found.words], Shape::harmonics(found.harmonics, SET))?;
+///     let model = Model::<Harmonic<f32>, SET>::new(table)?;
 ///     let torque = model.torque(Phase::from_radians(0.5), 10.0, 50.0);
 ///     let exact = machine.reduction(0.5)?.torque(10.0, 50.0).total();
 ///     assert!((f64::from(torque) - exact).abs() < 0.001);
@@ -217,19 +237,23 @@ pub mod harmonic {
     pub use crate::curve::{Circular, Coefficient, Curve, Kind, MAX_HARMONICS, terms};
     #[cfg(feature = "mechanics")]
     pub use crate::tabulate::harmonic::{
-        EXCITED, Fitted, HarmonicError, Identification, Identified, Sample, fit, identify, measure,
-        scratch_len, terms_in_use,
+        Fit, HarmonicError, fit, measure, scratch_len, terms_in_use,
     };
+    // Identification from measurements is not part of 1.0: no machine has tried it yet, so that its interface may change.
+    #[cfg(feature = "mechanics")]
+    #[doc(hidden)]
+    pub use crate::tabulate::harmonic::{EXCITED, Identification, Identified, Sample, identify};
 }
 
 /// A slider-crank in closed form: lengths and masses instead of a table, ticked by [`Model`] in the format [`SliderCrankForm`].
 ///
 /// ```
-/// use jred::machine::MassProperties;
+/// use jred::error::Error;
+/// use jred::machine::{Link, Machine, MassProperties, Reducible};
 /// use jred::mechanism::{Branch, SliderCrank, SliderCrankDimensions};
 /// use jred::slider_crank::{form, terms};
-/// use jred::table::{Shape, words_len};
-/// use jred::{Error, Link, Machine, Model, Phase, Reducible, Set, SliderCrankForm, Table, curves};
+/// use jred::table::{Shape, Table, words_len};
+/// use jred::{CurveSet, Model, Phase, SliderCrankForm, curves};
 ///
 /// fn main() -> Result<(), Error> {
 ///     // Crank 30 mm, rod 120 mm, ram 42 kg; weight acts along the guide.
@@ -241,11 +265,11 @@ pub mod harmonic {
 ///     let machine = Machine::new(mechanism).with_gravity([9.81, 0.0])?;
 ///
 ///     // Seven numbers: r/l, e/l, three of J, two of the load.
-///     const SET: Set = curves::LOAD | terms::LOAD_SIN;
+///     const SET: CurveSet = curves::LOAD | terms::LOAD_SIN;
 ///     let mut words = [0.0; words_len::<SliderCrankForm>(0, SET)];
 ///     assert_eq!(form(&machine, SET, &mut words)?, 7);
-///     let table = Table::new(&words, Shape::slider_crank(SET)).map_err(Error::Table)?;
-///     let model = Model::<SliderCrankForm, SET>::new(table).map_err(Error::Table)?;
+///     let table = Table::new(&words, Shape::slider_crank(SET))?;
+///     let model = Model::<SliderCrankForm, SET>::new(table)?;
 ///     let torque = model.torque(Phase::from_radians(0.5), 10.0, 50.0);
 ///     let exact = machine.reduction(0.5)?.torque(10.0, 50.0).total();
 ///     assert!((f64::from(torque) - exact).abs() < 1e-6 * exact.abs());
@@ -262,7 +286,7 @@ pub mod slider_crank {
 /// Table images: a machine's curves as the tool exports them and firmware uses them, in place in flash.
 pub mod image {
     pub use crate::tick::{
-        Aligned, HEADER_WORDS, ImageCheck, VERSION, encode, identify, image_len,
+        Aligned, HEADER_WORDS, ImageCheck, VERSION, Validity, encode, identify, image_len,
     };
 }
 

@@ -32,7 +32,7 @@ pub trait Real:
     fn from_count(count: u32) -> Self;
     /// Neither NaN nor infinite.
     fn is_finite(self) -> bool;
-    /// Sine and cosine by `libm`, accurate to 1 ulp. For `f32` this computes in double precision.
+    /// Sine and cosine by `libm`, correct to 1 ulp. For `f32` this computes in double precision.
     fn sin_cos(self) -> (Self, Self);
     /// Square root by `libm`, correctly rounded.
     #[must_use]

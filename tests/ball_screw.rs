@@ -6,9 +6,8 @@ use jred::number::RangeError;
 use std::f64::consts::TAU;
 
 use crate::support::{assert_near, budget, config, link_of};
-use jred::machine::{Action, Load, Mechanism};
-use jred::mechanism::{BallScrew, Misfit};
-use jred::{Link, Machine, Reducible};
+use jred::machine::{Action, Link, Load, Machine, Mechanism, Reducible};
+use jred::mechanism::{BallScrew, DimensionError};
 use proptest::prelude::*;
 
 const NUT: usize = BallScrew::NUT;
@@ -125,7 +124,7 @@ fn wrong_dimensions_are_refused() {
     let off = link_of(1.0, 1.0, [0.0, -0.25]);
     assert_eq!(
         BallScrew::new(0.01, [off, off]).unwrap_err(),
-        BuildError::Misfit(Misfit::OffAxis {
+        BuildError::Dimensions(DimensionError::OffAxis {
             link: "screw",
             distance: 0.25
         })

@@ -5,10 +5,10 @@ use std::f64::consts::{PI, TAU};
 
 use crate::support::machines::{Spec, spec};
 use crate::support::{assert_near, budget, config, derivative, largest, link_of};
-use jred::machine::{Action, Load, Mechanism, Window};
+use jred::Domain;
+use jred::machine::{Action, Link, Load, Machine, Mechanism, Reducible, Window};
 use jred::mechanism::{Branch, SliderCrank};
 use jred::number::Transfer;
-use jred::{Domain, Link, Machine, Reducible};
 use proptest::prelude::*;
 
 /// Step of the differences (rad).

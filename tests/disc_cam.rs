@@ -5,10 +5,11 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use crate::support::cams::{build, cam, eccentric, follower, four, links};
 use crate::support::{assert_near, budget, config, derivative};
 use jred::machine::motion::Law;
-use jred::machine::{Action, Joint, Jointed as _, Load, Mechanism as _};
+use jred::machine::{
+    Action, Joint, Jointed as _, Link, Load, Machine, Mechanism as _, Reducible as _,
+};
 use jred::mechanism::cam::{CamError, Program, Segment};
 use jred::mechanism::{DiscCam, Follower, Roller, RollerDimensions, Swing};
-use jred::{Link, Machine, Reducible as _};
 use proptest::prelude::*;
 
 pub(crate) fn loaded(mechanism: DiscCam) -> Machine<DiscCam> {

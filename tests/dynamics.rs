@@ -6,13 +6,10 @@ use std::f64::consts::TAU;
 use crate::support::machines::{Spec, spec};
 use crate::support::rows::Rows;
 use crate::support::{assert_near, budget, config, derivative, largest, rk4};
-use jred::machine::Mechanism;
+use jred::machine::{Machine, Mechanism, Reducible, Reduction};
 use jred::mechanism::{Mesh, SliderCrank, Stage, Train};
-use jred::table::Format;
-use jred::{
-    Cubic, Domain, Machine, Phase, Quadratic, Reducible, Reduction, Scale, Set, Spline, Table,
-    curves,
-};
+use jred::table::{Format, Table};
+use jred::{Cubic, CurveSet, Domain, Phase, Quadratic, Scale, Spline, curves};
 use proptest::prelude::*;
 
 proptest! {
@@ -169,7 +166,7 @@ fn energy_drift<L: Format<Number = f64>>(
     drift
 }
 
-fn drifts<const CURVES: Set, L: Format<Number = f64>>(machine: &impl Reducible, omega: f64) {
+fn drifts<const CURVES: CurveSet, L: Format<Number = f64>>(machine: &impl Reducible, omega: f64) {
     let rows = Rows::<L>::of(machine, CURVES, CELLS, &Scale::SI).unwrap();
     let model = rows.model::<CURVES>(&Scale::SI);
     let forward = |phase, w| model.acceleration(phase, w, 0.0).value;

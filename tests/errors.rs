@@ -4,8 +4,9 @@ mod reach;
 mod tables;
 mod values;
 
+use jred::error::Error;
+use jred::machine::{Link, Machine};
 use jred::mechanism::{Branch, BuildError, SliderCrank, SliderCrankDimensions};
-use jred::{Error, Link, Machine};
 
 use crate::support::link_of;
 

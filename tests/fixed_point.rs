@@ -6,12 +6,12 @@ use crate::support::machines::Wave;
 use crate::support::rows::{Fixed, Rows};
 use crate::support::{budget, config, quantity, samples, scale_of, value};
 use jred::{
-    Acceleration, Cubic, Domain, Model, Outcome, Phase, Q31, Quadratic, Scale, Set, Speed, Spline,
-    Torque, curves,
+    Acceleration, Cubic, CurveSet, Domain, Model, Outcome, Phase, Q31, Quadratic, Scale, Speed,
+    Spline, Torque, curves,
 };
 use proptest::prelude::*;
 
-const ALL: Set = curves::ALL;
+const ALL: CurveSet = curves::ALL;
 
 /// The drive torque in machine units, from the curves as the table reads them.
 fn torque<L: Fixed>(

@@ -4,19 +4,20 @@ use crate::support::budget::Q31_UNIT;
 use crate::support::machines::{Wave, spec};
 use crate::support::rows::Rows;
 use crate::support::{assert_near, budget, largest, samples, value};
+use jred::machine::Reducible;
 use jred::number::Number;
-use jred::table::{AccelerationOf, Format, MIN_CELLS, SpeedOf, TorqueOf, words_len};
-use jred::tabulate::{CHECKS_PER_CELL, Request, Tabulated, measure, scratch_len, tabulate};
-use jred::{Cubic, Phase, Q31, Quadratic, Reducible, Scale, Set, Spline, Table, curves};
+use jred::table::{AccelerationOf, Format, MIN_CELLS, SpeedOf, Table, TorqueOf, words_len};
+use jred::tabulate::{CHECKS_PER_CELL, Request, TableFigures, measure, scratch_len, tabulate};
+use jred::{Cubic, CurveSet, Phase, Q31, Quadratic, Scale, Spline, curves};
 use proptest::prelude::any;
 
-const ALL: Set = curves::ALL;
+const ALL: CurveSet = curves::ALL;
 
 fn table_of<F: Format>(
     machine: &impl Reducible,
     request: &Request,
     scale: &Scale,
-) -> (Tabulated, Rows<F>) {
+) -> (TableFigures, Rows<F>) {
     let mut scratch = vec![0.0; scratch_len(request.max_cells, ALL)];
     let mut words = vec![F::Word::default(); words_len::<F>(request.max_cells, ALL)];
     let found = tabulate::<F>(machine, ALL, request, scale, &mut scratch, &mut words).unwrap();
@@ -36,8 +37,8 @@ fn ticks_keep_the_stated_error<F: Format>(seed: u64, rounding: f64) {
         let scale = Scale::covering(&machine, top_speed, top, 256).unwrap();
         let base = f64::from(scale.torque());
         let request = Request::new(2e-4 * base)
-            .with_omega(top_speed)
-            .with_alpha(top)
+            .with_max_speed(top_speed)
+            .with_max_acceleration(top)
             .with_max_cells(512);
         let (found, rows) = table_of::<F>(&machine, &request, &scale);
         let scale = found.scale;
@@ -126,10 +127,10 @@ fn dense<F: Format>(
             table.at(machine.domain().phase(phi)),
         );
         let slope = read.inertia_slope * j;
-        (j * read.inertia - exact.inertia).abs() * request.alpha
-            + (slope - exact.inertia_slope).abs() * request.omega.powi(2) / 2.0
+        (j * read.inertia - exact.inertia).abs() * request.max_acceleration
+            + (slope - exact.inertia_slope).abs() * request.max_speed.powi(2) / 2.0
             + (t * read.load - exact.load_torque()).abs()
-            + (t / w * read.viscous - exact.viscous).abs() * request.omega
+            + (t / w * read.viscous - exact.viscous).abs() * request.max_speed
             + (t * read.coulomb - exact.coulomb).abs()
     }))
 }
@@ -141,8 +142,8 @@ fn finds_the_smallest<F: Format>() {
         let scale = Scale::covering(&machine, 40.0, 600.0, 256).unwrap();
         let torque_error = f64::from(scale.torque()) * [0.2, 1e-2, 1e-3, 2e-4][k % 4];
         let request = Request::new(torque_error)
-            .with_omega(40.0)
-            .with_alpha(600.0)
+            .with_max_speed(40.0)
+            .with_max_acceleration(600.0)
             .with_max_cells(400);
         let (found, rows) = table_of::<F>(&machine, &request, &scale);
         let table = rows.table();
@@ -203,8 +204,8 @@ fn tabulate_finds_the_smallest_table_that_holds_everywhere() {
     finds_the_smallest::<Quadratic<f32>>();
     // Four cells are tried, too.
     let request = Request::new(1.0)
-        .with_omega(10.0)
-        .with_alpha(10.0)
+        .with_max_speed(10.0)
+        .with_max_acceleration(10.0)
         .with_max_cells(64);
     let machine = Wave::bare(1.0, 0.001);
     let cells = table_of::<Spline<f64>>(&machine, &request, &Scale::SI)

@@ -2,9 +2,8 @@
 
 use crate::support::golden::Case;
 use crate::support::{budget, forces, link_of};
-use jred::machine::{Action, Load, Mechanism};
+use jred::machine::{Action, Load, Machine, Mechanism, Reducible};
 use jred::mechanism::{FourBar, FourBarDimensions, Side};
-use jred::{Machine, Reducible};
 
 fn golden() -> (Case, Machine<FourBar>) {
     let case = Case::new(include_str!("data/02_four_bar_A.json"));

@@ -6,8 +6,8 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 
 use crate::support::machines::Spec;
 use crate::support::{assert_near, budget};
-use jred::machine::{FreeMotion, PoseError};
-use jred::{Domain, Reducible, Reduction};
+use jred::Domain;
+use jred::machine::{FreeMotion, PoseError, Reducible, Reduction};
 
 /// A rotor: J, U and the loads as functions of φ.
 struct Rotor<F>(F);

@@ -7,9 +7,8 @@ use jred::number::RangeError;
 use std::f64::consts::{PI, TAU};
 
 use crate::support::{assert_near, budget, config, derivative, largest, link_of};
-use jred::machine::{Action, Joint, Jointed, Load, Mechanism};
-use jred::mechanism::{Geneva, Misfit};
-use jred::{Link, Machine, Reducible};
+use jred::machine::{Action, Joint, Jointed, Link, Load, Machine, Mechanism, Reducible};
+use jred::mechanism::{DimensionError, Geneva};
 use proptest::prelude::*;
 
 const WHEEL: usize = Geneva::WHEEL;
@@ -289,7 +288,7 @@ fn wrong_dimensions_are_refused() {
     let error = new(4, 0.2, [off, off]);
     assert_eq!(
         error,
-        BuildError::Misfit(Misfit::OffAxis {
+        BuildError::Dimensions(DimensionError::OffAxis {
             link: "wheel",
             distance: 0.05
         })

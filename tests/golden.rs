@@ -3,11 +3,10 @@
 use crate::support::golden::Case;
 use crate::support::machines::golden_slider_crank;
 use crate::support::{assert_near, budget};
-use jred::machine::{Action, Load, Mechanism};
+use jred::machine::{Action, Load, Machine, Mechanism, Reducible};
 use jred::mechanism::{
     BeltDimensions, GearDimensions, Mesh, SliderCrank, Stage, Train, TrainOutput,
 };
-use jred::{Machine, Reducible};
 
 #[test]
 fn slider_crank_golden() {

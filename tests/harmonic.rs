@@ -7,9 +7,10 @@ use crate::support::harmonics::{
 };
 use crate::support::{assert_near, budget, config, largest};
 use jred::harmonic::{Circular, terms};
+use jred::machine::Reducible;
 use jred::number::{Number, Real};
 use jred::table::{Format, Usage};
-use jred::{Harmonic, Phase, Reducible, Set, curves};
+use jred::{CurveSet, Harmonic, Phase, curves};
 use proptest::prelude::*;
 
 #[test]
@@ -196,7 +197,7 @@ fn free_machine_keeps_its_energy() {
 /// J = 2 + Σ bₖ·sin kφ and load of cosines alone: tables of half of the terms, against the sums written out.
 #[test]
 fn curves_of_sines_or_cosines_alone() {
-    const SET: Set = curves::LOAD | terms::INERTIA_SIN | terms::LOAD_COS;
+    const SET: CurveSet = curves::LOAD | terms::INERTIA_SIN | terms::LOAD_COS;
     let sines = [0.3, -0.2, 0.05];
     let cosines = [1.5, 0.4, -0.7];
     let mut words = vec![2.0, 3.0];
@@ -225,7 +226,7 @@ fn curves_of_sines_or_cosines_alone() {
 /// Attained bounds: all coefficients are positive, so everything is largest at φ = 0.
 #[test]
 fn usage_is_the_sum_of_the_coefficients() {
-    const SET: Set = curves::ALL
+    const SET: CurveSet = curves::ALL
         | curves::CONSTANT_COULOMB
         | terms::INERTIA_COS
         | terms::LOAD_COS

@@ -8,10 +8,11 @@ use crate::support::harmonics::{
 };
 use crate::support::machines::{Wave, spec};
 use crate::support::{assert_near, budget, config};
+use jred::error::Error;
 use jred::harmonic::{HarmonicError, measure, scratch_len, terms};
-use jred::machine::{Action, Load};
+use jred::machine::{Action, Load, Reducible, Reduction};
 use jred::mechanism::SliderCrank;
-use jred::{Domain, Error, Phase, Reducible, Reduction, Set, curves};
+use jred::{CurveSet, Domain, Phase, curves};
 use proptest::prelude::*;
 
 proptest! {
@@ -233,8 +234,8 @@ fn what_no_sample_shows_is_in_the_bound() {
 /// F·|x′| has kinks at the dead centres, F·x′ has none; an additional constant friction has a number of its own.
 #[test]
 fn friction_of_the_ram_is_smooth() {
-    const SET: Set = curves::LOAD | curves::COULOMB | curves::CONSTANT_COULOMB;
-    const TERMS: Set = terms::SYMMETRIC | terms::COULOMB_SIN;
+    const SET: CurveSet = curves::LOAD | curves::COULOMB | curves::CONSTANT_COULOMB;
+    const TERMS: CurveSet = terms::SYMMETRIC | terms::COULOMB_SIN;
     for constant in [0.0, 2.0] {
         let load = Load::new(SliderCrank::CRANK, Action::OpposingMoment(constant)).unwrap();
         let machine = rubbing().with_load(load).unwrap();
@@ -277,7 +278,7 @@ fn terms_are_those_of_the_set() {
 /// A constant curve has no harmonics, not the roundings of its mean.
 #[test]
 fn a_constant_has_no_harmonics() {
-    const SET: Set = curves::LOAD | terms::GENERAL;
+    const SET: CurveSet = curves::LOAD | terms::GENERAL;
     let waves = Waves {
         inertia: vec![[1.0, 0.0], [0.2, 0.1]],
         load: vec![[0.1, 0.0]],

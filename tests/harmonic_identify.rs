@@ -1,28 +1,27 @@
 //! Harmonics from measurements.
 
-use jred::machine::MassProperties;
+use jred::machine::{Link, Machine, MassProperties, Reducible};
 use jred::mechanism::SliderCrankDimensions;
 use jred::number::RangeError;
 use std::f64::consts::TAU;
 
 use crate::support::harmonics::model;
 use crate::support::{assert_near, budget, config, largest};
+use jred::error::Error;
 use jred::harmonic::{
     Coefficient, Curve, HarmonicError, Identification, Identified, Kind, Sample, fit, identify,
     scratch_len, terms,
 };
 use jred::mechanism::{Branch, SliderCrank};
-use jred::table::{Shape, words_len};
+use jred::table::{Shape, Table, TableError, words_len};
 use jred::tabulate::Request;
-use jred::{
-    AnyModel, Error, Harmonic, Link, Machine, Phase, Reducible, Set, Table, TableError, curves,
-};
+use jred::{AnyModel, CurveSet, Harmonic, Phase, curves};
 use proptest::prelude::*;
 
-const SET: Set = curves::ALL;
+const SET: CurveSet = curves::ALL;
 /// Ten harmonics of J and load, a viscous and a Coulomb constant.
 const WORDS: usize = 24;
-const TERMS: Set = terms::SYMMETRIC;
+const TERMS: CurveSet = terms::SYMMETRIC;
 
 /// A press whose weight acts along the guide.
 fn press() -> Machine<SliderCrank> {
@@ -59,8 +58,8 @@ fn press() -> Machine<SliderCrank> {
 /// Its harmonics, with b = 0.2 N·m·s/rad and c = 3 N·m.
 fn truth() -> [f64; WORDS] {
     let request = Request::new(1e-6)
-        .with_omega(15.0)
-        .with_alpha(200.0)
+        .with_max_speed(15.0)
+        .with_max_acceleration(200.0)
         .with_max_cells(10);
     let mut scratch = vec![0.0; scratch_len(10)];
     let mut words = [0.0; WORDS];
@@ -371,8 +370,8 @@ proptest! {
     fn names_are_those_of_the_words(
         set in 0usize..10, word in 0usize..24, bits: u32, omega in 1f64..9.0, alpha in -50f64..50.0,
     ) {
-        fn check<const SET: Set>(word: usize, phase: Phase, omega: f64, alpha: f64) {
-            const TERMS: Set = terms::ALL & !terms::LOAD_COS;
+        fn check<const SET: CurveSet>(word: usize, phase: Phase, omega: f64, alpha: f64) {
+            const TERMS: CurveSet = terms::ALL & !terms::LOAD_COS;
             let harmonics = 3;
             let len = words_len::<Harmonic<f64>>(harmonics, SET | TERMS);
             assert!(Coefficient::of_word(len, SET | TERMS).is_some(), "of the next harmonic");

@@ -7,11 +7,12 @@ use std::f64::consts::TAU;
 use crate::support::assert_near;
 use crate::support::harmonics::{Waves, fitted, model, press, request, rubbing, terms_of};
 use crate::support::machines::Wave;
+use jred::error::Error;
 use jred::harmonic::{HarmonicError, fit, scratch_len, terms};
 use jred::machine::{Action, Load, Window};
 use jred::mechanism::SliderCrank;
-use jred::table::Shape;
-use jred::{AnyModel, Domain, Error, Harmonic, Phase, Scale, Set, Table, TableError, curves};
+use jred::table::{Shape, Table, TableError};
+use jred::{AnyModel, CurveSet, Domain, Harmonic, Phase, Scale, curves};
 
 /// A load between all samples is evaluated at its edges.
 #[test]
@@ -97,9 +98,12 @@ fn bad_requests_are_named() {
     assert!(error.cure().to_string().contains("use a table"));
     assert_eq!(terms_of(&stroke, curves::ALL).unwrap_err(), error);
     for (bad, what) in [
-        (request(1.0, 8).with_torque_error(0.0), "torque error"),
-        (request(1.0, 8).with_omega(-1.0), "largest speed"),
-        (request(1.0, 8).with_alpha(0.0), "largest acceleration"),
+        (request(0.0, 8), "torque error"),
+        (request(1.0, 8).with_max_speed(-1.0), "largest speed"),
+        (
+            request(1.0, 8).with_max_acceleration(0.0),
+            "largest acceleration",
+        ),
     ] {
         let error = fitted::<f64, { terms::INERTIA_COS }>(&machine, &bad).unwrap_err();
         assert!(
@@ -107,7 +111,7 @@ fn bad_requests_are_named() {
             "{error:?}"
         );
     }
-    let nan = request(1.0, 8).with_alpha(f64::NAN);
+    let nan = request(1.0, 8).with_max_acceleration(f64::NAN);
     assert_eq!(
         fitted::<f64, { terms::INERTIA_COS }>(&machine, &nan).unwrap_err(),
         Error::Range(RangeError::NotFinite("largest acceleration"))
@@ -175,10 +179,10 @@ fn bad_requests_are_named() {
 
 #[test]
 fn bad_coefficients_are_named() {
-    fn check<const SET: Set>(words: &[f32]) -> Option<TableError> {
+    fn check<const SET: CurveSet>(words: &[f32]) -> Option<TableError> {
         model::<f32, SET>(words).err()
     }
-    const LOADED: Set = curves::LOAD | terms::SYMMETRIC;
+    const LOADED: CurveSet = curves::LOAD | terms::SYMMETRIC;
     let length = |needed, given| Some(TableError::Length { needed, given });
     assert_eq!(check::<LOADED>(&[]), length(2, 0));
     assert_eq!(check::<LOADED>(&[1.0, 0.0, 0.1]), length(2, 3));

@@ -1,14 +1,13 @@
 //! The hoist: drum, load on falls, counterweight.
 
 use jred::machine::PoseError;
-use jred::mechanism::Suspended;
+use jred::mechanism::RopeLoad;
 use jred::number::RangeError;
 use std::f64::consts::TAU;
 
 use crate::support::{assert_near, budget, config, link_of};
-use jred::machine::{Action, Load, Mechanism};
+use jred::machine::{Action, Link, Load, Machine, Mechanism, Reducible};
 use jred::mechanism::{Hoist, Rope};
-use jred::{Link, Machine, Reducible};
 use proptest::prelude::*;
 
 const G: f64 = 9.81;
@@ -30,18 +29,18 @@ fn hoist_textbook() {
     assert_eq!([rope, other].map(|rope| rope.falls()), [2, 1]);
     let plain = upright(Hoist::new(
         drum,
-        Suspended {
+        RopeLoad {
             rope,
             link: mass(load),
         },
     ));
     let balanced = upright(Hoist::with_counterweight(
         drum,
-        Suspended {
+        RopeLoad {
             rope,
             link: mass(load),
         },
-        Suspended {
+        RopeLoad {
             rope: other,
             link: mass(counter),
         },
@@ -96,11 +95,11 @@ fn equal_loads_need_no_holding_torque() {
     let rope = Rope::new(0.25, 1).unwrap();
     let elevator = upright(Hoist::with_counterweight(
         Link::rotor(0.8).unwrap(),
-        Suspended {
+        RopeLoad {
             rope,
             link: mass(400.0),
         },
-        Suspended {
+        RopeLoad {
             rope,
             link: mass(400.0),
         },
@@ -130,13 +129,13 @@ prop_compose! {
     ) -> Machine<Hoist> {
         let [u0, v0, u1, v1] = com;
         let drum = link_of(masses[0], inertia, [u0, v0]);
-        let hook = Suspended {
+        let hook = RopeLoad {
             rope: Rope::new(radius[0], falls[0]).unwrap(),
             link: link_of(masses[1], 0.0, [u1, v1]),
         };
         let hoist = if counterweight {
             let rope = Rope::new(radius[1], falls[1]).unwrap();
-            Hoist::with_counterweight(drum, hook, Suspended { rope, link: mass(masses[2]) })
+            Hoist::with_counterweight(drum, hook, RopeLoad { rope, link: mass(masses[2]) })
         } else {
             Hoist::new(drum, hook)
         };
@@ -190,7 +189,7 @@ fn wrong_dimensions_are_refused() {
     );
     let hoist = Hoist::new(
         mass(1.0),
-        Suspended {
+        RopeLoad {
             rope: Rope::new(0.1, 1).unwrap(),
             link: mass(1.0),
         },

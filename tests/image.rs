@@ -6,9 +6,9 @@ use crate::support::rows::Rows;
 use crate::support::{config, quantity, samples, scale_of};
 use jred::image::{HEADER_WORDS, VERSION, encode, identify, image_len};
 use jred::table::Format;
-use jred::tabulate::{Request, Tabulated};
+use jred::tabulate::{Request, TableFigures};
 use jred::{
-    Cubic, Domain, Image, ImageError, Model, Phase, Q31, Quadratic, Scale, Set, Spline, curves,
+    Cubic, CurveSet, Domain, Image, ImageError, Model, Phase, Q31, Quadratic, Scale, Spline, curves,
 };
 use proptest::prelude::*;
 
@@ -53,17 +53,17 @@ fn known_crc_and_layout() {
     );
     let scale = scale_of(60.0, 11.0, 2.0);
     assert_eq!(*read.scale(), scale.for_cells(12, 2.0));
-    let mut found = Tabulated::default();
+    let mut found = TableFigures::default();
     found.cells = 12;
     found.torque_error = 0.01;
     let request = Request::new(0.02)
-        .with_omega(10.0)
-        .with_alpha(100.0)
+        .with_max_speed(10.0)
+        .with_max_acceleration(100.0)
         .with_max_cells(64);
     assert_eq!(found.validity(&request), VALIDITY);
 }
 
-fn same_bits<F: Format, const SET: Set>(spec: &Spec, bits: u32, state: [f64; 2]) {
+fn same_bits<F: Format, const SET: CurveSet>(spec: &Spec, bits: u32, state: [f64; 2]) {
     let machine = spec.machine();
     let scale = Scale::covering(&machine, 60.0, 900.0, 64).unwrap();
     let scale = scale.for_cells(90, std::f64::consts::TAU);
@@ -160,8 +160,8 @@ proptest! {
 /// With the curve of 1/J, and constants or curves next to it.
 #[test]
 fn round_trip_of_every_curve_is_bit_exact() {
-    const EVERY: Set = curves::ALL | curves::RECIPROCAL;
-    const CONSTANTS: Set =
+    const EVERY: CurveSet = curves::ALL | curves::RECIPROCAL;
+    const CONSTANTS: CurveSet =
         curves::LOAD | curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB | curves::RECIPROCAL;
     for spec in samples(3, 0x0007, &spec()) {
         same_bits::<Spline<Q31>, EVERY>(&spec, 0x1234_5678, [0.3, -0.2]);

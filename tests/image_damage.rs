@@ -5,7 +5,7 @@ use crate::support::{config, samples, value};
 use jred::image::{HEADER_WORDS, VERSION};
 use jred::number::Quantity;
 use jred::table::Format;
-use jred::{Cubic, Image, ImageError, Phase, Q31, Quadratic, Set, Spline, curves};
+use jred::{Cubic, CurveSet, Image, ImageError, Phase, Q31, Quadratic, Spline, curves};
 use proptest::prelude::*;
 
 #[test]
@@ -74,7 +74,7 @@ fn truncated_extended_and_misaligned_images_are_refused() {
 }
 
 /// Ticks a model if there is one; in fixed point a limited acceleration is at an end of the range.
-fn tick<F: Format, const SET: Set>(
+fn tick<F: Format, const SET: CurveSet>(
     image: &Image<'_>,
     state: [F::Number; 2],
     phase: Phase,
@@ -96,8 +96,8 @@ fn tick<F: Format, const SET: Set>(
 
 /// Checking any image neither panics nor overflows (overflow checks are on in debug builds). Returns the number of models ticked.
 fn look_at(image: &[u32], state: [i32; 2], phase: Phase) -> u32 {
-    const ALL: Set = curves::ALL;
-    const SEEDED: Set = curves::VISCOUS | curves::COULOMB | curves::RECIPROCAL;
+    const ALL: CurveSet = curves::ALL;
+    const SEEDED: CurveSet = curves::VISCOUS | curves::COULOMB | curves::RECIPROCAL;
     let Ok(image) = Image::new(image) else {
         return 0;
     };

@@ -2,8 +2,8 @@
 
 use crate::support::images::{refused, sealed, small, stroke, stroke_in};
 use jred::image::{HEADER_WORDS, VERSION};
-use jred::table::Format;
-use jred::{Cubic, Image, ImageError, Q31, Quadratic, Set, Spline, TableError, curves};
+use jred::table::{Format, TableError};
+use jred::{Cubic, CurveSet, Image, ImageError, Q31, Quadratic, Spline, curves};
 
 /// Words of the smallest image: header, seven points, CRC.
 const SMALL: u32 = HEADER_WORDS as u32 + 7 + 1;
@@ -156,7 +156,7 @@ fn a_refused_image_says_what_to_do() {
     }
 }
 
-fn no_model<F: Format, const SET: Set>(image: Vec<u32>) -> ImageError {
+fn no_model<F: Format, const SET: CurveSet>(image: Vec<u32>) -> ImageError {
     let image = sealed(image);
     let image = Image::new(&image).unwrap();
     image.model::<F, SET>().map(|_| ()).unwrap_err()
@@ -208,7 +208,7 @@ fn model_of_another_type_set_or_layout_is_refused() {
 
 #[test]
 fn model_of_an_unsound_table_is_refused() {
-    const RECIPROCAL: Set = curves::RECIPROCAL;
+    const RECIPROCAL: CurveSet = curves::RECIPROCAL;
     let with = |word: usize, value: u32| {
         let mut image = small();
         image[word] = value;

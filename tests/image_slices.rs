@@ -5,11 +5,11 @@ use crate::support::value;
 use jred::axis::{FeedForward, ImageSlot};
 use jred::harmonic::terms;
 use jred::image::{HEADER_WORDS, ImageCheck, encode, image_len};
-use jred::number::{Quantity, Sliding};
-use jred::table::{Format, Shape, SpeedOf};
+use jred::number::{FrictionSign, Quantity};
+use jred::table::{Format, Shape, SpeedOf, Table, TableError};
 use jred::{
-    Cubic, Harmonic, Image, ImageError, Phase, Q31, Quadratic, Rows16, Set, Spline, Spline16,
-    Table, TableError, curves,
+    Cubic, CurveSet, Harmonic, Image, ImageError, Phase, Q31, Quadratic, Rows16, Spline, Spline16,
+    curves,
 };
 
 /// Enough for every image of these tests.
@@ -65,7 +65,7 @@ fn bytes(image: &[u32]) -> Vec<u8> {
 }
 
 /// A slot that has received these bytes in pieces.
-fn received<'m, F: Format, const SET: Set>(
+fn received<'m, F: Format, const SET: CurveSet>(
     memory: &'m mut [u32],
     bytes: &[u8],
     piece: usize,
@@ -78,7 +78,7 @@ fn received<'m, F: Format, const SET: Set>(
     slot
 }
 
-fn checked<F: Format, const SET: Set>(
+fn checked<F: Format, const SET: CurveSet>(
     slot: &mut ImageSlot<'_, F, SET>,
     words: usize,
 ) -> Result<(), ImageError> {
@@ -95,21 +95,21 @@ fn checked<F: Format, const SET: Set>(
 }
 
 /// Torques over the range, compared bit by bit.
-fn torques<F: Format, const SET: Set>(found: &FeedForward<'_, F, SET>) -> Vec<(f64, f64)> {
+fn torques<F: Format, const SET: CurveSet>(found: &FeedForward<'_, F, SET>) -> Vec<(f64, f64)> {
     let scale = *found.model().table().scale();
     let at = |k: u32| {
         let phase = Phase::from_bits(k.wrapping_mul(0x0312_3457));
         let omega = scale.omega(0.1 * k as f32 - 5.0).value;
         let alpha = scale.alpha(k as f32 - 50.0).value;
         let model = found.model();
-        let torque = model.torque_with(phase, omega, alpha, Sliding::Against(omega));
+        let torque = model.torque_with(phase, omega, alpha, FrictionSign::OfSpeed(omega));
         let back = model.acceleration(phase, omega, torque).value;
         (value(torque), value(back))
     };
     (0..100).map(at).collect()
 }
 
-fn ticks_alike<F: Format, const SET: Set>(image: &[u32]) {
+fn ticks_alike<F: Format, const SET: CurveSet>(image: &[u32]) {
     let whole = Image::new(image).unwrap();
     let whole = FeedForward::new(whole.model::<F, SET>().unwrap(), whole.validity());
     let expected = torques(&whole);
@@ -139,9 +139,9 @@ fn ticks_alike<F: Format, const SET: Set>(image: &[u32]) {
 
 #[test]
 fn a_slot_ticks_as_the_image_itself() {
-    const SEEDED: Set = curves::VISCOUS | curves::COULOMB | curves::RECIPROCAL;
-    const CONSTANT: Set = curves::LOAD | curves::CONSTANT_COULOMB;
-    const WAVE: Set = curves::INERTIA | terms::ALL;
+    const SEEDED: CurveSet = curves::VISCOUS | curves::COULOMB | curves::RECIPROCAL;
+    const CONSTANT: CurveSet = curves::LOAD | curves::CONSTANT_COULOMB;
+    const WAVE: CurveSet = curves::INERTIA | terms::ALL;
     ticks_alike::<Spline<f32>, { curves::INERTIA }>(&small());
     ticks_alike::<Spline<f32>, CONSTANT>(&stroke_in::<Spline<f32>>(CONSTANT));
     ticks_alike::<Spline<Q31>, { curves::ALL }>(&stroke());
@@ -159,7 +159,7 @@ fn a_slot_ticks_as_the_image_itself() {
 }
 
 /// The verdict of a slot on these bytes.
-fn verdict<const SET: Set>(bytes: &[u8]) -> Result<(), ImageError> {
+fn verdict<const SET: CurveSet>(bytes: &[u8]) -> Result<(), ImageError> {
     let mut memory = [u32::MAX; WORDS];
     checked(
         &mut received::<Spline<f32>, SET>(&mut memory, bytes, 10),

@@ -4,10 +4,9 @@ use std::f64::consts::{PI, TAU};
 
 use crate::support::{assert_near, budget, config, largest, link_of, spoken};
 use jred::machine::motion::Law;
-use jred::machine::{Action, Jointed, Load, Mechanism, PoseError};
-use jred::mechanism::{BuildError, IndexingCam, IndexingCamDimensions, Misfit};
+use jred::machine::{Action, Jointed, Link, Load, Machine, Mechanism, PoseError, Reducible};
+use jred::mechanism::{BuildError, DimensionError, IndexingCam, IndexingCamDimensions};
 use jred::number::RangeError;
-use jred::{Link, Machine, Reducible};
 use proptest::prelude::*;
 
 const TABLE: usize = IndexingCam::TABLE;
@@ -239,7 +238,7 @@ fn wrong_dimensions_are_refused() {
     let error = IndexingCam::new(EIGHT, [off, off]).unwrap_err();
     assert_eq!(
         error,
-        BuildError::Misfit(Misfit::OffAxis {
+        BuildError::Dimensions(DimensionError::OffAxis {
             link: "table",
             distance: 0.05
         })

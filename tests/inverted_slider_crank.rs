@@ -6,9 +6,8 @@ use jred::number::RangeError;
 use std::f64::consts::{PI, TAU};
 
 use crate::support::{assert_near, budget, config, link_of};
-use jred::machine::{Action, Load, Mechanism};
-use jred::mechanism::{InvertedSliderCrank, LeverMotion, Misfit};
-use jred::{Link, Machine};
+use jred::machine::{Action, Link, Load, Machine, Mechanism};
+use jred::mechanism::{DimensionError, InvertedSliderCrank, LeverMotion};
 use proptest::prelude::*;
 
 const LEVER: usize = InvertedSliderCrank::LEVER;
@@ -251,12 +250,15 @@ fn wrong_dimensions_are_refused() {
     );
     // Between the two ranges, both ends included.
     for centres in [0.25, 0.3, 0.5, 0.75] {
-        let misfit = Misfit::ChangePoint {
+        let misfit = DimensionError::ChangePoint {
             centres,
             rocking: 0.75,
             turning: 0.25,
         };
-        assert_eq!(new(0.5, [centres, 0.0], -0.25), BuildError::Misfit(misfit));
+        assert_eq!(
+            new(0.5, [centres, 0.0], -0.25),
+            BuildError::Dimensions(misfit)
+        );
     }
     assert_eq!(
         spoken(new(0.1, [0.0, -0.1], 0.0)),

@@ -98,8 +98,8 @@ fn a_layer_uses_those_before_it_only() {
 
     // `crate::Name` is of the layer that src/lib.rs re-exports it from.
     let library = fs::read_to_string(root.join("lib.rs")).unwrap();
-    // `Error`, the sum of the layers' errors, is the last layer's.
-    let mut owner = BTreeMap::from([("Error", "tabulate")]);
+    // The sum of the layers' errors is the last layer's.
+    let mut owner = BTreeMap::from([("error", "tabulate")]);
     for (layer, _) in LAYERS {
         owner.insert(layer, layer);
         for exports in library.split(&format!("use {layer}::")).skip(1) {

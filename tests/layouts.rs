@@ -7,14 +7,13 @@ use std::f64::consts::TAU;
 use crate::support::machines::spec;
 use crate::support::rows::Rows;
 use crate::support::{assert_near, budget, config, grid, largest, scale_of};
+use jred::machine::{Reducible, Reduction};
 use jred::number::{Number, Scalar};
 use jred::table::Format;
-use jred::{
-    Cubic, Domain, Phase, Q31, Quadratic, Reducible, Reduction, Scale, Set, Spline, curves,
-};
+use jred::{Cubic, CurveSet, Domain, Phase, Q31, Quadratic, Scale, Spline, curves};
 use proptest::prelude::*;
 
-const ALL: Set = curves::ALL;
+const ALL: CurveSet = curves::ALL;
 
 /// Curves that are not polynomials, with exact slopes: sizes of one.
 struct Smooth(Domain);

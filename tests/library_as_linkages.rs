@@ -1,15 +1,15 @@
 //! Library mechanisms against the general linkage: the closed form, and the joints solved by continuation, give the same motion.
 
 use crate::support::{assert_near, budget, config, forces, jointed, link_of};
-use jred::machine::{Body, Frame, Joint, Jointed, Marker, Mechanism};
+use jred::Domain;
+use jred::machine::{Body, Frame, Joint, Jointed, Link, Machine, Marker, Mechanism, Reducible};
 use jred::mechanism::linkage::{Assembly, Linkage, Pair, Pose};
 use jred::mechanism::{
     Branch, DrivenShaft, FourBar, FourBarDimensions, Geneva, Hoist, InvertedSliderCrank,
     InvertedSliderCrankDimensions, Member, ParallelShafts, Planetary, PlanetaryDimensions,
-    PlanetaryGears, RackAndPinion, Rope, ScotchYoke, ScotchYokeDimensions, Side, SixLink,
-    SixLinkDimensions, Stage, Suspended, TogglePress, TogglePressDimensions, Train,
+    PlanetaryGears, RackAndPinion, Rope, RopeLoad, ScotchYoke, ScotchYokeDimensions, Side, SixLink,
+    SixLinkDimensions, Stage, TogglePress, TogglePressDimensions, Train,
 };
-use jred::{Domain, Link, Machine, Reducible};
 use proptest::prelude::*;
 
 const O: [f64; 2] = [0.0, 0.0];
@@ -152,7 +152,7 @@ proptest! {
         let rope = |k: usize| Rope::new(radii[k], falls[k]).unwrap();
         let mass = |k: usize| Link::point_mass(masses[k]).unwrap();
         let drum = Link::rotor(0.5).unwrap();
-        let hoist = Hoist::with_counterweight(drum, Suspended { rope: rope(0), link: mass(0) }, Suspended { rope: rope(1), link: mass(1) });
+        let hoist = Hoist::with_counterweight(drum, RopeLoad { rope: rope(0), link: mass(0) }, RopeLoad { rope: rope(1), link: mass(1) });
         let frames = hoist.frames(0.0).unwrap();
         let joints = hoist.joints(0.0, &frames).unwrap();
         // A rope is a rack that the drum winds up; a tackle moves its load by a share of that.

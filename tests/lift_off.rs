@@ -5,10 +5,10 @@ use std::f64::consts::{PI, TAU};
 
 use crate::support::cams::{cam, eccentric};
 use crate::support::{assert_near, budget, config};
-use jred::machine::{Action, Element, Load, Marker, Window};
+use jred::Domain;
+use jred::machine::{Action, Element, Link, Load, Machine, Marker, Window};
 use jred::mechanism::cam::{LiftOff, Piece, contact_force, lift_off};
 use jred::mechanism::{DiscCam, Follower};
-use jred::{Domain, Link, Machine};
 use proptest::prelude::*;
 
 const MASS: f64 = 0.8;

@@ -3,9 +3,11 @@
 use crate::support::golden::Case;
 use crate::support::machines::spec;
 use crate::support::{assert_near, budget, config, forces, jointed, link_of};
-use jred::machine::{Action, Body, Joint, Load, Marker, Mechanism, PoseError};
+use jred::Domain;
+use jred::machine::{
+    Action, Body, Joint, Link, Load, Machine, Marker, Mechanism, PoseError, Reducible,
+};
 use jred::mechanism::linkage::{Assembly, Linkage, LinkageError, Pair, Pose};
-use jred::{Domain, Link, Machine, Reducible};
 use proptest::prelude::*;
 
 const O: [f64; 2] = [0.0, 0.0];

@@ -4,12 +4,12 @@ mod chain;
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use jred::machine::{Frame, Frames, Joint, Marker, Mechanism, PoseError};
+use jred::Domain;
+use jred::machine::{Frame, Frames, Joint, Link, Machine, Marker, Mechanism, PoseError, Reducible};
 use jred::mechanism::cam::contact_force;
 use jred::mechanism::linkage::{Assembly, Linkage, LinkageError, Pair, PlacedCam, Pose};
 use jred::mechanism::{CamProfile, DiscCam, Follower};
 use jred::number::Transfer;
-use jred::{Domain, Link, Machine, Reducible};
 use proptest::prelude::*;
 
 use crate::support::{assert_near, budget, cams, config, forces, jointed, link_of, spoken};

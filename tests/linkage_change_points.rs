@@ -2,11 +2,14 @@
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use jred::machine::{Action, Joint, Jointed, Load, MachineError, Marker, Mechanism, PoseError};
+use jred::Domain;
+use jred::machine::{
+    Action, Joint, Jointed, Link, Load, Machine, MachineError, Marker, Mechanism, PoseError,
+    Reducible,
+};
 use jred::mechanism::linkage::{Assembly, Linkage, LinkageError, Pair, Pose};
 use jred::mechanism::{FourBar, Side};
 use jred::number::Transfer;
-use jred::{Domain, Link, Machine, Reducible};
 use proptest::prelude::*;
 
 use crate::four_bar::change_points::{kept, lengths};

@@ -2,9 +2,9 @@
 
 use crate::support::budget;
 use crate::support::link_of;
-use jred::machine::{Body, Joint, Marker, Mechanism, PoseError};
+use jred::Domain;
+use jred::machine::{Body, Joint, Link, Marker, Mechanism, PoseError};
 use jred::mechanism::linkage::{Assembly, Linkage, LinkageError, Pair, Pose};
-use jred::{Domain, Link};
 
 const O: [f64; 2] = [0.0, 0.0];
 

@@ -4,11 +4,12 @@ use std::f64::consts::TAU;
 
 use crate::support::budget;
 use crate::support::harmonics::press;
-use jred::machine::{Action, Load, Mechanism as _, Window};
+use jred::error::Error;
+use jred::machine::{Action, Link, Load, Machine, Mechanism as _, Reducible as _, Window};
 use jred::mechanism::{Geneva, SliderCrank};
 use jred::table::words_len;
 use jred::tabulate::{Part, Request, edge_places, fill, measure, scratch_len, tabulate};
-use jred::{Domain, Error, Link, Machine, Reducible as _, Scale, Set, Spline, curves};
+use jred::{CurveSet, Domain, Scale, Spline, curves};
 
 #[track_caller]
 fn near(found: f64, expected: f64) {
@@ -80,15 +81,15 @@ fn press_with_a_narrow_load() -> Machine<SliderCrank> {
 #[test]
 fn a_narrow_load_is_not_stepped_over() {
     const CELLS: u32 = 200;
-    const SET: Set = curves::LOAD | curves::VISCOUS | curves::COULOMB;
+    const SET: CurveSet = curves::LOAD | curves::VISCOUS | curves::COULOMB;
     let machine = press_with_a_narrow_load();
     let height = (machine.reduction(4.000_009).unwrap().process
         - machine.reduction(3.99).unwrap().process)
         .abs();
     assert!(height > 100.0, "{height}");
     let request = Request::new(1.0)
-        .with_omega(10.0)
-        .with_alpha(10.0)
+        .with_max_speed(10.0)
+        .with_max_acceleration(10.0)
         .with_max_cells(CELLS);
     let mut scratch = vec![0.0; scratch_len(CELLS, SET)];
     let mut words = vec![0.0f64; words_len::<Spline<f64>>(CELLS, SET)];
@@ -149,13 +150,13 @@ fn edges_are_those_of_the_mechanism_and_of_the_loads() {
 #[test]
 fn a_narrow_load_does_not_loosen_the_bound() {
     const CELLS: u32 = 64;
-    const SET: Set = curves::LOAD;
+    const SET: CurveSet = curves::LOAD;
     let window = Window::new(Domain::Turn, [4.0, 4.0 + 1.8e-5], 8e-6).unwrap();
     let force = Load::new(SliderCrank::SLIDER, Action::Force([-0.01, 0.0])).unwrap();
     let machine = press().with_load(force.within(window)).unwrap();
     let request = Request::new(1.0)
-        .with_omega(0.1)
-        .with_alpha(0.1)
+        .with_max_speed(0.1)
+        .with_max_acceleration(0.1)
         .with_max_cells(CELLS);
     let mut scratch = vec![0.0; scratch_len(CELLS, SET)];
     let mut words = vec![0.0f64; words_len::<Spline<f64>>(CELLS, SET)];

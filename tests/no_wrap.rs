@@ -2,11 +2,13 @@
 
 use crate::support::rows::Rows;
 use crate::support::scale_of;
+use jred::error::Error;
+use jred::machine::{Reducible, Reduction};
 use jred::number::RangeError;
+use jred::table::TableError;
 use jred::tabulate::{Request, tabulate};
 use jred::{
-    Acceleration, Cubic, Domain, Error, Phase, Q31, Reducible, Reduction, Scale, Set, Speed,
-    Spline, TableError, Torque, curves,
+    Acceleration, Cubic, CurveSet, Domain, Phase, Q31, Scale, Speed, Spline, Torque, curves,
 };
 
 const SPAN: f32 = core::f32::consts::TAU;
@@ -62,7 +64,7 @@ fn roundings_of_the_slope_are_in_the_proof() {
 /// 1/J that is correct at the first four evaluated positions of a cell, and far off at its ends.
 #[test]
 fn a_reciprocal_is_looked_at_everywhere() {
-    const SET: Set = curves::RECIPROCAL;
+    const SET: CurveSet = curves::RECIPROCAL;
     // (v + 3/8)(v + 1/8)(v − 1/8)(v − 3/8) has no cubic: the cubic through ±e at these places, by Lagrange.
     let nodes = [-0.375, -0.125, 0.125, 0.375];
     let through = |e: f64, v: f64| -> f64 {
@@ -121,8 +123,8 @@ fn a_search_without_a_limit_ends() {
         }
     }
     let request = Request::new(1e-14)
-        .with_omega(1.0)
-        .with_alpha(1.0)
+        .with_max_speed(1.0)
+        .with_max_acceleration(1.0)
         .with_max_cells(u32::MAX);
     let (mut scratch, mut words) = (vec![0.0; 3000], vec![0.0f32; 3000]);
     let set = curves::LOAD;

@@ -1,8 +1,9 @@
 //! The core refuses every value that is not finite.
 
 use crate::support::machines::Wave;
+use jred::error::Error;
 use jred::machine::motion::{Law, Move};
-use jred::machine::{Action, Load, MassProperties, Mechanism, Window};
+use jred::machine::{Action, Link, Load, Machine, MassProperties, Mechanism, Reducible, Window};
 use jred::mechanism::{
     BeltDimensions, Branch, BuildError, GearDimensions, Mesh, SliderCrank, SliderCrankDimensions,
     Stage, Train,
@@ -11,7 +12,7 @@ use jred::number::Bases;
 use jred::number::RangeError;
 use jred::table::CubicSpline;
 use jred::tabulate::{Request, tabulate};
-use jred::{Domain, Error, Link, Machine, Reducible, Scale, Spline, curves};
+use jred::{Domain, Scale, Spline, curves};
 
 fn slider_crank(r: f64, l: f64, e: f64) -> Result<SliderCrank, BuildError> {
     let link = Link::new(MassProperties {
@@ -346,8 +347,8 @@ fn scale(torque: f64, speed: f64, inertia: f64) -> Result<(), Error> {
 
 fn request(torque_error: f64, omega: f64, alpha: f64) -> Result<(), Error> {
     let request = Request::new(torque_error)
-        .with_omega(omega)
-        .with_alpha(alpha)
+        .with_max_speed(omega)
+        .with_max_acceleration(alpha)
         .with_max_cells(8);
     tabulate::<Spline<f32>>(
         &Wave::bare(1.0, 0.1),

@@ -1,10 +1,9 @@
 //! Several driven shafts on one drive shaft.
 
 use crate::support::{assert_near, budget, config, link_of};
-use jred::machine::{Action, Load, Mechanism, PoseError};
-use jred::mechanism::{BuildError, DrivenShaft, Misfit, ParallelShafts, Stage, Train};
+use jred::machine::{Action, Link, Load, Machine, Mechanism, PoseError, Reducible};
+use jred::mechanism::{BuildError, DimensionError, DrivenShaft, ParallelShafts, Stage, Train};
 use jred::number::RangeError;
-use jred::{Link, Machine, Reducible};
 use proptest::prelude::*;
 
 fn shaft(ratio: f64, inertia: f64) -> DrivenShaft {
@@ -117,7 +116,7 @@ fn wrong_dimensions_are_refused() {
         "too many driven shafts: at most 15 fit"
     );
     let off = link_of(1.0, 1.0, [0.5, 0.0]);
-    let misfit = Misfit::OffAxis {
+    let misfit = DimensionError::OffAxis {
         link: "driven shaft",
         distance: 0.5,
     };
@@ -126,7 +125,7 @@ fn wrong_dimensions_are_refused() {
             ratio: 1.0,
             link: off
         }]),
-        BuildError::Misfit(misfit)
+        BuildError::Dimensions(misfit)
     );
     // The drive shaft turns with φ and may be unbalanced.
     let fan = ParallelShafts::new(off, &[shaft(1.0, 1.0)]).unwrap();

@@ -143,20 +143,3 @@ fn single_precision_radians_keep_their_promise() {
     println!("from_radians_f32: {worst:.2e} turn");
     assert_near("turns", worst, 0.0, budget::PHASE_F32_TURNS);
 }
-
-#[cfg(feature = "micromath")]
-#[test]
-fn sin_cos_approx_keeps_its_bound() {
-    let places = (0..1u32 << 20).map(|k| Phase::from_bits(k << 12));
-    let worst = largest(places.flat_map(|phase| {
-        let (sin, cos) = phase.sin_cos_approx();
-        let (exact_sin, exact_cos) = phase.radians().sin_cos();
-        [f64::from(sin) - exact_sin, f64::from(cos) - exact_cos]
-    }));
-    println!("sin_cos_approx: {worst:.3e}");
-    assert_near("sin and cos", worst, 0.0, budget::SIN_COS_APPROX);
-    assert!(
-        worst > 0.5 * budget::SIN_COS_APPROX,
-        "the promise is slack: {worst:e}"
-    );
-}

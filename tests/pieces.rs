@@ -6,17 +6,15 @@ use std::f64::consts::TAU;
 use crate::support::rows::Rows;
 use crate::support::{assert_near, budget, largest, link_of, quantity, value};
 use jred::machine::motion::Law;
+use jred::machine::{Machine, Reducible, Reduction};
 use jred::mechanism::cam::{Program, Segment};
 use jred::mechanism::{Branch, DiscCam, Follower, Roller, RollerDimensions, SliderCrank};
 use jred::number::Number;
 use jred::table::{Format, words_len};
 use jred::tabulate::{Part, Request, scratch_len, tabulate};
-use jred::{
-    Cubic, Domain, Machine, Phase, Pieces, Q31, Quadratic, Reducible, Reduction, Scale, Set,
-    Spline, curves,
-};
+use jred::{Cubic, CurveSet, Domain, Phase, Pieces, Q31, Quadratic, Scale, Spline, curves};
 
-const SET: Set = curves::LOAD;
+const SET: CurveSet = curves::LOAD;
 /// Speed and acceleration for comparing tables.
 const AT: [f64; 2] = [20.0, 300.0];
 
@@ -141,8 +139,8 @@ fn pieces_of<F: Format>(
 ) -> Vec<Rows<F>> {
     const MOST: u32 = 512;
     let request = Request::new(torque_error)
-        .with_omega(AT[0])
-        .with_alpha(AT[1])
+        .with_max_speed(AT[0])
+        .with_max_acceleration(AT[1])
         .with_max_cells(MOST);
     let ends = breaks.iter().skip(1).copied().chain([breaks[0] + TAU]);
     let pieces = breaks.iter().zip(ends).map(|(from, to)| {

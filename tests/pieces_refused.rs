@@ -5,11 +5,13 @@ use std::f64::consts::TAU;
 use crate::support::machines::Wave;
 use crate::support::rows::Rows;
 use crate::support::{budget, config, scale_of};
+use jred::machine::{Reducible, Reduction};
+use jred::table::TableError;
 use jred::tabulate::Part;
-use jred::{Domain, Phase, Pieces, Reducible, Reduction, Scale, Set, Spline, TableError, curves};
+use jred::{CurveSet, Domain, Phase, Pieces, Scale, Spline, curves};
 use proptest::prelude::*;
 
-const SET: Set = curves::LOAD;
+const SET: CurveSet = curves::LOAD;
 
 /// A load that grows linearly from 0 to 1 over a stroke of this length, which a spline follows exactly: the torque is minus the position in the
 /// piece.

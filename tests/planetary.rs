@@ -7,9 +7,8 @@ use jred::number::RangeError;
 use std::f64::consts::TAU;
 
 use crate::support::{assert_near, budget, config, link_of};
-use jred::machine::{Action, Load, Mechanism};
-use jred::mechanism::{Member, Misfit, Planetary, PlanetaryGears};
-use jred::{Link, Machine, Reducible};
+use jred::machine::{Action, Link, Load, Machine, Mechanism, Reducible};
+use jred::mechanism::{DimensionError, Member, Planetary, PlanetaryGears};
 use proptest::prelude::*;
 
 const MEMBERS: [Member; 3] = [Member::Sun, Member::Carrier, Member::Ring];
@@ -270,7 +269,7 @@ fn wrong_gears_are_refused() {
     );
     assert_eq!(
         gears([30, 20, 73], 4),
-        BuildError::Misfit(Misfit::PlanetTeeth {
+        BuildError::Dimensions(DimensionError::PlanetTeeth {
             planet: 20,
             gap: 43
         })
@@ -283,7 +282,7 @@ fn wrong_gears_are_refused() {
     // A ring smaller than its sun is refused.
     assert_eq!(
         gears([70, 20, 30], 4),
-        BuildError::Misfit(Misfit::PlanetTeeth { planet: 20, gap: 0 })
+        BuildError::Dimensions(DimensionError::PlanetTeeth { planet: 20, gap: 0 })
     );
     assert_eq!(
         gears([30, 20, 70], 3).to_string(),
@@ -312,13 +311,13 @@ fn wrong_gears_are_refused() {
     for (k, link) in ["sun", "carrier", "ring", "planet"].into_iter().enumerate() {
         let mut links = rotors([1.0; 4]);
         links[k] = off;
-        let misfit = Misfit::OffAxis {
+        let misfit = DimensionError::OffAxis {
             link,
             distance: 0.5,
         };
         assert_eq!(
             new(Member::Sun, Member::Ring, links),
-            BuildError::Misfit(misfit)
+            BuildError::Dimensions(misfit)
         );
     }
     let gear = Planetary::new(fits, Member::Sun, Member::Ring, rotors([1.0; 4])).unwrap();

@@ -6,9 +6,8 @@ use jred::number::RangeError;
 use std::f64::consts::TAU;
 
 use crate::support::{assert_near, budget, config, link_of};
-use jred::machine::{Action, Load, Mechanism};
+use jred::machine::{Action, Link, Load, Machine, Mechanism, Reducible};
 use jred::mechanism::RackAndPinion;
-use jred::{Link, Machine, Reducible};
 use proptest::prelude::*;
 
 const RACK: usize = RackAndPinion::RACK;

@@ -7,24 +7,23 @@ use crate::support::exact::place_bits;
 use crate::support::machines::Wave;
 use crate::support::rows::{Fixed, Rows};
 use crate::support::{config, scale_of};
-use jred::table::Format;
+use jred::table::{Format, TableError};
 use jred::{
-    Acceleration, Cubic, Domain, Phase, Q31, Quadratic, Scale, Set, Speed, Spline, TableError,
-    curves,
+    Acceleration, Cubic, CurveSet, Domain, Phase, Q31, Quadratic, Scale, Speed, Spline, curves,
 };
 use proptest::prelude::*;
 
-const ALL: Set = curves::ALL;
-const CONSTANT: Set = curves::LOAD | curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB;
+const ALL: CurveSet = curves::ALL;
+const CONSTANT: CurveSet = curves::LOAD | curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB;
 const CELLS: u32 = 64;
 
-fn built<const SET: Set, L: Fixed>(machine: &Wave, scale: &Scale) -> Result<(), TableError> {
+fn built<const SET: CurveSet, L: Fixed>(machine: &Wave, scale: &Scale) -> Result<(), TableError> {
     let rows = Rows::<L>::of(machine, SET, CELLS, scale).unwrap();
     rows.try_model::<SET>(scale).map(|_| ())
 }
 
 /// Only J + b + c, exactly: refused from 1 on, for growth of any term.
-fn sum_is_bounded<const SET: Set, L: Fixed>() {
+fn sum_is_bounded<const SET: CurveSet, L: Fixed>() {
     let scale = Scale::SI.for_cells(CELLS, TAU);
     let [torque, speed, inertia] = [scale.torque(), scale.speed(), scale.inertia()].map(f64::from);
     let build = |[j, b, c]: [f64; 3]| {

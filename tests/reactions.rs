@@ -3,8 +3,7 @@
 use crate::support::golden::Case;
 use crate::support::machines::{golden_slider_crank, spec};
 use crate::support::{assert_near, budget, config, derivative, forces, jointed};
-use jred::machine::{Element, Jointed, Marker, Mechanism, PoseError};
-use jred::{Machine, Reducible};
+use jred::machine::{Element, Jointed, Machine, Marker, Mechanism, PoseError, Reducible};
 use proptest::prelude::*;
 
 #[test]

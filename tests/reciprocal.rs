@@ -7,13 +7,14 @@ use crate::support::machines::{Spec, Wave, spec};
 use crate::support::rows::{Fixed, Meaning as _, Plain, Rows};
 use crate::support::{assert_near, config, largest, rk4, scale_of, value};
 use jred::number::Role;
+use jred::table::TableError;
 use jred::{
-    Acceleration, Cubic, Model, Phase, Q31, Quadratic, Scale, Set, Speed, Spline, TableError,
-    Torque, curves,
+    Acceleration, Cubic, CurveSet, Model, Phase, Q31, Quadratic, Scale, Speed, Spline, Torque,
+    curves,
 };
 use proptest::prelude::*;
 
-const SET: Set = curves::ALL | curves::RECIPROCAL;
+const SET: CurveSet = curves::ALL | curves::RECIPROCAL;
 
 /// J_m: the product of J and its reciprocal's curve, a power of two.
 fn unit<L: Fixed>(rows: &Rows<L>) -> f64 {
@@ -197,7 +198,7 @@ fn saturation_is_flagged() {
 }
 
 /// Largest share by which the energy ½·J·ω² + U changes over four turns without drive torque, with the model's own J, load and acceleration.
-fn energy_drift<const S: Set, L: Fixed>(spec: &Spec) -> f64 {
+fn energy_drift<const S: CurveSet, L: Fixed>(spec: &Spec) -> f64 {
     const STEPS: u32 = 1024;
     let machine = spec.heavy();
     let scale = Scale::covering(&machine, 90.0, 2000.0, 256).unwrap();
@@ -230,8 +231,8 @@ fn energy_drift<const S: Set, L: Fixed>(spec: &Spec) -> f64 {
 
 #[test]
 fn energy_is_conserved_without_division() {
-    const DIVIDE: Set = curves::LOAD;
-    const MULTIPLY: Set = curves::LOAD | curves::RECIPROCAL;
+    const DIVIDE: CurveSet = curves::LOAD;
+    const MULTIPLY: CurveSet = curves::LOAD | curves::RECIPROCAL;
     let press = Spec {
         crank: 0.08,
         rod_ratio: 2.5,
@@ -276,7 +277,7 @@ fn scaled<L: Fixed>(rows: &Rows<L>, share: f64) -> Rows<L> {
 }
 
 fn refuses_another_reciprocal<L: Fixed>(accepted: [f64; 2], refused: [f64; 2]) {
-    const SET: Set = curves::RECIPROCAL;
+    const SET: CurveSet = curves::RECIPROCAL;
     let scale = Scale::covering(&wave(), 10.0, 20.0, 256).unwrap();
     let scale = scale.for_cells(128, TAU);
     let rows = Rows::<L>::of(&wave(), SET, 128, &scale).unwrap();
@@ -322,7 +323,7 @@ fn a_reciprocal_of_another_inertia_is_refused() {
 /// 1/J of a strongly varying inertia needs more cells than J itself.
 #[test]
 fn too_few_cells_are_refused() {
-    const SET: Set = curves::RECIPROCAL;
+    const SET: CurveSet = curves::RECIPROCAL;
     let machine = Wave::bare(1.0, 0.9);
     let build = |cells: u32| {
         let scale = Scale::covering(&machine, 10.0, 20.0, 256).unwrap();
@@ -330,7 +331,7 @@ fn too_few_cells_are_refused() {
         let rows = Rows::<Quadratic<Q31>>::of(&machine, SET, cells, &scale)?;
         rows.try_model::<SET>(&scale)
             .map(|_| ())
-            .map_err(jred::Error::Table)
+            .map_err(jred::error::Error::Table)
     };
     for cells in [8, 12] {
         assert!(build(cells).is_err(), "{cells} cells");
@@ -341,7 +342,7 @@ fn too_few_cells_are_refused() {
 fn refused_in_floating_point<F: Plain>() {
     let refused = Rows::<F>::of(&wave(), SET, 16, &Scale::SI).map(|_| ());
     let expected = TableError::Curves(SET);
-    assert_eq!(refused, Err(jred::Error::Table(expected)));
+    assert_eq!(refused, Err(jred::error::Error::Table(expected)));
     let word = F::Word::of(Role::Inertia, 0.1);
     let words = vec![word; jred::table::words_len::<F>(16, curves::RECIPROCAL)];
     let rows = Rows::<F>::plain(words, curves::RECIPROCAL, 16, jred::Domain::Turn);

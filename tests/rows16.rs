@@ -10,23 +10,23 @@ mod tick;
 
 use crate::support::rows::Rows;
 use jred::number::Quantity;
-use jred::table::CurveValues;
-use jred::{Model, Q15, Rows16, Scale, Set, Table, curves};
+use jred::table::{CurveValues, Table};
+use jred::{CurveSet, Model, Q15, Rows16, Scale, curves};
 
 type Short = Rows<Rows16>;
 
 /// Everything with curves.
-const EVERY: Set = curves::ALL | curves::RECIPROCAL;
+const EVERY: CurveSet = curves::ALL | curves::RECIPROCAL;
 /// Everything with constants.
-const CONSTANT: Set =
+const CONSTANT: CurveSet =
     curves::LOAD | curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB | curves::RECIPROCAL;
 
-fn model<const SET: Set>(rows: &Short) -> Model<'_, Rows16, SET> {
+fn model<const SET: CurveSet>(rows: &Short) -> Model<'_, Rows16, SET> {
     rows.model(&rows.scale)
 }
 
 /// Words of a row.
-const fn row_words(set: Set) -> usize {
+const fn row_words(set: CurveSet) -> usize {
     jred::table::words_len::<Rows16>(1, set)
 }
 

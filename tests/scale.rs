@@ -5,12 +5,11 @@ use std::f64::consts::TAU;
 use crate::support::machines::{Wave, spec};
 use crate::support::rows::{Fixed, Rows};
 use crate::support::{assert_near, budget, config, largest, scale_of};
-use jred::{
-    Acceleration, Cubic, Outcome, Phase, Q31, Quadratic, Reducible, Scale, Set, Spline, curves,
-};
+use jred::machine::Reducible;
+use jred::{Acceleration, Cubic, CurveSet, Outcome, Phase, Q31, Quadratic, Scale, Spline, curves};
 use proptest::prelude::*;
 
-const ALL: Set = curves::ALL;
+const ALL: CurveSet = curves::ALL;
 
 /// ½·cells/span·J_b·ω_b²/T_b
 fn factor(scale: &Scale, cells: u32, span: f64) -> f64 {

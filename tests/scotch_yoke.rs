@@ -6,9 +6,8 @@ use jred::number::RangeError;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use crate::support::{assert_near, budget, link_of};
-use jred::machine::{Action, Load, Mechanism};
+use jred::machine::{Action, Link, Load, Machine, Mechanism, Reducible};
 use jred::mechanism::ScotchYoke;
-use jred::{Link, Machine, Reducible};
 use proptest::prelude::*;
 
 fn massless() -> [Link; 2] {

@@ -6,11 +6,12 @@
 
 use std::f64::consts::TAU;
 
+use jred::Domain;
 use jred::machine::{
-    Action, Body, Element, Joint, Jointed, Load, Marker, MassProperties, Mechanism, Window,
+    Action, Body, Element, Joint, Jointed, Link, Load, Machine, Marker, MassProperties, Mechanism,
+    Reducible, Window,
 };
 use jred::mechanism::linkage::{Assembly, Linkage, Pair, Pose};
-use jred::{Domain, Link, Machine, Reducible};
 use proptest::prelude::*;
 
 use crate::support::{assert_near, budget, config, jointed, largest, machines};

@@ -6,10 +6,9 @@ use jred::mechanism::SixLinkDimensions;
 use std::f64::consts::{PI, TAU};
 
 use crate::support::{assert_near, budget, config, derivative, jointed, largest, link_of};
-use jred::machine::{Action, Jointed, Load, Mechanism};
+use jred::machine::{Action, Jointed, Link, Load, Machine, Mechanism, Reducible};
 use jred::mechanism::{Branch, SixLink};
 use jred::number::Transfer;
-use jred::{Link, Machine, Reducible};
 use proptest::prelude::*;
 
 /// A random six-link mechanism.
@@ -327,7 +326,7 @@ proptest! {
         let rise = if turns { rocker } else { rocker * crank / centres };
         let rod = short * (rise + below.abs());
         let error = SixLink::new(SixLinkDimensions { crank, rocker, rod, centres, below }, Branch::Right, rotors()).unwrap_err();
-        let BuildError::Blocked(jred::mechanism::Blocked::TooShort { phi, shortest, .. }) = error else {
+        let BuildError::Rotation(jred::mechanism::RotationError::TooShort { phi, shortest, .. }) = error else {
             panic!("{error:?}")
         };
         assert_near("shortest", shortest, rise + below.abs(), budget::CLOSED_FORM);

@@ -4,16 +4,14 @@ use std::f64::consts::TAU;
 
 use crate::support::cranks::{ALPHA, Given, OMEGA, cranks, model_of, words_of};
 use crate::support::{assert_near, budget, config, largest, link_of, samples};
-use jred::axis::{FeedForward, Motion};
-use jred::image::{encode, image_len};
+use jred::axis::{FeedForward, MotionState};
+use jred::image::{Validity, encode, image_len};
+use jred::machine::{Link, Machine, Reducible};
 use jred::mechanism::{Branch, SliderCrank, SliderCrankDimensions};
-use jred::number::Sliding;
+use jred::number::FrictionSign;
 use jred::slider_crank::{STEEPEST, form, set_in_use, terms};
-use jred::table::{Shape, Usage};
-use jred::{
-    Image, ImageError, Link, Machine, Phase, Reducible, Set, SliderCrankForm, Spline, Table,
-    TableError, Validity, curves,
-};
+use jred::table::{Shape, Table, TableError, Usage};
+use jred::{CurveSet, Image, ImageError, Phase, SliderCrankForm, Spline, curves};
 use proptest::prelude::*;
 
 fn phases(count: u32) -> impl Iterator<Item = Phase> {
@@ -143,8 +141,8 @@ proptest! {
         for omega in [omega, 0.0] {
             let torque = model.torque(phase, omega, alpha);
             let inertia = model.table().at(phase).inertia;
-            let terms = model.contributions(phase, omega, alpha, Sliding::Against(omega));
-            let parts = [terms.inertial, terms.velocity, terms.load, terms.viscous, terms.coulomb];
+            let terms = model.torque_terms(phase, omega, alpha, FrictionSign::OfSpeed(omega));
+            let parts = [terms.acceleration, terms.velocity, terms.load, terms.viscous, terms.coulomb];
             let size: f64 = parts.iter().map(|part| f64::from(part.abs())).sum();
             let rounding = budget::TICK_ROUNDINGS * f64::from(f32::EPSILON) * size;
             assert_near("sum", parts.iter().sum::<f32>().into(), torque.into(), rounding);
@@ -156,8 +154,8 @@ proptest! {
             let more = model.acceleration(phase, omega, torque + 10.0);
             prop_assert_eq!(range.greatest.value.to_bits(), more.value.to_bits());
             // A share of the friction scales its term.
-            let ramped = model.torque_with(phase, omega, alpha, Sliding::Share(share));
-            let without = model.torque_with(phase, omega, alpha, Sliding::Share(0.0));
+            let ramped = model.torque_with(phase, omega, alpha, FrictionSign::Scaled(share));
+            let without = model.torque_with(phase, omega, alpha, FrictionSign::Scaled(0.0));
             let coulomb = share * model.table().at(phase).coulomb as f32;
             assert_near("ramp", (ramped - without).into(), coulomb.into(), rounding + 1e-6 * f64::from(coulomb.abs()));
         }
@@ -168,7 +166,7 @@ proptest! {
     fn images_hold_the_form(given in cranks(0.05, 0.9), bits: u32, omega in -60f32..60.0, flipped: prop::sample::Index) {
         let (words, set) = words_of(&given.machine()).unwrap();
         let model = model_of(&words, set).unwrap();
-        let validity = Validity { omega: 60.0, alpha: 400.0, torque_error: 0.01 };
+        let validity = Validity { max_speed: 60.0, max_acceleration: 400.0, torque_error: 0.01 };
         let mut buffer = vec![0; image_len::<SliderCrankForm>(0, set)];
         prop_assert_eq!(buffer.len(), 24 + words.len() + 1);
         let image = encode(model.table(), validity, &mut buffer).unwrap().to_vec();
@@ -190,7 +188,7 @@ proptest! {
 /// A set known at compile time gives the same bits, and must equal that of the header.
 #[test]
 fn known_and_unknown_sets_tick_alike() {
-    const SET: Set = curves::LOAD | curves::COULOMB | terms::LOAD_SIN | terms::COULOMB_ROD;
+    const SET: CurveSet = curves::LOAD | curves::COULOMB | terms::LOAD_SIN | terms::COULOMB_ROD;
     let words = [0.25, -0.1, 0.02, 0.03, -0.004, 5.0, 1.5, 2.0, 0.25];
     let any = model_of(&words, SET).unwrap();
     let known = jred::Model::<SliderCrankForm, SET>::new(*any.table()).unwrap();
@@ -212,19 +210,19 @@ fn known_and_unknown_sets_tick_alike() {
     }
     let mut buffer = [0; 40];
     let validity = Validity {
-        omega: 1.0,
-        alpha: 1.0,
+        max_speed: 1.0,
+        max_acceleration: 1.0,
         torque_error: 1.0,
     };
     let image = encode(any.table(), validity, &mut buffer).unwrap();
     let feed = FeedForward::new(known, validity);
     let (phase, omega, alpha) = (Phase::from_bits(0x1357_9bdf), 0.5, 0.25);
-    let motion = Motion {
+    let motion = MotionState {
         phase,
         omega,
         alpha,
     };
-    let checked = feed.at_reference(motion, Sliding::Against(omega));
+    let checked = feed.at_reference(motion, FrictionSign::OfSpeed(omega));
     assert!(checked.status.is_valid());
     let plain = known.torque(phase, omega, alpha);
     assert_eq!(checked.torque.to_bits(), plain.to_bits());

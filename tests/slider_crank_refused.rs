@@ -2,16 +2,14 @@
 
 use crate::support::cranks::{model_of, words_of};
 use crate::support::{link_of, scale_of};
-use jred::image::{encode, image_len};
-use jred::machine::{Action, Element, Load, Marker, Window};
+use jred::error::Error;
+use jred::image::{Validity, encode, image_len};
+use jred::machine::{Action, Element, Load, Machine, Marker, Window};
 use jred::mechanism::{Branch, SliderCrank, SliderCrankDimensions};
 use jred::number::RangeError;
 use jred::slider_crank::{Coefficient, STEEPEST, SliderCrankError, form, set_in_use, terms};
-use jred::table::{Format, Shape};
-use jred::{
-    Domain, Error, Image, ImageError, Machine, Phase, Set, SliderCrankForm, Table, TableError,
-    Validity, curves,
-};
+use jred::table::{Format, Shape, Table, TableError};
+use jred::{CurveSet, Domain, Image, ImageError, Phase, SliderCrankForm, curves};
 
 fn press() -> Machine<SliderCrank> {
     let links = [
@@ -101,7 +99,7 @@ fn roundings_of_a_turned_drawing_are_no_terms() {
     assert_eq!(set_in_use(&turned), Ok(both));
 }
 
-fn refused_words(words: &[f32], set: Set) -> TableError {
+fn refused_words(words: &[f32], set: CurveSet) -> TableError {
     match model_of(words, set).map(|_| ()) {
         Err(Error::Table(error)) => error,
         other => panic!("{other:?}"),
@@ -230,8 +228,8 @@ fn damaged_coefficients_are_refused_or_ticked() {
     let (words, set) = words_of(&press()).unwrap();
     let model = model_of(&words, set).unwrap();
     let validity = Validity {
-        omega: 60.0,
-        alpha: 400.0,
+        max_speed: 60.0,
+        max_acceleration: 400.0,
         torque_error: 0.01,
     };
     let (mut accepted, mut refused) = (0, 0);

@@ -1,7 +1,7 @@
 //! Gear ratio synthesis: the optimum against textbook conditions, its derivatives, a grid, and the train of (6.9).
 
 use crate::support::{assert_near, budget, config, derivative, largest};
-use jred::mechanism::synthesis::{Driven, OpenStage, OpenTrain, RatioSplit};
+use jred::mechanism::synthesis::{OpenStage, OpenTrain, RatioSplit, WheelInertia};
 use jred::mechanism::{Stage, Train};
 use jred::number::RangeError;
 use proptest::prelude::*;
@@ -100,7 +100,7 @@ fn a_load_at_the_output_adds_its_reduced_inertia() {
 fn constant_wheels_put_the_ratio_in_front() {
     let stage = OpenStage {
         driver: 1.0,
-        driven: Driven::Constant(3.0),
+        driven: WheelInertia::Constant(3.0),
     };
     let split = RatioSplit::new(OpenTrain {
         ratio: 60.0,
@@ -138,7 +138,7 @@ prop_compose! {
     ) -> Spec {
         let stages: Vec<OpenStage> = (0..count).map(|k| OpenStage {
             driver: drivers[k],
-            driven: if constant[k] { Driven::Constant(driven[k]) } else { Driven::LikePinion(driven[k]) },
+            driven: if constant[k] { WheelInertia::Constant(driven[k]) } else { WheelInertia::LikePinion(driven[k]) },
         }).collect();
         let bounds = [low, low * width];
         let ratio = (count as f64 * (low.ln() + share * width.ln())).exp();
@@ -153,8 +153,8 @@ impl Spec {
         let last = self.stages.len() - 1;
         let stage = |(k, (stage, ratio)): (usize, (&OpenStage, &f64))| {
             let driven = match stage.driven {
-                Driven::Constant(inertia) => inertia,
-                Driven::LikePinion(pinion) => pinion * ratio.powi(4),
+                WheelInertia::Constant(inertia) => inertia,
+                WheelInertia::LikePinion(pinion) => pinion * ratio.powi(4),
             };
             let load = if k == last { self.output } else { 0.0 };
             Stage::new(*ratio, [stage.driver, driven + load]).unwrap()
@@ -262,7 +262,7 @@ fn a_grid_finds_nothing_better() {
         OpenStage::geared(2.0),
         OpenStage {
             driver: 4.0,
-            driven: Driven::Constant(300.0),
+            driven: WheelInertia::Constant(300.0),
         },
     ];
     let split = RatioSplit::new(OpenTrain {
@@ -337,7 +337,7 @@ fn what_cannot_be_split_is_refused() {
     );
     let bad = OpenStage {
         driver: f64::NAN,
-        driven: Driven::Constant(1.0),
+        driven: WheelInertia::Constant(1.0),
     };
     assert_eq!(
         refused(5.0, &[bad; 2], 0.0, WIDE),
@@ -346,11 +346,11 @@ fn what_cannot_be_split_is_refused() {
     let none = [
         OpenStage {
             driver: 1.0,
-            driven: Driven::Constant(0.0),
+            driven: WheelInertia::Constant(0.0),
         },
         OpenStage {
             driver: 0.0,
-            driven: Driven::Constant(2.0),
+            driven: WheelInertia::Constant(2.0),
         },
     ];
     assert_eq!(

@@ -5,14 +5,13 @@ use std::f64::consts::TAU;
 use crate::support::machines::{Wave, spec};
 use crate::support::rows::{Meaning as _, Plain, Rows};
 use crate::support::{assert_near, budget, config, largest};
+use jred::machine::{Reducible, Reduction};
 use jred::number::Role;
 use jred::table::{
-    Constants, CubicSpline, Format, MAX_CELLS, MIN_CELLS, control_points, fit_periodic, words_len,
+    Constants, CubicSpline, Format, MAX_CELLS, MIN_CELLS, TableError, control_points, fit_periodic,
+    words_len,
 };
-use jred::{
-    Cubic, Domain, Phase, Q31, Quadratic, Reducible, Reduction, Scale, Spline, Spline16,
-    TableError, curves,
-};
+use jred::{Cubic, Domain, Phase, Q31, Quadratic, Scale, Spline, Spline16, curves};
 use proptest::prelude::*;
 
 fn a_constant_stays_constant<L: Format>(value: f64, cells: u32) {

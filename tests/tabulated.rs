@@ -5,27 +5,26 @@ use std::f64::consts::TAU;
 use crate::support::machines::Wave;
 use crate::support::rows::Rows;
 use crate::support::{assert_near, largest, scale_of};
-use jred::machine::PoseError;
+use jred::error::Error;
+use jred::machine::{PoseError, Reducible, Reduction};
 use jred::table::{Format, words_len};
-use jred::tabulate::{EXHAUSTIVE, Request, Tabulated, measure, scratch_len, tabulate};
-use jred::{
-    Cubic, Domain, Error, Q31, Quadratic, Reducible, Reduction, Rows16, Scale, Set, Spline, curves,
-};
+use jred::tabulate::{EXHAUSTIVE, Request, TableFigures, measure, scratch_len, tabulate};
+use jred::{Cubic, CurveSet, Domain, Q31, Quadratic, Rows16, Scale, Spline, curves};
 
 fn request(torque_error: f64, max_cells: u32) -> Request {
     Request::new(torque_error)
-        .with_omega(8.0)
-        .with_alpha(20.0)
+        .with_max_speed(8.0)
+        .with_max_acceleration(20.0)
         .with_max_cells(max_cells)
 }
 
 /// The report of the search, and the measured errors of a table of as many cells.
 fn found<F: Format>(
     machine: &impl Reducible,
-    set: Set,
+    set: CurveSet,
     request: &Request,
     scale: &Scale,
-) -> [Tabulated; 2] {
+) -> [TableFigures; 2] {
     let mut words = vec![F::Word::default(); words_len::<F>(request.max_cells, set)];
     let mut scratch = vec![0.0; scratch_len(request.max_cells, set)];
     let found = tabulate::<F>(machine, set, request, scale, &mut scratch, &mut words).unwrap();

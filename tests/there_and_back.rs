@@ -8,10 +8,10 @@ use crate::support::rows::Rows;
 use crate::support::{assert_near, budget, config, quantity, value};
 use jred::number::Number;
 use jred::table::{Format, TorqueOf};
-use jred::{Cubic, Phase, Q31, Quadratic, Scale, Set, Spline, curves};
+use jred::{Cubic, CurveSet, Phase, Q31, Quadratic, Scale, Spline, curves};
 use proptest::prelude::*;
 
-const ALL: Set = curves::ALL;
+const ALL: CurveSet = curves::ALL;
 const CELLS: u32 = 64;
 
 /// Acceleration → torque → acceleration, and the range of accelerations of two torques. `bound` is in terms of J·α and J in machine units.

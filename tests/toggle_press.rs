@@ -6,9 +6,8 @@ use jred::mechanism::TogglePressDimensions;
 use std::f64::consts::TAU;
 
 use crate::support::{assert_near, budget, config, derivative, jointed, link_of};
-use jred::machine::{Action, Load, Mechanism};
-use jred::mechanism::{Blocked, Branch, Side, SliderCrank, Standstill, TogglePress};
-use jred::{Link, Machine, Reducible};
+use jred::machine::{Action, Link, Load, Machine, Mechanism, Reducible};
+use jred::mechanism::{Branch, RotationError, Side, SliderCrank, Standstill, TogglePress};
 use proptest::prelude::*;
 
 /// A random press: its four-bar is a crank-rocker or a drag link, by Grashof's condition.
@@ -166,7 +165,7 @@ proptest! {
         let mut lengths = spec.lengths;
         lengths[3] = short * farthest;
         let error = TogglePress::new(TogglePressDimensions { crank: lengths[0], rod: lengths[1], upper: lengths[2], lower: lengths[3], pivot: spec.pivot, guide: spec.guide }, spec.sides.0, spec.sides.1, rotors).unwrap_err();
-        let BuildError::Blocked(Blocked::TooShort { phi, shortest, link, .. }) = error else {
+        let BuildError::Rotation(RotationError::TooShort { phi, shortest, link, .. }) = error else {
             panic!("{error:?}")
         };
         prop_assert!(link == "lower link");

@@ -5,14 +5,11 @@ use std::f64::consts::TAU;
 
 use crate::support::rows::Rows;
 use crate::support::{assert_near, budget, config, largest, link_of, quantity, scale_of, value};
-use jred::machine::{Action, Load};
+use jred::machine::{Action, Link, Load, Machine, Reducible, Reduction};
 use jred::mechanism::{Branch, SliderCrank};
 use jred::table::Format;
 use jred::tabulate::curves_in_use;
-use jred::{
-    Cubic, Domain, Link, Machine, Phase, Q31, Quadratic, Reducible, Reduction, Scale, Set, Spline,
-    curves,
-};
+use jred::{Cubic, CurveSet, Domain, Phase, Q31, Quadratic, Scale, Spline, curves};
 use proptest::prelude::*;
 
 /// J = 1 and c = |v|, for any v.
@@ -206,8 +203,8 @@ impl Reducible for Constant {
 }
 
 fn constants_are_curves<F: Format>(units: f64) {
-    const CURVES: Set = curves::VISCOUS | curves::COULOMB;
-    const CONSTANTS: Set = curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB;
+    const CURVES: CurveSet = curves::VISCOUS | curves::COULOMB;
+    const CONSTANTS: CurveSet = curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB;
     let scale = scale_of(4.0, 3.0, 5.0).for_cells(32, TAU);
     let machine = Constant {
         viscous: 0.3,

@@ -1,9 +1,10 @@
 //! Shared by the benchmarks: the four-bar linkage in two descriptions.
 #![allow(dead_code, reason = "every benchmark uses its own part")]
-use jred::machine::{Joint, Marker, MassProperties};
+use jred::Domain;
+use jred::error::Error;
+use jred::machine::{Joint, Link, Marker, MassProperties};
 use jred::mechanism::linkage::{Assembly, Linkage, Pair, Pose};
 use jred::mechanism::{FourBar, FourBarDimensions, Side};
-use jred::{Domain, Error, Link};
 
 pub(crate) const O: [f64; 2] = [0.0, 0.0];
 

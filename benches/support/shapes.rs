@@ -1,7 +1,8 @@
 //! Growing linkages: a chain of two-link groups, and one indivisible group.
-use jred::machine::{Joint, Marker, MassProperties};
+use jred::Domain;
+use jred::error::Error;
+use jred::machine::{Joint, Link, Marker, MassProperties};
 use jred::mechanism::linkage::{Assembly, Linkage, Pair, Pose};
-use jred::{Domain, Error, Link};
 
 use crate::support::{O, pin};
 

@@ -8,18 +8,18 @@ use jred::axis::{Encoder, Mounting};
 use jred::number::{Number, Quantity};
 use jred::table::Format;
 use jred::{
-    Cubic, Image, Model, Phase, Q15, Q31, Quadratic, Rows16, Set, SliderCrankForm, Spline,
+    Cubic, CurveSet, Image, Model, Phase, Q15, Q31, Quadratic, Rows16, SliderCrankForm, Spline,
     Spline16, curves,
 };
 
 use crate::target::{Kernel, Point, each};
 
 /// Load, and constant friction of the drive link.
-const FULL: Set = curves::LOAD | curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB;
+const FULL: CurveSet = curves::LOAD | curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB;
 /// Only the inertia.
-const BARE: Set = curves::INERTIA;
+const BARE: CurveSet = curves::INERTIA;
 /// With a seed of 1/J instead of a division.
-const SEED: Set = curves::RECIPROCAL;
+const SEED: CurveSet = curves::RECIPROCAL;
 
 /// A function with this name, and with the number type, the layout and the curves of its model.
 macro_rules! kernels {
@@ -81,7 +81,7 @@ fn of<Q: Quantity>(number: Q::Number) -> Q {
 
 /// Calls a kernel over the model in the image.
 #[expect(clippy::type_complexity, reason = "a kernel is told by its type")]
-fn over<F: Format<Number: Word>, const SET: Set>(
+fn over<F: Format<Number: Word>, const SET: CurveSet>(
     image: &[u32],
     points: &mut [Point],
     kernel: fn(&Model<F, SET>, Phase, F::Number, F::Number) -> F::Number,

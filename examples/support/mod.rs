@@ -2,7 +2,12 @@
 
 use core::fmt;
 
-use jred::ImageError;
+use jred::axis::AxisError;
+use jred::axis::plan::PlanError;
+use jred::duty::LimitError;
+use jred::number::RangeError;
+use jred::table::TableError;
+use jred::{FirmwareError, ImageError};
 
 #[cfg(target_os = "none")]
 pub(crate) use cortex_m_semihosting::hprintln as println;
@@ -13,15 +18,28 @@ pub(crate) use std::println;
 
 /// Why an example fails.
 pub(crate) enum Failure {
-    /// The table image was refused.
-    Image(ImageError),
+    /// An image, a table, or a figure beside them was refused.
+    Firmware(FirmwareError),
     /// A claim of the example is false.
     Claim(&'static str),
 }
 
-impl From<ImageError> for Failure {
-    fn from(error: ImageError) -> Self {
-        Self::Image(error)
+macro_rules! failures {
+    ($($error:ty),*) => {
+        $(impl From<$error> for Failure {
+            fn from(error: $error) -> Self {
+                Self::Firmware(error.into())
+            }
+        })*
+    };
+}
+
+failures!(ImageError, TableError, AxisError, PlanError, LimitError);
+
+/// Of a move: without its figures, whose printing would need double precision.
+impl From<RangeError> for Failure {
+    fn from(_: RangeError) -> Self {
+        Self::Claim("a figure of the motion is out of range")
     }
 }
 
@@ -34,7 +52,7 @@ impl From<&'static str> for Failure {
 impl fmt::Display for Failure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Image(error) => error.fmt(f),
+            Self::Firmware(error) => error.fmt(f),
             Self::Claim(claim) => f.write_str(claim),
         }
     }

@@ -25,7 +25,7 @@ int main(void) {
         return 1;
     }
     printf("%lu cells, torque exact to %ld mN m\n", (unsigned long)info.cells, milli(info.torque_error));
-    printf("up to %ld mrad/s and %ld mrad/s2\n", milli(info.most_speed), milli(info.most_acceleration));
+    printf("up to %ld mrad/s and %ld mrad/s2\n", milli(info.max_speed), milli(info.max_acceleration));
 
     /* Every tick: a phase from the encoder's count, then one call. */
     printf("count   torque for 10 rad/s, 50 rad/s2   acceleration from 100 N m at 10 rad/s\n");

@@ -23,7 +23,7 @@ int main() {
         return 1;
     }
     std::printf("%lu cells, torque exact to %ld mN m\n", static_cast<unsigned long>(info.cells), milli(info.torque_error));
-    std::printf("up to %ld mrad/s and %ld mrad/s2\n", milli(info.most_speed), milli(info.most_acceleration));
+    std::printf("up to %ld mrad/s and %ld mrad/s2\n", milli(info.max_speed), milli(info.max_acceleration));
     std::printf("count   torque for 10 rad/s, 50 rad/s2   acceleration from 100 N m at 10 rad/s\n");
     for (int32_t count = 0; count < COUNTS; count += 256) {
         jred::Phase phase = encoder.phase(count);

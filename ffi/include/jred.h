@@ -83,12 +83,12 @@ uint32_t jred_phase_from_stroke(float position, float from, float to);
  *     if (jred_encoder_make(&encoder, &mounting) != JRED_OK) ...            once
  *     uint32_t phase = jred_encoder_phase(&encoder, count);                 in every tick
  *
- * phi/(2 pi) = +-(count - home)*gear[1]/(counts_per_turn*gear[0]), less than 2^-32 of a turn off at every count of 32 and of 64 bits. */
+ * phi/(2 pi) = +-(count - homing_offset)*gear[1]/(counts_per_turn*gear[0]), less than 2^-32 of a turn off at every count of 32 and of 64 bits. */
 typedef struct {
     uint32_t counts_per_turn; /* counts of one turn of the encoder's shaft; in quadrature four times its lines */
     uint32_t gear[2];         /* turns of that shaft, and the turns of the drive link that they make: {1, 1} on its own shaft */
     bool counts_down;         /* while phi grows */
-    int64_t home;             /* the count at phi = 0 */
+    int64_t homing_offset;    /* the count at phi = 0 */
 } jred_mounting;
 
 typedef struct {
@@ -134,12 +134,12 @@ jred_status jred_encoder_make(jred_encoder *encoder, const jred_mounting *mounti
      (((JRED_TURNED_(per, link, home) << 32) % (per)) << 32) / (per))
 #define JRED_START_(home, down) (((down) ? (home) : 0u - (home)) + 0x80000000u)
 
-/* A drive link that has a stroke: s = at_home + (count - home)*resolution. */
+/* A drive link that has a stroke: s = home_position + (count - homing_offset)*resolution. */
 typedef struct {
     double resolution; /* m a count, or rad; negative if it counts down while the position grows */
-    int64_t home;      /* the count at the position at_home */
-    double at_home;    /* m, or rad */
-} jred_scaled;
+    int64_t homing_offset; /* the count at the position home_position */
+    double home_position;    /* m, or rad */
+} jred_stroke_mounting;
 
 typedef struct {
     int64_t step;
@@ -153,7 +153,7 @@ typedef struct {
 
 /* Of the stroke in jred_info. JRED_FIGURE: a stroke of less than 16 or more than 2^53 counts, home 100,000 strokes away, NaN: then
  * every count is limited. One that was never made (zeros) gives phase 0. */
-jred_status jred_stroke_encoder_make(jred_stroke_encoder *encoder, float from, float to, const jred_scaled *scaled);
+jred_status jred_stroke_encoder_make(jred_stroke_encoder *encoder, float from, float to, const jred_stroke_mounting *scaled);
 
 /* A phase of a stroke; limited to its ends, and whether it was. */
 typedef struct {
@@ -244,8 +244,8 @@ typedef struct {
     float speed_base;        /* rad/s */
     float inertia_base;      /* kg m^2 */
     float acceleration_base; /* rad/s^2 */
-    float most_speed;        /* the table was made up to this speed (rad/s) */
-    float most_acceleration; /* and this acceleration (rad/s^2) */
+    float max_speed;        /* the table was made up to this speed (rad/s) */
+    float max_acceleration; /* and this acceleration (rad/s^2) */
     float torque_error;      /* the largest error of the torque within them (N m) */
     uint32_t machine;        /* identifier of the machine; 0 if it has none */
 } jred_info;
@@ -292,12 +292,12 @@ typedef struct {
  *
  *     jred_status press_load_words(press_model *, const uint32_t *words, size_t length);
  *     number      press_torque(const press_model *, uint32_t phase, number omega, number alpha);
- *     number      press_torque_with(const press_model *, uint32_t phase, number omega, number alpha, sliding);
- *     checked     press_checked(const press_model *, const motion_range *, uint32_t phase, number omega, number alpha, sliding);
+ *     number      press_torque_with(const press_model *, uint32_t phase, number omega, number alpha, friction);
+ *     checked     press_checked(const press_model *, const motion_range *, uint32_t phase, number omega, number alpha, friction);
  *     number      press_acceleration(const press_model *, uint32_t phase, number omega, number torque);
  *     range       press_acceleration_range(const press_model *, uint32_t phase, number omega, number least, number greatest);
  *
- * where number is float, int32_t or int16_t, as the format ends in f32, q31 or q15, and the others jred_f32_range, jred_f32_sliding, ...:
+ * where number is float, int32_t or int16_t, as the format ends in f32, q31 or q15, and the others jred_f32_range, jred_f32_friction_sign, ...:
  * see below. Of a number that is NaN or infinite, the torque or the acceleration is NaN or infinite; press_checked says so and gives a torque
  * that is neither. The words must live and stay the same as long as
  * the model is ticked. A tick of
@@ -339,39 +339,39 @@ JRED_RANGE_(f32)
 JRED_RANGE_(q31)
 JRED_RANGE_(q15)
 
-/* What Coulomb friction is against: all of c against the sign of a speed, or a share of c from -1 to 1. press_torque has the sign of its
+/* The sign of Coulomb friction: all of c with the sign of a speed, or a share of c from -1 to 1. press_torque has the sign of its
  * own omega, which chatters at standstill if it is measured: take that of the set-point. */
-#define JRED_SLIDING_(n)                                             \
-    typedef struct {                                                 \
-        jred_##n number;                                             \
-        bool is_share;                                               \
-    } jred_##n##_sliding;                                            \
-    static inline jred_##n##_sliding jred_##n##_against(jred_##n omega) { \
-        jred_##n##_sliding sliding = {omega, false};                 \
-        return sliding;                                              \
-    }                                                                \
-    static inline jred_##n##_sliding jred_##n##_share(jred_##n share) { \
-        jred_##n##_sliding sliding = {share, true};                  \
-        return sliding;                                              \
+#define JRED_FRICTION_SIGN_(n)                                                            \
+    typedef struct {                                                                      \
+        jred_##n number;                                                                  \
+        bool is_share;                                                                    \
+    } jred_##n##_friction_sign;                                                           \
+    static inline jred_##n##_friction_sign jred_##n##_friction_of_speed(jred_##n omega) { \
+        jred_##n##_friction_sign friction = {omega, false};                               \
+        return friction;                                                                  \
+    }                                                                                     \
+    static inline jred_##n##_friction_sign jred_##n##_friction_scaled(jred_##n share) {   \
+        jred_##n##_friction_sign friction = {share, true};                                \
+        return friction;                                                                  \
     }
-JRED_SLIDING_(f32)
-JRED_SLIDING_(q31)
-JRED_SLIDING_(q15)
+JRED_FRICTION_SIGN_(f32)
+JRED_FRICTION_SIGN_(q31)
+JRED_FRICTION_SIGN_(q15)
 
 /* The greatest speed and acceleration that a table was made for, and a hundredth more, in the numbers of its model: made once of jred_info.
  * press_checked gives the torque, and whether the motion is beyond; NaN and infinity are, and in fixed point a number that was limited to
- * its range. speed_beyond is of omega and of what friction is against. What is beyond gets the torque of the nearest motion that the table
+ * its range. speed_beyond is of omega and of the friction. What is beyond gets the torque of the nearest motion that the table
  * was made for, so that the weight of an axis stays held. The bits are those of jred::axis::FeedForward::at_reference. */
 #define JRED_MOTION_RANGE_(n)                                                                                      \
     typedef struct {                                                                                               \
-        jred_##n omega;                                                                                            \
-        jred_##n alpha;                                                                                            \
+        jred_##n max_speed;                                                                                        \
+        jred_##n max_acceleration;                                                                                 \
     } jred_##n##_motion_range;                                                                                     \
     typedef struct {                                                                                               \
         jred_##n torque;                                                                                           \
         bool speed_beyond;                                                                                         \
         bool acceleration_beyond;                                                                                  \
-    } jred_##n##_checked;                                                                                          \
+    } jred_##n##_checked_torque;                                                                                   \
     jred_status jred_##n##_motion_range_of(const jred_info *info, jred_##n##_motion_range *range);                 \
     static inline jred_##n jred_##n##_within_(jred_##n x, jred_##n most) {                                         \
         return x > most ? most : x >= -most ? x : x < -most ? (jred_##n)-most : 0;                                 \
@@ -393,20 +393,20 @@ static inline jred_q15 jred_q15_to_share_(jred_q15 share) { return share; }
 /* A motion that `jred fastest --plan` or `jred retime --plan` wrote, followed tick by tick at its own pace or slower. Of a machine that
  * JRED_MODEL has declared,
  *
- *     jred_status press_follow(const press_model *, jred_f32_follower *, const uint32_t *plan, size_t length, float period, float ramp);
+ *     jred_status press_follow(const press_model *, jred_f32_plan_follower *, const uint32_t *plan, size_t length, float period, float ramp);
  *
  * checks the plan and makes a follower that waits at its start: `period` is the time of a tick, `ramp` that of a change of the rate from 0 to 100 % (s). The
  * plan's words must live and stay the same as long as the follower is ticked; the model need not. With n of the model's format:
  *
- *     void        jred_n_follower_start(jred_n_follower *);      begins with the next tick, after the end once more from the start
- *     void        jred_n_follower_reset(jred_n_follower *);      back to the start, where it waits
- *     jred_status jred_n_follower_repeat(jred_n_follower *);     from now on again and again, if the plan ends as it begins
- *     jred_stage  jred_n_follower_next(jred_n_follower *, uint32_t percent, jred_n_planned *);       in every tick, with the rate wanted
- *     jred_status jred_n_follower_plan(jred_n_follower *, jred_plan *);                              what the plan says of itself
+ *     void        jred_n_plan_follower_start(jred_n_plan_follower *);      begins with the next tick, after the end once more from the start
+ *     void        jred_n_plan_follower_reset(jred_n_plan_follower *);      back to the start, where it waits
+ *     jred_status jred_n_plan_follower_repeat(jred_n_plan_follower *);     from now on again and again, if the plan ends as it begins
+ *     jred_plan_state  jred_n_plan_follower_next(jred_n_plan_follower *, uint32_t percent, jred_n_set_point *);       in every tick, with the rate wanted
+ *     jred_status jred_n_plan_follower_plan(jred_n_plan_follower *, jred_plan *);                              what the plan says of itself
  *
- * A null pointer, or zeros, is no follower: its set-point is 0, which no drive should go to, and its stage JRED_NO_FOLLOWER.
+ * A null pointer, or zeros, is no follower: its set-point is 0, which no drive should go to, and its state JRED_NO_FOLLOWER.
  */
-typedef int32_t jred_stage;
+typedef int32_t jred_plan_state;
 enum {
     JRED_NO_FOLLOWER = -1,
     JRED_WAITING = 0, /* not started: at the start */
@@ -418,35 +418,35 @@ enum {
 typedef struct {
     uint32_t rows;
     float duration;           /* s */
-    float most_speed;         /* rad/s, or m/s */
-    float most_acceleration;  /* rad/s^2, or m/s^2 */
+    float max_speed;         /* rad/s, or m/s */
+    float max_acceleration;  /* rad/s^2, or m/s^2 */
     float position_error;     /* what the plan is off by at most, beside the motion that it was made of */
     float speed_error;
     float acceleration_error;
     uint32_t machine;         /* identifier of the machine; 0 if it has none: compare it with that of jred_info */
 } jred_plan;
 
-#define JRED_FOLLOWER_WORDS 28
-#define JRED_FOLLOWER_(n)                                                                                                  \
+#define JRED_PLAN_FOLLOWER_WORDS 28
+#define JRED_PLAN_FOLLOWER_(n)                                                                                             \
     typedef struct {                                                                                                       \
         uint64_t tag; /* 0: no follower */                                                                                 \
-        uint64_t opaque[JRED_FOLLOWER_WORDS];                                                                              \
-    } jred_##n##_follower;                                                                                                 \
+        uint64_t opaque[JRED_PLAN_FOLLOWER_WORDS];                                                                         \
+    } jred_##n##_plan_follower;                                                                                            \
     typedef struct {                                                                                                       \
         uint32_t phase;                                                                                                    \
         int32_t turns; /* whole turns since phi = 0; 0 on a stroke */                                                      \
         jred_##n omega;                                                                                                    \
         jred_##n alpha;                                                                                                    \
         bool limited; /* in fixed point the acceleration is beyond its base, with that of a change of the rate */          \
-    } jred_##n##_planned;                                                                                                  \
-    void jred_##n##_follower_start(jred_##n##_follower *follower);                                                         \
-    void jred_##n##_follower_reset(jred_##n##_follower *follower);                                                         \
-    jred_status jred_##n##_follower_repeat(jred_##n##_follower *follower);                                                 \
-    jred_stage jred_##n##_follower_next(jred_##n##_follower *follower, uint32_t percent, jred_##n##_planned *planned);     \
-    jred_status jred_##n##_follower_plan(jred_##n##_follower *follower, jred_plan *plan);
-JRED_FOLLOWER_(f32)
-JRED_FOLLOWER_(q31)
-JRED_FOLLOWER_(q15)
+    } jred_##n##_set_point;                                                                                                \
+    void jred_##n##_plan_follower_start(jred_##n##_plan_follower *follower);                                               \
+    void jred_##n##_plan_follower_reset(jred_##n##_plan_follower *follower);                                               \
+    jred_status jred_##n##_plan_follower_repeat(jred_##n##_plan_follower *follower);                                       \
+    jred_plan_state jred_##n##_plan_follower_next(jred_##n##_plan_follower *follower, uint32_t percent, jred_##n##_set_point *planned); \
+    jred_status jred_##n##_plan_follower_plan(jred_##n##_plan_follower *follower, jred_plan *plan);
+JRED_PLAN_FOLLOWER_(f32)
+JRED_PLAN_FOLLOWER_(q31)
+JRED_PLAN_FOLLOWER_(q15)
 
 #ifdef __cplusplus
 }
@@ -463,7 +463,7 @@ JRED_FOLLOWER_(q15)
                                                                        jred_##n omega, jred_##n torque);                      \
     JRED_C_ void jred_##format##_##family##_acceleration_range(const jred_memory *memory, uint32_t phase, jred_##n omega,     \
                                                                jred_##n least, jred_##n greatest, jred_##n##_range *range);   \
-    JRED_C_ jred_status jred_##format##_follow(const jred_memory *memory, jred_##n##_follower *follower, const uint32_t *plan, \
+    JRED_C_ jred_status jred_##format##_follow(const jred_memory *memory, jred_##n##_plan_follower *follower, const uint32_t *plan, \
                                                size_t length, float period, float ramp);                                      \
     typedef struct {                                                                                                          \
         jred_memory memory;                                                                                                   \
@@ -471,7 +471,7 @@ JRED_FOLLOWER_(q15)
     static inline jred_status name##_load_words(name##_model *model, const uint32_t *words, size_t length) {                  \
         return jred_##format##_load((jred_memory *)model, set, words, length);                                                \
     }                                                                                                                         \
-    static inline jred_status name##_follow(const name##_model *model, jred_##n##_follower *follower, const uint32_t *plan,    \
+    static inline jred_status name##_follow(const name##_model *model, jred_##n##_plan_follower *follower, const uint32_t *plan, \
                                             size_t length, float period, float ramp) {                                        \
         return jred_##format##_follow((const jred_memory *)model, follower, plan, length, period, ramp);                      \
     }                                                                                                                         \
@@ -479,32 +479,32 @@ JRED_FOLLOWER_(q15)
         return JRED_IS_LOADED_(model, set) ? jred_##format##_##family##_torque(&model->memory, phase, omega, alpha) : 0;      \
     }                                                                                                                         \
     static inline jred_##n name##_torque_with(const name##_model *model, uint32_t phase, jred_##n omega, jred_##n alpha,      \
-                                              jred_##n##_sliding sliding) {                                                   \
+                                              jred_##n##_friction_sign friction) {                                            \
         return JRED_IS_LOADED_(model, set) ? jred_##format##_##family##_torque_with(&model->memory, phase, omega, alpha,      \
-                                                                                    sliding.number, sliding.is_share)         \
+                                                                                    friction.number, friction.is_share)       \
                                            : 0;                                                                               \
     }                                                                                                                         \
-    static inline jred_##n##_checked name##_checked(const name##_model *model, const jred_##n##_motion_range *range,          \
+    static inline jred_##n##_checked_torque name##_checked(const name##_model *model, const jred_##n##_motion_range *range,   \
                                                     uint32_t phase, jred_##n omega, jred_##n alpha,                           \
-                                                    jred_##n##_sliding sliding) {                                             \
-        jred_##n##_checked checked = {0, true, true};                                                                         \
+                                                    jred_##n##_friction_sign friction) {                                      \
+        jred_##n##_checked_torque checked = {0, true, true};                                                                  \
         if (!JRED_IS_LOADED_(model, set)) return checked;                                                                     \
-        checked.speed_beyond = jred_##n##_exceeds_(omega, range->omega) ||                                                    \
-                               (sliding.is_share ? jred_##n##_no_share_(sliding.number)                                       \
-                                                 : jred_##n##_exceeds_(sliding.number, range->omega));                        \
-        checked.acceleration_beyond = jred_##n##_exceeds_(alpha, range->alpha);                                               \
+        checked.speed_beyond = jred_##n##_exceeds_(omega, range->max_speed) ||                                                \
+                               (friction.is_share ? jred_##n##_no_share_(friction.number)                                     \
+                                                 : jred_##n##_exceeds_(friction.number, range->max_speed));                   \
+        checked.acceleration_beyond = jred_##n##_exceeds_(alpha, range->max_acceleration);                                    \
         if (checked.speed_beyond || checked.acceleration_beyond) {                                                            \
-            omega = jred_##n##_within_(omega, range->omega);                                                                  \
-            alpha = jred_##n##_within_(alpha, range->alpha);                                                                  \
-            sliding.number = sliding.is_share ? jred_##n##_to_share_(sliding.number)                                          \
-                                              : jred_##n##_within_(sliding.number, range->omega);                             \
+            omega = jred_##n##_within_(omega, range->max_speed);                                                              \
+            alpha = jred_##n##_within_(alpha, range->max_acceleration);                                                       \
+            friction.number = friction.is_share ? jred_##n##_to_share_(friction.number)                                       \
+                                              : jred_##n##_within_(friction.number, range->max_speed);                        \
         }                                                                                                                     \
-        checked.torque = name##_torque_with(model, phase, omega, alpha, sliding);                                             \
+        checked.torque = name##_torque_with(model, phase, omega, alpha, friction);                                            \
         return checked;                                                                                                       \
     }                                                                                                                         \
     static inline jred_##n name##_acceleration(const name##_model *model, uint32_t phase, jred_##n omega,                     \
                                                          jred_##n torque) {                                                   \
-        return JRED_IS_LOADED_(model, set) ? jred_##format##_##family##_acceleration(&model->memory, phase, omega, torque) : 0;\
+        return JRED_IS_LOADED_(model, set) ? jred_##format##_##family##_acceleration(&model->memory, phase, omega, torque) : 0; \
     }                                                                                                                         \
     static inline jred_##n##_range name##_acceleration_range(const name##_model *model, uint32_t phase, jred_##n omega,       \
                                                              jred_##n least, jred_##n greatest) {                             \

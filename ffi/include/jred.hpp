@@ -43,7 +43,7 @@ struct Place {
 class StrokeEncoder {
 public:
     StrokeEncoder() : encoder_() {}
-    jred_status make(float from, float to, const jred_scaled &scaled) { return jred_stroke_encoder_make(&encoder_, from, to, &scaled); }
+    jred_status make(float from, float to, const jred_stroke_mounting &scaled) { return jred_stroke_encoder_make(&encoder_, from, to, &scaled); }
     Place phase(int32_t count) const { return of(jred_stroke_encoder_phase(&encoder_, count)); }
     Place phase_wide(int64_t count) const { return of(jred_stroke_encoder_phase_wide(&encoder_, count)); }
 
@@ -65,27 +65,27 @@ private:
 };
 
 /// Follows a plan, of a model with this number: jred_f32, jred_q31 or jred_q15. `Class::follow` makes it.
-template <typename Number> class Follower;
+template <typename Number> class PlanFollower;
 
-#define JRED_FOLLOWER_CLASS_(n)                                                                                        \
-    template <> class Follower<jred_##n> {                                                                             \
-    public:                                                                                                            \
-        typedef jred_##n##_planned Planned;                                                                            \
-        Follower() : follower_() {}                                                                                    \
-        void start() { jred_##n##_follower_start(&follower_); }                                                        \
-        void reset() { jred_##n##_follower_reset(&follower_); }                                                        \
-        jred_status repeat() { return jred_##n##_follower_repeat(&follower_); }                                        \
-        jred_stage next(uint32_t percent, Planned &planned) { return jred_##n##_follower_next(&follower_, percent, &planned); } \
-        jred_status plan(jred_plan &plan) { return jred_##n##_follower_plan(&follower_, &plan); }                      \
-        jred_##n##_follower *c() { return &follower_; }                                                                \
-                                                                                                                       \
-    private:                                                                                                           \
-        jred_##n##_follower follower_;                                                                                 \
+#define JRED_PLAN_FOLLOWER_CLASS_(n)                                                                                        \
+    template <> class PlanFollower<jred_##n> {                                                                              \
+    public:                                                                                                                 \
+        typedef jred_##n##_set_point SetPoint;                                                                              \
+        PlanFollower() : follower_() {}                                                                                     \
+        void start() { jred_##n##_plan_follower_start(&follower_); }                                                        \
+        void reset() { jred_##n##_plan_follower_reset(&follower_); }                                                        \
+        jred_status repeat() { return jred_##n##_plan_follower_repeat(&follower_); }                                        \
+        jred_plan_state next(uint32_t percent, SetPoint &planned) { return jred_##n##_plan_follower_next(&follower_, percent, &planned); } \
+        jred_status plan(jred_plan &plan) { return jred_##n##_plan_follower_plan(&follower_, &plan); }                      \
+        jred_##n##_plan_follower *c() { return &follower_; }                                                                \
+                                                                                                                            \
+    private:                                                                                                                \
+        jred_##n##_plan_follower follower_;                                                                                 \
     };
-JRED_FOLLOWER_CLASS_(f32)
-JRED_FOLLOWER_CLASS_(q31)
-JRED_FOLLOWER_CLASS_(q15)
-#undef JRED_FOLLOWER_CLASS_
+JRED_PLAN_FOLLOWER_CLASS_(f32)
+JRED_PLAN_FOLLOWER_CLASS_(q31)
+JRED_PLAN_FOLLOWER_CLASS_(q15)
+#undef JRED_PLAN_FOLLOWER_CLASS_
 
 inline const char *name(jred_status status) { return jred_status_name(status); }
 
@@ -93,41 +93,41 @@ inline const char *name(jred_status status) { return jred_status_name(status); }
 
 /// The class `Class` of a machine that JRED_MODEL or JRED_ANY_MODEL has declared: JRED_CLASS(Press, press, f32).
 /// Its numbers are those of the format: f32, q31 or q15.
-#define JRED_CLASS(Class, machine, n)                                                                                 \
-    class Class {                                                                                                     \
-    public:                                                                                                           \
-        typedef jred_##n Number;                                                                                      \
-        typedef jred_##n##_range Range;                                                                               \
-        typedef jred_##n##_sliding Sliding;                                                                           \
-        typedef jred_##n##_checked Checked;                                                                           \
-        Class() : model_() {}                                                                                         \
-        jred_status load(const uint32_t *words, size_t length) { return machine##_load_words(&model_, words, length); } \
-        template <size_t N> jred_status load(const uint32_t (&words)[N]) { return load(words, N); }                   \
-        Number torque(jred::Phase phase, Number omega, Number alpha) const {                                          \
-            return machine##_torque(&model_, phase.bits(), omega, alpha);                                             \
-        }                                                                                                             \
-        Number torque(jred::Phase phase, Number omega, Number alpha, Sliding sliding) const {                         \
-            return machine##_torque_with(&model_, phase.bits(), omega, alpha, sliding);                               \
-        }                                                                                                             \
-        Checked checked(const jred_##n##_motion_range &range, jred::Phase phase, Number omega, Number alpha, Sliding sliding) const { \
-            return machine##_checked(&model_, &range, phase.bits(), omega, alpha, sliding);                           \
-        }                                                                                                             \
-        Number acceleration(jred::Phase phase, Number omega, Number torque) const {                                   \
-            return machine##_acceleration(&model_, phase.bits(), omega, torque);                                      \
-        }                                                                                                             \
-        jred_status follow(jred::Follower<Number> &follower, const uint32_t *plan, size_t length, float period, float ramp) const { \
-            return machine##_follow(&model_, follower.c(), plan, length, period, ramp);                               \
-        }                                                                                                             \
-        template <size_t N>                                                                                           \
-        jred_status follow(jred::Follower<Number> &follower, const uint32_t (&plan)[N], float period, float ramp) const { \
-            return follow(follower, plan, N, period, ramp);                                                           \
-        }                                                                                                             \
-        Range acceleration_range(jred::Phase phase, Number omega, Number least, Number greatest) const {              \
-            return machine##_acceleration_range(&model_, phase.bits(), omega, least, greatest);                       \
-        }                                                                                                             \
-                                                                                                                      \
-    private:                                                                                                          \
-        machine##_model model_;                                                                                       \
+#define JRED_CLASS(Class, machine, n)                                                                                         \
+    class Class {                                                                                                             \
+    public:                                                                                                                   \
+        typedef jred_##n Number;                                                                                              \
+        typedef jred_##n##_range Range;                                                                                       \
+        typedef jred_##n##_friction_sign FrictionSign;                                                                        \
+        typedef jred_##n##_checked_torque CheckedTorque;                                                                      \
+        Class() : model_() {}                                                                                                 \
+        jred_status load(const uint32_t *words, size_t length) { return machine##_load_words(&model_, words, length); }       \
+        template <size_t N> jred_status load(const uint32_t (&words)[N]) { return load(words, N); }                           \
+        Number torque(jred::Phase phase, Number omega, Number alpha) const {                                                  \
+            return machine##_torque(&model_, phase.bits(), omega, alpha);                                                     \
+        }                                                                                                                     \
+        Number torque(jred::Phase phase, Number omega, Number alpha, FrictionSign friction) const {                           \
+            return machine##_torque_with(&model_, phase.bits(), omega, alpha, friction);                                      \
+        }                                                                                                                     \
+        CheckedTorque checked(const jred_##n##_motion_range &range, jred::Phase phase, Number omega, Number alpha, FrictionSign friction) const { \
+            return machine##_checked(&model_, &range, phase.bits(), omega, alpha, friction);                                  \
+        }                                                                                                                     \
+        Number acceleration(jred::Phase phase, Number omega, Number torque) const {                                           \
+            return machine##_acceleration(&model_, phase.bits(), omega, torque);                                              \
+        }                                                                                                                     \
+        jred_status follow(jred::PlanFollower<Number> &follower, const uint32_t *plan, size_t length, float period, float ramp) const { \
+            return machine##_follow(&model_, follower.c(), plan, length, period, ramp);                                       \
+        }                                                                                                                     \
+        template <size_t N>                                                                                                   \
+        jred_status follow(jred::PlanFollower<Number> &follower, const uint32_t (&plan)[N], float period, float ramp) const { \
+            return follow(follower, plan, N, period, ramp);                                                                   \
+        }                                                                                                                     \
+        Range acceleration_range(jred::Phase phase, Number omega, Number least, Number greatest) const {                      \
+            return machine##_acceleration_range(&model_, phase.bits(), omega, least, greatest);                               \
+        }                                                                                                                     \
+                                                                                                                              \
+    private:                                                                                                                  \
+        machine##_model model_;                                                                                               \
     }
 
 #endif

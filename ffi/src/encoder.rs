@@ -3,7 +3,7 @@
 use core::mem::MaybeUninit;
 
 use jred::Domain;
-use jred::axis::{AxisError, Counting, Encoder, Mounting, Scaled, StrokeEncoder};
+use jred::axis::{AxisError, Counting, Encoder, Mounting, StrokeEncoder, StrokeMounting};
 
 use crate::status::Status;
 
@@ -15,7 +15,7 @@ pub(crate) struct CMounting {
     pub(crate) gear: [u32; 2],
     /// A `bool` of C, with any value.
     pub(crate) counts_down: u8,
-    pub(crate) home: i64,
+    pub(crate) homing_offset: i64,
 }
 
 impl From<CMounting> for Mounting {
@@ -28,7 +28,7 @@ impl From<CMounting> for Mounting {
             } else {
                 Counting::Down
             },
-            home: mounting.home,
+            homing_offset: mounting.homing_offset,
         }
     }
 }
@@ -69,7 +69,7 @@ pub(crate) extern "C" fn jred_stroke_encoder_make(
     encoder: Option<&mut MaybeUninit<StrokeEncoder>>,
     from: f32,
     to: f32,
-    scaled: Option<&Scaled>,
+    scaled: Option<&StrokeMounting>,
 ) -> Status {
     let (Some(encoder), Some(scaled)) = (encoder, scaled) else {
         return Status::Null;

@@ -1,6 +1,8 @@
 //! The models with functions: every format with every possible set of curves.
 
-use jred::{Cubic, Harmonic, Q15, Q31, Quadratic, Rows16, Set, SliderCrankForm, Spline, Spline16};
+use jred::{
+    Cubic, CurveSet, Harmonic, Q15, Q31, Quadratic, Rows16, SliderCrankForm, Spline, Spline16,
+};
 
 use crate::follower::Follow;
 use crate::memory::Memory;
@@ -16,7 +18,7 @@ macro_rules! family {
             #[unsafe(export_name = concat!("jred_", $name, "_load"))]
             unsafe extern "C" fn load(
                 memory: Option<&mut Memory<$format>>,
-                set: Set,
+                set: CurveSet,
                 words: *const u32,
                 length: usize,
             ) -> Status {

@@ -3,15 +3,15 @@
 use core::mem::MaybeUninit;
 
 use jred::axis::plan::{Errors, PlanError};
-use jred::axis::{Follower, Plan, Planned, Rate, Stage};
+use jred::axis::{MachineUnits, Override, Plan, PlanFollower, PlanState, SetPoint};
 use jred::number::Number;
-use jred::{MachineUnits, Q15, Q31};
+use jred::{Q15, Q31};
 
 use crate::memory::words;
 use crate::number::{CNumber, to_c};
 use crate::status::Status;
 
-/// 64-bit words of memory for a follower, as `JRED_FOLLOWER_WORDS` of `jred.h`.
+/// 64-bit words of memory for a follower, as `JRED_PLAN_FOLLOWER_WORDS` of `jred.h`.
 pub(crate) const WORDS: usize = 28;
 
 /// A follower; zeros contain no follower.
@@ -19,7 +19,7 @@ pub(crate) const WORDS: usize = 28;
 pub(crate) struct Follow<N: Number> {
     /// 1; 0 without a follower.
     tag: u64,
-    follower: MaybeUninit<Follower<'static, N>>,
+    follower: MaybeUninit<PlanFollower<'static, N>>,
 }
 
 impl<N: Number> Follow<N> {
@@ -47,11 +47,11 @@ impl<N: Number> Follow<N> {
             Err(status) => return status,
         };
         let made =
-            Plan::new(words, model).and_then(|plan| Follower::new(plan, period, ramp, model));
+            Plan::new(words, model).and_then(|plan| PlanFollower::new(plan, period, ramp, model));
         self.keep(made)
     }
 
-    fn keep(&mut self, made: Result<Follower<'static, N>, PlanError>) -> Status {
+    fn keep(&mut self, made: Result<PlanFollower<'static, N>, PlanError>) -> Status {
         match made {
             Ok(follower) => {
                 self.follower.write(follower);
@@ -62,16 +62,16 @@ impl<N: Number> Follow<N> {
         }
     }
 
-    fn get(&mut self) -> Option<&mut Follower<'static, N>> {
+    fn get(&mut self) -> Option<&mut PlanFollower<'static, N>> {
         // SAFETY: zeros or written by `follow`; the tag shows that there is a follower.
         (self.tag == 1).then(|| unsafe { self.follower.assume_init_mut() })
     }
 }
 
-/// `jred_stage` in C.
+/// `jred_plan_state` in C.
 #[repr(i32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum CStage {
+pub(crate) enum CPlanState {
     NoFollower = -1,
     Waiting = 0,
     Running = 1,
@@ -79,21 +79,21 @@ pub(crate) enum CStage {
     Done = 3,
 }
 
-impl From<Stage> for CStage {
-    fn from(stage: Stage) -> Self {
-        match stage {
-            Stage::Waiting => Self::Waiting,
-            Stage::Running => Self::Running,
-            Stage::Held => Self::Held,
-            Stage::Done => Self::Done,
+impl From<PlanState> for CPlanState {
+    fn from(state: PlanState) -> Self {
+        match state {
+            PlanState::Waiting => Self::Waiting,
+            PlanState::Running => Self::Running,
+            PlanState::Held => Self::Held,
+            PlanState::Done => Self::Done,
         }
     }
 }
 
-/// `jred_…_planned` in C.
+/// `jred_…_set_point` in C.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(crate) struct CPlanned<C> {
+pub(crate) struct CSetPoint<C> {
     pub(crate) phase: u32,
     pub(crate) turns: i32,
     pub(crate) omega: C,
@@ -107,8 +107,8 @@ pub(crate) struct CPlanned<C> {
 pub(crate) struct CPlan {
     rows: u32,
     duration: f32,
-    most_speed: f32,
-    most_acceleration: f32,
+    max_speed: f32,
+    max_acceleration: f32,
     position_error: f32,
     speed_error: f32,
     acceleration_error: f32,
@@ -117,7 +117,6 @@ pub(crate) struct CPlan {
 
 impl CPlan {
     pub(crate) fn of<N: Number>(plan: &Plan<'_, N>) -> Self {
-        let [most_speed, most_acceleration] = plan.most();
         let Errors {
             position,
             speed,
@@ -126,8 +125,8 @@ impl CPlan {
         Self {
             rows: plan.rows() as u32,
             duration: plan.duration(),
-            most_speed,
-            most_acceleration,
+            max_speed: plan.max_speed(),
+            max_acceleration: plan.max_acceleration(),
             position_error: position,
             speed_error: speed,
             acceleration_error: acceleration,
@@ -136,36 +135,36 @@ impl CPlan {
     }
 }
 
-/// The set-point of a tick, and its stage; 0 without a follower.
+/// The set-point of a tick, and its state; 0 without a follower.
 fn next<N: CNumber>(
     follow: Option<&mut Follow<N>>,
     percent: u32,
-    planned: Option<&mut MaybeUninit<CPlanned<N::C>>>,
-) -> CStage {
+    planned: Option<&mut MaybeUninit<CSetPoint<N::C>>>,
+) -> CPlanState {
     let found = follow.and_then(Follow::get);
-    let (stage, content) = match found {
+    let (state, content) = match found {
         Some(follower) => {
-            let Planned {
+            let SetPoint {
                 motion,
                 turns,
-                stage,
+                state,
                 limited,
-            } = follower.next(Rate::percent(percent));
-            let content = CPlanned {
+            } = follower.next(Override::percent(percent));
+            let content = CSetPoint {
                 phase: motion.phase.to_bits(),
                 turns,
                 omega: to_c(motion.omega),
                 alpha: to_c(motion.alpha),
                 limited,
             };
-            (stage.into(), content)
+            (state.into(), content)
         }
-        None => (CStage::NoFollower, CPlanned::default()),
+        None => (CPlanState::NoFollower, CSetPoint::default()),
     };
     if let Some(planned) = planned {
         planned.write(content);
     }
-    stage
+    state
 }
 
 fn repeat<N: Number>(follow: Option<&mut Follow<N>>) -> Status {
@@ -204,8 +203,8 @@ macro_rules! functions {
             extern "C" fn next(
                 follow: Option<&mut Follow<$number>>,
                 percent: u32,
-                planned: Option<&mut MaybeUninit<CPlanned<C>>>,
-            ) -> CStage {
+                planned: Option<&mut MaybeUninit<CSetPoint<C>>>,
+            ) -> CPlanState {
                 super::follower::next(follow, percent, planned)
             }
 
@@ -239,6 +238,6 @@ macro_rules! functions {
     };
 }
 
-functions!("jred_f32_follower", f32);
-functions!("jred_q31_follower", Q31);
-functions!("jred_q15_follower", Q15);
+functions!("jred_f32_plan_follower", f32);
+functions!("jred_q31_plan_follower", Q31);
+functions!("jred_q15_plan_follower", Q15);

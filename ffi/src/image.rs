@@ -2,8 +2,9 @@
 
 use core::mem::MaybeUninit;
 
+use jred::image::Validity;
 use jred::number::Bases;
-use jred::{Domain, Image, ImageError, Validity};
+use jred::{Domain, Image, ImageError};
 
 use crate::memory::words;
 use crate::status::Status;
@@ -22,8 +23,8 @@ pub(crate) struct Info {
     speed_base: f32,
     inertia_base: f32,
     acceleration_base: f32,
-    most_speed: f32,
-    most_acceleration: f32,
+    max_speed: f32,
+    max_acceleration: f32,
     torque_error: f32,
     machine: u32,
 }
@@ -39,8 +40,8 @@ impl Info {
 
     pub(crate) const fn validity(&self) -> Validity {
         Validity {
-            omega: self.most_speed,
-            alpha: self.most_acceleration,
+            max_speed: self.max_speed,
+            max_acceleration: self.max_acceleration,
             torque_error: self.torque_error,
         }
     }
@@ -62,8 +63,8 @@ impl Info {
             speed_base: scale.speed(),
             inertia_base: scale.inertia(),
             acceleration_base: scale.acceleration(),
-            most_speed: validity.omega,
-            most_acceleration: validity.alpha,
+            max_speed: validity.max_speed,
+            max_acceleration: validity.max_acceleration,
             torque_error: validity.torque_error,
             machine: image.machine(),
         })

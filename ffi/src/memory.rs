@@ -3,8 +3,8 @@
 use core::mem::MaybeUninit;
 use core::slice;
 
-use jred::table::Format;
-use jred::{AnyModel, Image, ImageError, Model, Set, TableError};
+use jred::table::{Format, TableError};
+use jred::{AnyModel, CurveSet, Image, ImageError, Model};
 
 use crate::status::Status;
 
@@ -15,7 +15,7 @@ pub(crate) const POINTERS: usize = 37;
 const MOST_WORDS: usize = 1 << 21;
 
 /// Any set of curves: `JRED_ANY` of `jred.h`. No image has this set.
-pub(crate) const ANY: Set = !0;
+pub(crate) const ANY: CurveSet = !0;
 
 /// The words of an image.
 ///
@@ -52,7 +52,12 @@ impl<F: Format> Memory<F> {
     ///
     /// # Safety
     /// As [`words`], as long as the model is ticked.
-    pub(crate) unsafe fn load(&mut self, set: Set, address: *const u32, length: usize) -> Status {
+    pub(crate) unsafe fn load(
+        &mut self,
+        set: CurveSet,
+        address: *const u32,
+        length: usize,
+    ) -> Status {
         let () = Self::FITS;
         self.tag = 0;
         // SAFETY: as promised by the caller.
@@ -62,7 +67,7 @@ impl<F: Format> Memory<F> {
         }
     }
 
-    fn fill(&mut self, set: Set, words: &'static [u32]) -> Result<(), ImageError> {
+    fn fill(&mut self, set: CurveSet, words: &'static [u32]) -> Result<(), ImageError> {
         let model = Image::new(words)?.any_model::<F>()?;
         let found = model.table().set();
         if set != found && set != ANY {
@@ -94,7 +99,7 @@ impl<F: Format> Memory<F> {
     /// # Safety
     /// There is a model, and it has this set.
     #[inline]
-    pub(crate) unsafe fn known<const SET: Set>(&self) -> &Model<'static, F, SET> {
+    pub(crate) unsafe fn known<const SET: CurveSet>(&self) -> &Model<'static, F, SET> {
         // SAFETY: as promised by the caller; a `Model` is transparent over an `AnyModel`, and has no other invariant than the table's set.
         unsafe { &*self.model.as_ptr().cast() }
     }

@@ -3,7 +3,7 @@
 use core::mem::MaybeUninit;
 
 use jred::axis::MotionRange;
-use jred::number::{Number, Quantity, Sliding};
+use jred::number::{FrictionSign, Number, Quantity};
 use jred::{Q15, Q31, Scale};
 
 use crate::image::Info;
@@ -69,13 +69,13 @@ pub(crate) fn to_c<Q: Quantity<Number: CNumber>>(quantity: Q) -> <Q::Number as C
     CNumber::c(quantity.number())
 }
 
-/// The motion that friction opposes: `jred_…_sliding` in C, member by member.
+/// The sign of Coulomb friction: `jred_…_friction_sign` in C, member by member.
 #[inline]
-pub(crate) fn sliding<N: CNumber>(number: N::C, is_share: bool) -> Sliding<N> {
+pub(crate) fn friction<N: CNumber>(number: N::C, is_share: bool) -> FrictionSign<N> {
     if is_share {
-        Sliding::Share(N::number(number))
+        FrictionSign::Scaled(N::number(number))
     } else {
-        Sliding::Against(of(number))
+        FrictionSign::OfSpeed(of(number))
     }
 }
 
@@ -92,8 +92,8 @@ pub(crate) struct Range<C> {
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct CMotionRange<C> {
-    pub(crate) omega: C,
-    pub(crate) alpha: C,
+    pub(crate) max_speed: C,
+    pub(crate) max_acceleration: C,
 }
 
 /// The motions that a table is valid for, in the numbers of its model; only rest if the bases are invalid.
@@ -113,8 +113,8 @@ fn motion_range<N: CNumber>(
     };
     let found = MotionRange::<N>::new(info.validity(), &scale);
     *range = CMotionRange {
-        omega: to_c(found.omega()),
-        alpha: to_c(found.alpha()),
+        max_speed: to_c(found.max_speed()),
+        max_acceleration: to_c(found.max_acceleration()),
     };
     Status::Ok
 }

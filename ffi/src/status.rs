@@ -2,8 +2,9 @@
 
 use core::ffi::{CStr, c_char};
 
+use jred::ImageError;
 use jred::axis::plan::PlanError;
-use jred::{ImageError, TableError};
+use jred::table::TableError;
 
 macro_rules! statuses {
     ($($(#[$doc:meta])* $variant:ident = $code:literal $name:literal,)*) => {

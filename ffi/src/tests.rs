@@ -1,6 +1,6 @@
 //! C sees the same as Rust.
 
-use jred::{Q31, Set, Spline, curves, include_image};
+use jred::{CurveSet, Q31, Spline, curves, include_image};
 
 use crate::memory::Memory;
 
@@ -12,16 +12,21 @@ mod sets;
 mod slider_crank;
 mod ticks;
 
-const PRESS: Set = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
+const PRESS: CurveSet = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
 
 type Press = Memory<Spline<f32>>;
 
 #[allow(improper_ctypes, reason = "C sees the memory of a model as bytes")]
 unsafe extern "C" {
-    fn jred_spline_f32_load(memory: *mut Press, set: Set, words: *const u32, length: usize) -> i32;
+    fn jred_spline_f32_load(
+        memory: *mut Press,
+        set: CurveSet,
+        words: *const u32,
+        length: usize,
+    ) -> i32;
     fn jred_spline_q31_load(
         memory: *mut Memory<Spline<Q31>>,
-        set: Set,
+        set: CurveSet,
         words: *const u32,
         length: usize,
     ) -> i32;

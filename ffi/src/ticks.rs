@@ -10,7 +10,7 @@ macro_rules! ticks {
             use jred::Phase;
 
             use $crate::memory::Memory;
-            use $crate::number::{CNumber, Range, of, sliding, to_c};
+            use $crate::number::{CNumber, Range, friction, of, to_c};
 
             type C = <$number as CNumber>::C;
 
@@ -37,9 +37,9 @@ macro_rules! ticks {
             ) -> C {
                 // SAFETY: as promised by the caller.
                 let model = unsafe { $model(memory) };
-                let sliding = sliding::<$number>(number, is_share);
+                let friction = friction::<$number>(number, is_share);
                 let phase = Phase::from_bits(phase);
-                to_c(model.torque_with(phase, of(omega), of(alpha), sliding))
+                to_c(model.torque_with(phase, of(omega), of(alpha), friction))
             }
 
             #[unsafe(export_name = concat!($prefix, "acceleration"))]

@@ -69,7 +69,7 @@ static void encoders(void) {
 
     /* 24 bits a turn of a screw of 10 mm: 800 mm are 80 turns. The register begins below 2^31 and passes it. */
     const int64_t home = 0x7fff0000, turn = (int64_t)1 << 24;
-    const jred_scaled scaled = {0.010 / 16777216.0, home, 0.0};
+    const jred_stroke_mounting scaled = {0.010 / 16777216.0, home, 0.0};
     jred_stroke_encoder stroke;
     EXPECT(jred_stroke_encoder_make(&stroke, 0.0f, 0.5f, &scaled), JRED_OK);
     for (int32_t k = 0; k <= 50; k++) {
@@ -96,26 +96,26 @@ static const float wrong[] = {NAN, -NAN, INFINITY, -INFINITY, 1e30f, -1e30f};
 static void set_points(const press_model *press, const jred_info *info) {
     jred_f32_motion_range range;
     EXPECT(jred_f32_motion_range_of(info, &range), JRED_OK);
-    CLAIM(range.omega > info->most_speed && range.omega < 1.011f * info->most_speed && range.alpha > info->most_acceleration);
+    CLAIM(range.max_speed > info->max_speed && range.max_speed < 1.011f * info->max_speed && range.max_acceleration > info->max_acceleration);
     const uint32_t phase = 0x20000000u;
     const float still = press_torque(press, phase, 0.0f, 0.0f);
-    jred_f32_checked checked = press_checked(press, &range, phase, 10.0f, 50.0f, jred_f32_against(10.0f));
+    jred_f32_checked_torque checked = press_checked(press, &range, phase, 10.0f, 50.0f, jred_f32_friction_of_speed(10.0f));
     CLAIM(!checked.speed_beyond && !checked.acceleration_beyond && checked.torque == press_torque(press, phase, 10.0f, 50.0f));
-    CLAIM(press_torque_with(press, phase, 10.0f, 50.0f, jred_f32_against(-1.0f)) == press_torque_with(press, phase, 10.0f, 50.0f, jred_f32_share(-1.0f)));
-    CLAIM(press_torque_with(press, phase, 10.0f, 50.0f, jred_f32_against(-1.0f)) < checked.torque);
+    CLAIM(press_torque_with(press, phase, 10.0f, 50.0f, jred_f32_friction_of_speed(-1.0f)) == press_torque_with(press, phase, 10.0f, 50.0f, jred_f32_friction_scaled(-1.0f)));
+    CLAIM(press_torque_with(press, phase, 10.0f, 50.0f, jred_f32_friction_of_speed(-1.0f)) < checked.torque);
     for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
         const float x = wrong[k], side = x > 0.0f ? 1.0f : x < 0.0f ? -1.0f : 0.0f;
-        checked = press_checked(press, &range, phase, x, 50.0f, jred_f32_against(10.0f));
+        checked = press_checked(press, &range, phase, x, 50.0f, jred_f32_friction_of_speed(10.0f));
         CLAIM(checked.speed_beyond && !checked.acceleration_beyond);
-        CLAIM(checked.torque == press_torque_with(press, phase, side * range.omega, 50.0f, jred_f32_against(10.0f)));
-        checked = press_checked(press, &range, phase, 10.0f, x, jred_f32_against(10.0f));
+        CLAIM(checked.torque == press_torque_with(press, phase, side * range.max_speed, 50.0f, jred_f32_friction_of_speed(10.0f)));
+        checked = press_checked(press, &range, phase, 10.0f, x, jred_f32_friction_of_speed(10.0f));
         CLAIM(!checked.speed_beyond && checked.acceleration_beyond);
-        CLAIM(checked.torque == press_torque_with(press, phase, 10.0f, side * range.alpha, jred_f32_against(10.0f)));
-        checked = press_checked(press, &range, phase, 0.0f, 0.0f, jred_f32_against(x));
-        CLAIM(checked.speed_beyond && checked.torque == press_torque_with(press, phase, 0.0f, 0.0f, jred_f32_against(side)));
-        checked = press_checked(press, &range, phase, 0.0f, 0.0f, jred_f32_share(x));
-        CLAIM(checked.speed_beyond && checked.torque == press_torque_with(press, phase, 0.0f, 0.0f, jred_f32_share(side)));
-        checked = press_checked(press, &range, phase, x, x, jred_f32_against(x));
+        CLAIM(checked.torque == press_torque_with(press, phase, 10.0f, side * range.max_acceleration, jred_f32_friction_of_speed(10.0f)));
+        checked = press_checked(press, &range, phase, 0.0f, 0.0f, jred_f32_friction_of_speed(x));
+        CLAIM(checked.speed_beyond && checked.torque == press_torque_with(press, phase, 0.0f, 0.0f, jred_f32_friction_of_speed(side)));
+        checked = press_checked(press, &range, phase, 0.0f, 0.0f, jred_f32_friction_scaled(x));
+        CLAIM(checked.speed_beyond && checked.torque == press_torque_with(press, phase, 0.0f, 0.0f, jred_f32_friction_scaled(side)));
+        checked = press_checked(press, &range, phase, x, x, jred_f32_friction_of_speed(x));
         CLAIM(checked.speed_beyond && checked.acceleration_beyond && (x == x || checked.torque == still));
         CLAIM(jred_phase_from_radians(x) == 0 && jred_phase_from_stroke(x, 0.0f, 1.0f) == (x > 0.0f ? UINT32_MAX : 0));
         /* A bare tick does not judge: NaN stays NaN, for who looks. */
@@ -178,7 +178,7 @@ int main(void) {
 
     EXPECT(jred_image_info(press_words, WORDS, &info), JRED_OK);
     CLAIM(info.set == 21 && info.cells == 86 && info.stroke == 0 && info.torque_base == 1.0f && info.acceleration_base == 1.0f);
-    CLAIM(info.most_speed > 29.45f && info.most_acceleration > 226.7f && info.torque_error < 0.78f);
+    CLAIM(info.max_speed > 29.45f && info.max_acceleration > 226.7f && info.torque_error < 0.78f);
     int32_t number;
     EXPECT(jred_q31_from_si(5.0f, 20.0f, &number), JRED_OK);
     CLAIM(number == 1 << 29 && jred_q31_to_si(number, 20.0f) == 5.0f);
@@ -189,20 +189,20 @@ int main(void) {
     CLAIM(half == 1 << 13 && jred_q15_to_si(half, 20.0f) == 5.0f);
     encoders();
     set_points(&press, &info);
-    const jred_f32_checked nothing = press_checked(&unloaded, &(jred_f32_motion_range){10.0f, 10.0f}, 0, 1.0f, 1.0f, jred_f32_against(1.0f));
+    const jred_f32_checked_torque nothing = press_checked(&unloaded, &(jred_f32_motion_range){10.0f, 10.0f}, 0, 1.0f, 1.0f, jred_f32_friction_of_speed(1.0f));
     CLAIM(nothing.torque == 0.0f && nothing.speed_beyond && nothing.acceleration_beyond);
-    CLAIM(fixed_checked(&fixed, &(jred_q31_motion_range){1 << 30, 1 << 30}, 0, INT32_MIN, INT32_MAX, jred_q31_share(INT32_MIN)).speed_beyond);
+    CLAIM(fixed_checked(&fixed, &(jred_q31_motion_range){1 << 30, 1 << 30}, 0, INT32_MIN, INT32_MAX, jred_q31_friction_scaled(INT32_MIN)).speed_beyond);
 
     /* What is no plan is not followed; no follower waits. */
-    static jred_f32_follower follower;
-    jred_f32_planned planned = {1, 1, 1.0f, 1.0f, true};
+    static jred_f32_plan_follower follower;
+    jred_f32_set_point planned = {1, 1, 1.0f, 1.0f, true};
     jred_plan plan;
     press_model none = {{0, {0}}};
-    CLAIM(jred_f32_follower_next(&follower, 100, &planned) == JRED_NO_FOLLOWER && planned.phase == 0 && planned.omega == 0.0f && !planned.limited);
-    CLAIM(jred_f32_follower_next(NULL, 100, NULL) == JRED_NO_FOLLOWER);
-    EXPECT(jred_f32_follower_repeat(NULL), JRED_NULL);
-    EXPECT(jred_f32_follower_repeat(&follower), JRED_NOT_LOADED);
-    EXPECT(jred_f32_follower_plan(&follower, &plan), JRED_NOT_LOADED);
+    CLAIM(jred_f32_plan_follower_next(&follower, 100, &planned) == JRED_NO_FOLLOWER && planned.phase == 0 && planned.omega == 0.0f && !planned.limited);
+    CLAIM(jred_f32_plan_follower_next(NULL, 100, NULL) == JRED_NO_FOLLOWER);
+    EXPECT(jred_f32_plan_follower_repeat(NULL), JRED_NULL);
+    EXPECT(jred_f32_plan_follower_repeat(&follower), JRED_NOT_LOADED);
+    EXPECT(jred_f32_plan_follower_plan(&follower, &plan), JRED_NOT_LOADED);
     EXPECT(press_follow(NULL, &follower, press_plan_words, PLAN_WORDS, 0.001f, 0.1f), JRED_NULL);
     EXPECT(press_follow(&press, NULL, press_plan_words, PLAN_WORDS, 0.001f, 0.1f), JRED_NULL);
     EXPECT(press_follow(&press, &follower, NULL, PLAN_WORDS, 0.001f, 0.1f), JRED_NULL);
@@ -212,13 +212,13 @@ int main(void) {
     EXPECT(press_follow(&press, &follower, press_plan_words, PLAN_WORDS, 0.0f, 0.1f), JRED_FIGURE);
     EXPECT(press_follow(&press, &follower, press_plan_words, PLAN_WORDS, 0.001f, -0.1f), JRED_FIGURE);
     EXPECT(press_follow(&press, &follower, press_plan_words, PLAN_WORDS, 0.001f, 0.1f), JRED_OK);
-    EXPECT(jred_f32_follower_plan(&follower, &plan), JRED_OK);
+    EXPECT(jred_f32_plan_follower_plan(&follower, &plan), JRED_OK);
     CLAIM(plan.rows == 10 && plan.machine == PRESS_PLAN_MACHINE && plan.machine == info.machine && plan.acceleration_error < 0.23f);
-    EXPECT(jred_f32_follower_repeat(&follower), JRED_OK);
-    jred_f32_follower_start(&follower);
-    for (int tick = 0; tick < 1000; tick++) CLAIM(jred_f32_follower_next(&follower, 100, &planned) == JRED_RUNNING);
-    jred_f32_follower_reset(&follower);
-    CLAIM(jred_f32_follower_next(&follower, 100, &planned) == JRED_WAITING && planned.phase == 0x80000000u);
+    EXPECT(jred_f32_plan_follower_repeat(&follower), JRED_OK);
+    jred_f32_plan_follower_start(&follower);
+    for (int tick = 0; tick < 1000; tick++) CLAIM(jred_f32_plan_follower_next(&follower, 100, &planned) == JRED_RUNNING);
+    jred_f32_plan_follower_reset(&follower);
+    CLAIM(jred_f32_plan_follower_next(&follower, 100, &planned) == JRED_WAITING && planned.phase == 0x80000000u);
     printf("%d failures\n", failures);
     return failures != 0;
 }

@@ -2,8 +2,8 @@
 
 use super::error::{positive, within};
 use super::{AxisError, Direction};
-use crate::curve::{AccelerationOf, Format, Set, SpeedOf};
-use crate::number::{Number, Quantity as _, Real as _, Sliding};
+use crate::curve::{AccelerationOf, CurveSet, Format, SpeedOf};
+use crate::number::{FrictionSign, Number, Quantity as _, Real as _};
 use crate::{Domain, Model, Phase};
 
 /// The drive's braking ability.
@@ -67,7 +67,7 @@ impl Way {
 
 /// Terms of the model for braking at a place, in units of the torque base.
 #[derive(Clone, Copy, Default)]
-struct Place {
+struct NodeTerms {
     /// J·α_b
     inertial: f32,
     /// T_brake + c − load
@@ -99,17 +99,17 @@ pub(super) struct Course<const NODES: usize> {
 pub(super) const ONE: f32 = 1_073_741_824.0;
 
 /// Terms of the model at a phase.
-fn place<F: Format, const SET: Set>(
+fn place<F: Format, const SET: CurveSet>(
     model: &Model<'_, F, SET>,
     way: Way,
     braking: &Braking,
     half: u32,
-) -> Result<Place, AxisError> {
+) -> Result<NodeTerms, AxisError> {
     let phase = way.node(half);
     // 1.0, the greatest number that a model takes in fixed point.
     let one = F::Number::per_unit(1.0, 1.0).value;
     let (omega, alpha) = (SpeedOf::<F>::of(one), AccelerationOf::<F>::of(one));
-    let terms = model.contributions(phase, omega, alpha, Sliding::Against(omega));
+    let terms = model.torque_terms(phase, omega, alpha, FrictionSign::OfSpeed(omega));
     let load = terms.load.to_si(1.0);
     let resistance = match way.direction {
         Direction::Forward => load,
@@ -120,8 +120,8 @@ fn place<F: Format, const SET: Set>(
     } else {
         resistance.min(0.0)
     };
-    let place = Place {
-        inertial: terms.inertial.to_si(1.0) / one.si(1.0),
+    let place = NodeTerms {
+        inertial: terms.acceleration.to_si(1.0) / one.si(1.0),
         braking: braking.torque / model.table().scale().torque() + helping,
     };
     if place.braking > 0.0 {
@@ -137,7 +137,7 @@ fn place<F: Format, const SET: Set>(
 }
 
 impl<const NODES: usize> Course<NODES> {
-    pub(super) fn new<F: Format, const SET: Set>(
+    pub(super) fn new<F: Format, const SET: CurveSet>(
         model: &Model<'_, F, SET>,
         direction: Direction,
         braking: Braking,
@@ -209,7 +209,7 @@ impl<const NODES: usize> Course<NODES> {
     /// A tick that begins just before a limit falls moves `tick` = ω_top·τ along it at full speed: then ω² is 2·a·ω_top·τ above the limit, and could
     /// not be reduced if the limit itself used all of a. The reserved share makes up for it by standstill: 2·a·(2·a·τ/ω_top)·s along the way s =
     /// ω_top²/(2·a).
-    pub(super) fn slow_down(&self, squares: &mut [u32; NODES], [top, tick]: [f32; 2]) {
+    pub(super) fn slow_down(&self, squares: &mut [u32; NODES], top: f32, tick: f32) {
         let gained = self.gained / top / top;
         let most = self.most / top / top;
         // 2·a·τ/ω_top, for a braking distance longer than a few ticks.

@@ -20,7 +20,7 @@ pub enum Counting {
 /// An encoder and its mounting: how a count relates to φ.
 ///
 /// ```text
-/// φ/2π = ±(count − home)/(counts_per_turn·gear)
+/// φ/2π = ±(count − homing_offset)/(counts_per_turn·gear)
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -32,7 +32,7 @@ pub struct Mounting {
     /// Counting direction.
     pub counting: Counting,
     /// The count at φ = 0.
-    pub home: i64,
+    pub homing_offset: i64,
 }
 
 impl Mounting {
@@ -43,7 +43,7 @@ impl Mounting {
             counts_per_turn,
             gear: [1, 1],
             counting: Counting::Up,
-            home: 0,
+            homing_offset: 0,
         }
     }
 }
@@ -57,7 +57,7 @@ impl Mounting {
 ///     counts_per_turn: 10_000,
 ///     gear: [17, 2],
 ///     counting: Counting::Down,
-///     home: 1234,
+///     homing_offset: 1234,
 /// }) {
 ///     Ok(encoder) => encoder,
 ///     Err(_) => panic!("the encoder's figures"),
@@ -102,7 +102,7 @@ impl Encoder {
             counts_per_turn,
             gear: [encoder, link],
             counting,
-            home,
+            homing_offset: home,
         } = mounting;
         // A count is link/per of a turn.
         let Some(per) = NonZeroU128::new(counts_per_turn as u128 * encoder as u128) else {

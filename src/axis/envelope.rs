@@ -2,8 +2,9 @@
 
 use super::error::{positive, within};
 use super::{AxisError, Gearbox};
+use crate::Outcome;
 use crate::number::{Factor, Number, Quantity};
-use crate::{MachineUnits, Outcome};
+use crate::tick::MachineUnits;
 
 /// Torque-speed envelope of a drive, in both directions: a curve that falls with the speed where it drives, a constant where it brakes.
 ///
@@ -20,7 +21,7 @@ use crate::{MachineUnits, Outcome};
 /// use jred::axis::Envelope;
 /// use jred::{Image, Model, Spline, curves, include_image};
 ///
-/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// # fn main() -> Result<(), jred::FirmwareError> {
 /// let image = Image::from_bytes(include_image!("../../examples/data/press_f32.jred"))?;
 /// let press: Model<Spline<f32>, { curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS }> = image.model()?;
 /// // 80 N·m up to 6 rad/s, 20 N·m at 12 rad/s; 60 N·m when it brakes.

@@ -48,9 +48,9 @@ pub enum AxisError {
 }
 
 /// A number for a message, with three decimals, written with integers.
-struct Shown(f32);
+struct Decimal(f32);
 
-impl fmt::Display for Shown {
+impl fmt::Display for Decimal {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let magnitude = self.0.abs();
         if self.0 < 0.0 {
@@ -80,14 +80,14 @@ impl fmt::Display for AxisError {
         match *self {
             Self::NotFinite(what) => write!(f, "{what} is not a finite number"),
             Self::NotPositive(what, value) => {
-                let value = Shown(value);
+                let value = Decimal(value);
                 write!(f, "{what} is {value}, but must be greater than zero")
             }
             Self::OutOfRange { what, value, range } => {
-                write!(f, "{what} is {}, but must be {range}", Shown(value))
+                write!(f, "{what} is {}, but must be {range}", Decimal(value))
             }
             Self::BeyondBase { what, value, base } => {
-                let (value, base) = (Shown(value), Shown(base));
+                let (value, base) = (Decimal(value), Decimal(base));
                 write!(
                     f,
                     "{what} is {value}, but must be less than its base, {base}"
@@ -102,7 +102,7 @@ impl fmt::Display for AxisError {
                 braking,
             } => {
                 let thousandths = (u64::from(phase.to_bits()) * 1000) >> 32;
-                let (load, braking) = (Shown(load), Shown(braking));
+                let (load, braking) = (Decimal(load), Decimal(braking));
                 write!(
                     f,
                     "at {thousandths}/1000 of the range the load drives the machine with {load}, more than the braking torque of {braking}"

@@ -3,15 +3,16 @@
 use core::marker::PhantomData;
 
 use super::error::{positive, within};
-use super::{AxisError, Motion, MotionRange, Status};
-use crate::curve::{AccelerationOf, Format, Set, SpeedOf};
-use crate::number::{Factor, Number, Quantity, Sliding};
-use crate::{MachineUnits, Model, Phase, Validity};
+use super::{AxisError, MotionRange, MotionState, Status};
+use crate::curve::{AccelerationOf, CurveSet, Format, SpeedOf};
+use crate::number::{Factor, FrictionSign, Number, Quantity};
+use crate::tick::{MachineUnits, Validity};
+use crate::{Model, Phase};
 
 /// A torque on the drive link, and whether the table is valid for its motion.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Checked<N: Number> {
+pub struct CheckedTorque<N: Number> {
     /// The torque of [`Model::torque`]; for a motion outside the validity of the table, the torque of the nearest valid motion. Always finite.
     pub torque: N::Torque,
     /// Which of speed and acceleration are outside the validity.
@@ -23,7 +24,7 @@ pub struct Checked<N: Number> {
 /// Two modes. [`at_reference`](Self::at_reference) takes position, speed and acceleration from the set-point: measurements cannot disturb it, and it
 /// is right as long as the machine follows. [`at_measured`](Self::at_measured) takes position and speed from the encoder (computed torque): it is
 /// right where the machine *is*, but feeds back the encoder's noise. In both, Coulomb friction should have the sign of the set-point's speed
-/// (`Sliding::Against(reference.omega)`, or a [`Ramp`]), so that noise of a measured speed around zero does not reverse it.
+/// (`FrictionSign::OfSpeed(reference.omega)`, or a [`FrictionRamp`]), so that noise of a measured speed around zero does not reverse it.
 ///
 /// The one [`Status`] covers every input: speed, acceleration, the set-point's speed and the friction's speed or share; too large, NaN or infinite. A
 /// flagged motion gets the torque of the nearest valid one, so that the weight of an axis is still carried (test `what_is_flagged_holds_the_weight`).
@@ -32,17 +33,17 @@ pub struct Checked<N: Number> {
 /// ([`Transmission`](super::Transmission)) and, last of all, the limits of the drive ([`TorqueLimits`]).
 ///
 /// ```
-/// use jred::axis::{Encoder, FeedForward, Gearbox, Motion, Mounting, Period, TorqueLimits, Transmission};
-/// use jred::number::Sliding;
-/// use jred::{Image, Model, Set, Spline, curves, include_image};
+/// use jred::axis::{Encoder, FeedForward, Gearbox, MotionState, Mounting, Period, TorqueLimits, Transmission};
+/// use jred::number::FrictionSign;
+/// use jred::{CurveSet, Image, Model, Spline, curves, include_image};
 ///
-/// const PRESS: Set = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
+/// const PRESS: CurveSet = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
 /// const ENCODER: Encoder = match Encoder::new(Mounting::direct(10_000)) {
 ///     Ok(encoder) => encoder,
 ///     Err(_) => panic!("the encoder's figures"),
 /// };
 ///
-/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// # fn main() -> Result<(), jred::FirmwareError> {
 /// // Once.
 /// let image = Image::from_bytes(include_image!("../../examples/data/press_f32.jred"))?;
 /// let press: Model<'_, Spline<f32>, PRESS> = image.model()?;
@@ -54,8 +55,8 @@ pub struct Checked<N: Number> {
 /// let limits = TorqueLimits::new(-12.0, 12.0)?;
 ///
 /// // Every tick.
-/// let reference = Motion { phase: ENCODER.phase(1234), omega: 10.0, alpha: 50.0 };
-/// let needed = feed_forward.at_reference(lead.later(reference).value, Sliding::Against(reference.omega));
+/// let reference = MotionState { phase: ENCODER.phase(1234), omega: 10.0, alpha: 50.0 };
+/// let needed = feed_forward.at_reference(lead.later(reference).value, FrictionSign::OfSpeed(reference.omega));
 /// assert!(needed.status.is_valid());
 /// let motor = gearbox.motor(needed.torque, reference.omega, reference.alpha).value;
 /// let command = limits.limited(motor);
@@ -64,12 +65,12 @@ pub struct Checked<N: Number> {
 /// # }
 /// ```
 #[derive(Clone, Copy, Debug)]
-pub struct FeedForward<'a, F: Format, const SET: Set> {
+pub struct FeedForward<'a, F: Format, const SET: CurveSet> {
     model: Model<'a, F, SET>,
     range: MotionRange<F::Number>,
 }
 
-impl<'a, F: Format, const SET: Set> FeedForward<'a, F, SET> {
+impl<'a, F: Format, const SET: CurveSet> FeedForward<'a, F, SET> {
     /// Feed-forward with a model and the validity of its table ([`Image::validity`](crate::Image::validity), of the same image).
     #[must_use]
     pub fn new(model: Model<'a, F, SET>, validity: Validity) -> Self {
@@ -104,59 +105,59 @@ impl<'a, F: Format, const SET: Set> FeedForward<'a, F, SET> {
         self.range.status(omega, alpha)
     }
 
-    /// The torque for the reference, at the reference's phase and speed. The status includes the speed or share in `sliding`.
+    /// The torque for the reference, at the reference's phase and speed. The status includes the speed or share in `friction`.
     #[inline(always)]
     pub fn at_reference(
         &self,
-        reference: Motion<F::Number>,
-        sliding: Sliding<F::Number>,
-    ) -> Checked<F::Number> {
-        self.checked(reference, sliding, false)
+        reference: MotionState<F::Number>,
+        friction: FrictionSign<F::Number>,
+    ) -> CheckedTorque<F::Number> {
+        self.checked(reference, friction, false)
     }
 
     /// The torque for the reference's acceleration, at the measured phase and speed. The status includes both speeds, and the speed or share in
-    /// `sliding`.
+    /// `friction`.
     #[inline(always)]
     pub fn at_measured(
         &self,
         phase: Phase,
         omega: SpeedOf<F>,
-        reference: Motion<F::Number>,
-        sliding: Sliding<F::Number>,
-    ) -> Checked<F::Number> {
-        let measured = Motion {
+        reference: MotionState<F::Number>,
+        friction: FrictionSign<F::Number>,
+    ) -> CheckedTorque<F::Number> {
+        let measured = MotionState {
             phase,
             omega,
             alpha: reference.alpha,
         };
         self.checked(
             measured,
-            sliding,
-            reference.omega.exceeds(self.range.omega()),
+            friction,
+            reference.omega.exceeds(self.range.max_speed()),
         )
     }
 
     #[inline(always)]
     fn checked(
         &self,
-        motion: Motion<F::Number>,
-        sliding: Sliding<F::Number>,
+        motion: MotionState<F::Number>,
+        friction: FrictionSign<F::Number>,
         beyond: bool,
-    ) -> Checked<F::Number> {
+    ) -> CheckedTorque<F::Number> {
         let mut status = self.range.status(motion.omega, motion.alpha);
-        status.speed_beyond |= beyond || self.range.is_beyond(sliding);
-        let (motion, sliding) = if status.is_valid() {
-            (motion, sliding)
+        status.speed_beyond |= beyond || self.range.is_beyond(friction);
+        let (motion, friction) = if status.is_valid() {
+            (motion, friction)
         } else {
-            self.range.nearest(motion, sliding)
+            self.range.nearest(motion, friction)
         };
-        let Motion {
+        let MotionState {
             phase,
             omega,
             alpha,
         } = motion;
-        Checked {
-            torque: self.model.torque_with(phase, omega, alpha, sliding),
+        CheckedTorque {
+            torque: self.model.torque_with(phase, omega, alpha, friction),
             status,
         }
     }
@@ -167,21 +168,21 @@ impl<'a, F: Format, const SET: Set> FeedForward<'a, F, SET> {
 /// A ramp for a model in `Q15` does not accept speeds in `Q31`:
 ///
 /// ```compile_fail,E0308
-/// # use jred::axis::Ramp;
-/// # use jred::number::Sliding;
+/// # use jred::axis::FrictionRamp;
+/// # use jred::number::FrictionSign;
 /// # use jred::{Q15, Q31, Speed};
-/// fn friction(ramp: &Ramp<Q15>, omega: Speed<Q31>) -> Sliding<Q31> {
+/// fn friction(ramp: &FrictionRamp<Q15>, omega: Speed<Q31>) -> FrictionSign<Q31> {
 ///     ramp.at(omega)
 /// }
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Ramp<N> {
+pub struct FrictionRamp<N> {
     share: Factor,
     number: PhantomData<N>,
 }
 
-impl<N: Number> Ramp<N> {
+impl<N: Number> FrictionRamp<N> {
     /// Creates a ramp up to the speed `width` (rad/s, or m/s), for a model in its machine units.
     ///
     /// # Errors
@@ -204,8 +205,8 @@ impl<N: Number> Ramp<N> {
     /// The share of c that acts at the set-point's speed `omega`: 0 at NaN, which the status of [`FeedForward`] reports for the set-point itself; all
     /// of c at infinity.
     #[inline]
-    pub fn at(&self, omega: N::Speed) -> Sliding<N> {
-        Sliding::Share(omega.number().times(&self.share).value.to_unit())
+    pub fn at(&self, omega: N::Speed) -> FrictionSign<N> {
+        FrictionSign::Scaled(omega.number().times(&self.share).value.to_unit())
     }
 }
 
@@ -219,7 +220,7 @@ pub struct TorqueLimits<T> {
 /// A torque within its limits.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Limited<T> {
+pub struct LimitedTorque<T> {
     /// The torque; NaN becomes 0.
     pub torque: T,
     /// The part of the torque that was cut off; 0 within the limits.
@@ -251,9 +252,9 @@ impl<T: Quantity> TorqueLimits<T> {
 
     /// The torque within the limits, and the part that was cut off. NaN: torque 0, cut off NaN. Infinity: the limit, cut off infinity.
     #[inline]
-    pub fn limited(&self, torque: T) -> Limited<T> {
+    pub fn limited(&self, torque: T) -> LimitedTorque<T> {
         let within = torque.within(self.limits);
-        Limited {
+        LimitedTorque {
             torque: within,
             clipped: torque.minus(within).value,
         }

@@ -2,22 +2,22 @@
 
 use super::error::{positive, within};
 use super::plan::{Plan, PlanError, power_of_two, shifted};
-use super::{AxisError, Motion};
-use crate::MachineUnits;
+use super::{AxisError, MotionState};
 use crate::number::{Factor, Number};
+use crate::tick::MachineUnits;
 
-/// Rate at which a plan is followed, as a share of its own pace: the override of a machine tool.
+/// The commanded rate of a plan as a share of its own pace, as the feed override of a machine tool.
 ///
 /// ```
-/// use jred::axis::Rate;
+/// use jred::axis::Override;
 ///
-/// assert_eq!(Rate::percent(100), Rate::FULL);
-/// assert_eq!(Rate::percent(250), Rate::FULL);
-/// assert_eq!(Rate::percent(0), Rate::STILL);
+/// assert_eq!(Override::percent(100), Override::FULL);
+/// assert_eq!(Override::percent(250), Override::FULL);
+/// assert_eq!(Override::percent(0), Override::STILL);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Rate(u32);
+pub struct Override(u32);
 
 /// 100 %.
 const FULL: u32 = 1 << 24;
@@ -26,7 +26,7 @@ const FULL: u32 = 1 << 24;
 const FINER: u32 = 32;
 const UNUSED: u32 = 25;
 
-impl Rate {
+impl Override {
     /// As planned.
     pub const FULL: Self = Self(FULL);
     /// Hold.
@@ -46,7 +46,7 @@ impl Rate {
 /// Progress of a plan.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub enum Stage {
+pub enum PlanState {
     /// Not started: at the plan's start.
     #[default]
     Waiting,
@@ -62,14 +62,14 @@ pub enum Stage {
 /// The set-point of a tick.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Planned<N: Number> {
+pub struct SetPoint<N: Number> {
     /// Position, speed and acceleration.
-    pub motion: Motion<N>,
+    pub motion: MotionState<N>,
     /// Whole turns since φ = 0; 0 on a stroke. They jump back at each repeat of a plan that advances by whole turns; a program that needs the total
     /// way counts the jumps.
     pub turns: i32,
     /// Progress.
-    pub stage: Stage,
+    pub state: PlanState,
     /// In fixed point a number was limited: including a change of the rate, the acceleration is beyond its base.
     pub limited: bool,
 }
@@ -94,7 +94,7 @@ pub struct Planned<N: Number> {
 /// `a_ramp_is_as_fine_as_its_numbers`). A speed times the rate is at most one unit too small, an acceleration times its square two
 /// (`tests/proofs/plan.g`).
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Follower<'a, N> {
+pub struct PlanFollower<'a, N> {
     plan: Plan<'a, N>,
     /// A tick and the plan's time, in units of 2⁻⁴⁰ s; the remainder of the time in units of 2⁻⁷² s.
     step: u64,
@@ -119,7 +119,7 @@ const SECOND: f32 = 1_099_511_627_776.0;
 /// 2⁵⁶: the rate of 100 % in the sum.
 const WHOLE: f32 = 72_057_594_037_927_936.0;
 
-impl<'a, N: Number> Follower<'a, N> {
+impl<'a, N: Number> PlanFollower<'a, N> {
     /// Creates a follower at the start of a plan, with a tick of `period` seconds; `ramp` is the time (s) of the rate from 0 to 100 %. The plan must
     /// be for the same model.
     ///
@@ -168,7 +168,7 @@ impl<'a, N: Number> Follower<'a, N> {
         })
     }
 
-    /// The same, repeated without end or pause. If the plan advances by whole turns, [`turns`](Planned::turns) jumps back to that of its start at
+    /// The same, repeated without end or pause. If the plan advances by whole turns, [`turns`](SetPoint::turns) jumps back to that of its start at
     /// each repeat; phase, speed and acceleration continue.
     ///
     /// # Errors
@@ -203,8 +203,8 @@ impl<'a, N: Number> Follower<'a, N> {
 
     /// The set-point of this tick; advances the plan by one tick. Until the first movement the rate is the commanded one, without a ramp.
     #[inline]
-    pub fn next(&mut self, commanded: Rate) -> Planned<N> {
-        let Rate(wanted) = commanded;
+    pub fn next(&mut self, commanded: Override) -> SetPoint<N> {
+        let Override(wanted) = commanded;
         let wanted = u64::from(wanted) << FINER;
         if self.fresh {
             self.rate = wanted;
@@ -249,14 +249,14 @@ impl<'a, N: Number> Follower<'a, N> {
                 self.time -= end;
             }
         }
-        Planned {
+        SetPoint {
             motion: place.value.motion,
             turns: place.value.turns,
-            stage: match (self.started, ended) {
-                (false, _) => Stage::Waiting,
-                (true, true) => Stage::Done,
-                (true, false) if before == 0 && after == 0 => Stage::Held,
-                (true, false) => Stage::Running,
+            state: match (self.started, ended) {
+                (false, _) => PlanState::Waiting,
+                (true, true) => PlanState::Done,
+                (true, false) if before == 0 && after == 0 => PlanState::Held,
+                (true, false) => PlanState::Running,
             },
             limited: place.saturated,
         }

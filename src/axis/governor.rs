@@ -1,10 +1,10 @@
 //! Follows a commanded speed as far as all limits allow.
 
-use super::limits::{Bounded, Limit, finite};
-use super::{AxisError, Direction, Limits, LookAhead, Motion};
+use super::limits::{AccelerationBound, Limit, finite};
+use super::{AxisError, Direction, Limits, LookAhead, MotionState};
 use crate::Model;
-use crate::curve::{Format, Set};
-use crate::number::{Number, Quantity as _, Sliding};
+use crate::curve::{CurveSet, Format};
+use crate::number::{FrictionSign, Number, Quantity as _};
 
 /// Follows a commanded speed with a motion that the drive can make, and slows down before places where the drive could not follow.
 ///
@@ -20,12 +20,12 @@ use crate::number::{Number, Quantity as _, Sliding};
 /// speed, more slowly below it.
 ///
 /// ```
-/// use jred::axis::{Braking, Direction, Envelope, Governor, Limits, LookAhead, Motion, Period};
-/// use jred::{Image, Model, Phase, Set, Spline, curves, include_image};
+/// use jred::axis::{Braking, Direction, Envelope, Governor, Limits, LookAhead, MotionState, Period};
+/// use jred::{CurveSet, Image, Model, Phase, Spline, curves, include_image};
 ///
-/// const PRESS: Set = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
+/// const PRESS: CurveSet = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
 ///
-/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// # fn main() -> Result<(), jred::FirmwareError> {
 /// // Once.
 /// let image = Image::from_bytes(include_image!("../../examples/data/press_f32.jred"))?;
 /// let press: Model<'_, Spline<f32>, PRESS> = image.model()?;
@@ -39,11 +39,11 @@ use crate::number::{Number, Quantity as _, Sliding};
 /// let governor = Governor::one_way(&ahead);
 ///
 /// // Every tick: the motion that is to follow the commanded 12 rad/s.
-/// let mut motion = Motion::<f32>::default();
+/// let mut motion = MotionState::<f32>::default();
 /// for _ in 0..1000 {
 ///     let governed = governor.govern(&limits, &press, &motion, 12.0);
 ///     motion.alpha = governed.alpha;
-///     let torque = press.torque_with(motion.phase, motion.omega, motion.alpha, governed.sliding);
+///     let torque = press.torque_with(motion.phase, motion.omega, motion.alpha, governed.friction);
 ///     assert!(torque.abs() <= 250.01);
 ///     motion = tick.later(motion).value;
 ///     assert!(motion.omega <= 1.01 * limit(motion.phase));
@@ -60,18 +60,18 @@ pub struct Governor<'a, N, const NODES: usize> {
 /// The acceleration of a tick, and the limit that kept it from the command.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Governed<N: Number> {
+pub struct GovernorOutput<N: Number> {
     /// α, in machine units.
     pub alpha: N::Acceleration,
     /// The limit that binds; `None`: the commanded speed is reached at the end of the tick.
     pub by: Option<Limit>,
-    /// As [`Feasible::unkept`](super::Feasible::unkept); [`Limit::Ahead`]: too fast to satisfy all limits ahead; [`Limit::Speed`]: also for a command
-    /// that is NaN.
+    /// As [`FeasibleAccelerations::unkept`](super::FeasibleAccelerations::unkept); [`Limit::Ahead`]: too fast to satisfy all limits ahead;
+    /// [`Limit::Speed`]: also for a command that is NaN.
     pub unkept: Option<Limit>,
-    /// The motion that friction opposes: the speed, or at rest the beginning motion with the least speed in its direction. [`Model::torque_with`]
+    /// The sign of friction: of the speed, or at rest of the beginning motion, with the least speed in its direction. [`Model::torque_with`]
     /// then gives a torque that the drive has. Where friction keeps the machine at rest, which a torque does not consider,
     /// [`TorqueLimits`](super::TorqueLimits) ensures that.
-    pub sliding: Sliding<N>,
+    pub friction: FrictionSign<N>,
 }
 
 impl<'a, N: Number, const NODES: usize> Governor<'a, N, NODES> {
@@ -108,13 +108,13 @@ impl<'a, N: Number, const NODES: usize> Governor<'a, N, NODES> {
     /// acceleration: the result is 0 or the nearest possible one, with the binding limit in `by`, and `unkept` reports it. If the motion's speed is
     /// NaN, the acceleration is 0, and `unkept` reports that, too.
     #[inline]
-    pub fn govern<F: Format<Number = N>, const SET: Set, const POINTS: usize>(
+    pub fn govern<F: Format<Number = N>, const SET: CurveSet, const POINTS: usize>(
         &self,
         limits: &Limits<N, POINTS>,
         model: &Model<'_, F, SET>,
-        motion: &Motion<N>,
+        motion: &MotionState<N>,
         commanded: N::Speed,
-    ) -> Governed<N> {
+    ) -> GovernorOutput<N> {
         let rest = N::Speed::default();
         let omega = motion.omega;
         let period = limits.period();
@@ -123,7 +123,7 @@ impl<'a, N: Number, const NODES: usize> Governor<'a, N, NODES> {
         let stopped = period.needed(omega.negated()).value;
         let bounded = |alpha| {
             let by = Limit::Ahead;
-            Bounded { alpha, by }.within([feasible.least, feasible.greatest])
+            AccelerationBound { alpha, by }.within([feasible.least, feasible.greatest])
         };
         let [least, most] = [feasible.least.alpha, feasible.greatest.alpha];
         let forward = self.forward.map(|way| way.greatest(motion, [least, most]));
@@ -149,14 +149,14 @@ impl<'a, N: Number, const NODES: usize> Governor<'a, N, NODES> {
             (wanted, None)
         };
         let beyond = (too_fast || too_fast_back).then_some(Limit::Ahead);
-        Governed {
+        GovernorOutput {
             alpha,
             by,
             unkept: feasible
                 .unkept
                 .or(beyond)
                 .or((!known).then_some(Limit::Speed)),
-            sliding: Sliding::Against(if omega == rest {
+            friction: FrictionSign::OfSpeed(if omega == rest {
                 N::Speed::of(alpha.number().least())
             } else {
                 omega

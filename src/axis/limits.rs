@@ -3,9 +3,10 @@
 use super::envelope::in_range;
 use super::error::positive;
 use super::{AxisError, Envelope, Period};
-use crate::curve::{Format, Set};
-use crate::number::{Number, Quantity, Sliding};
-use crate::{AccelerationRange, MachineUnits, Model, Outcome, Phase};
+use crate::curve::{CurveSet, Format};
+use crate::number::{FrictionSign, Number, Quantity};
+use crate::tick::MachineUnits;
+use crate::{AccelerationRange, Model, Outcome, Phase};
 
 /// The limit of an acceleration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -26,7 +27,7 @@ pub enum Limit {
 /// An acceleration, and its limit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Bounded<N: Number> {
+pub struct AccelerationBound<N: Number> {
     /// α, in machine units.
     pub alpha: N::Acceleration,
     /// The limit that binds.
@@ -36,11 +37,11 @@ pub struct Bounded<N: Number> {
 /// The accelerations that are possible in a tick: never empty, because a drive's torque always includes 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Feasible<N: Number> {
+pub struct FeasibleAccelerations<N: Number> {
     /// The least.
-    pub least: Bounded<N>,
+    pub least: AccelerationBound<N>,
     /// The greatest.
-    pub greatest: Bounded<N>,
+    pub greatest: AccelerationBound<N>,
     /// The limit that is violated: the load drives the machine beyond it, or the speed is beyond it already. The torque is never violated.
     pub unkept: Option<Limit>,
 }
@@ -114,32 +115,33 @@ impl<N: Number, const POINTS: usize> Limits<N, POINTS> {
 
     /// The accelerations that are possible in this state: 0 at a speed that is NaN, finite at an infinite one; `unkept` reports both.
     #[inline]
-    pub fn feasible<F: Format<Number = N>, const SET: Set>(
+    pub fn feasible<F: Format<Number = N>, const SET: CurveSet>(
         &self,
         model: &Model<'_, F, SET>,
         phase: Phase,
         omega: N::Speed,
-    ) -> Feasible<N> {
+    ) -> FeasibleAccelerations<N> {
         let torques = self.envelope.torques(omega);
-        let given = |sliding| model.acceleration_range_with(phase, omega, sliding, torques);
+        let [low, high] = torques;
+        let given = |friction| model.acceleration_range_with(phase, omega, friction, low, high);
         // At rest, once against friction of a forward motion and once of a backward one: only the sign of the speed counts.
         let [back, forth] = self.acceleration.map(|alpha| N::Speed::of(alpha.number()));
         let rests = omega == N::Speed::default();
-        let mut range = given(Sliding::Against(if rests { forth } else { omega }));
+        let mut range = given(FrictionSign::OfSpeed(if rests { forth } else { omega }));
         if rests {
-            let backward = given(Sliding::Against(back));
+            let backward = given(FrictionSign::OfSpeed(back));
             range = AccelerationRange {
                 least: held(range.least, backward.least),
                 greatest: held(range.greatest, backward.greatest),
             };
         }
-        let torque: [Bounded<N>; 2] = [of_torque(range.least), of_torque(range.greatest)];
+        let torque: [AccelerationBound<N>; 2] = [of_torque(range.least), of_torque(range.greatest)];
         let [low, high] = self.speed;
         let [slowest, fastest] = [self.up_to(low, omega), self.up_to(high, omega)];
         let rest = N::Acceleration::default();
         let too_fast = fastest.by == Limit::Acceleration && fastest.alpha <= rest;
         let too_slow = slowest.by == Limit::Acceleration && slowest.alpha >= rest;
-        Feasible {
+        FeasibleAccelerations {
             least: slowest.within(torque),
             greatest: fastest.within(torque),
             unkept: if torque[0].alpha > self.acceleration[1]
@@ -155,7 +157,7 @@ impl<N: Number, const POINTS: usize> Limits<N, POINTS> {
 
     /// The acceleration that reaches a speed at the end of the tick, within the greatest acceleration.
     #[inline]
-    fn up_to(&self, speed: N::Speed, omega: N::Speed) -> Bounded<N> {
+    fn up_to(&self, speed: N::Speed, omega: N::Speed) -> AccelerationBound<N> {
         let needed = self.period.needed(speed.minus(omega).value).value;
         let alpha = needed.within(self.acceleration);
         let by = if alpha == needed {
@@ -163,11 +165,11 @@ impl<N: Number, const POINTS: usize> Limits<N, POINTS> {
         } else {
             Limit::Acceleration
         };
-        Bounded { alpha, by }
+        AccelerationBound { alpha, by }
     }
 }
 
-impl<N: Number> Bounded<N> {
+impl<N: Number> AccelerationBound<N> {
     /// Limited to a range.
     #[inline]
     pub(super) fn within(self, [least, greatest]: [Self; 2]) -> Self {
@@ -206,9 +208,9 @@ pub(super) fn finite<N: Number>(alpha: N::Acceleration) -> N::Acceleration {
 }
 
 #[inline]
-fn of_torque<N: Number>(alpha: Outcome<N::Acceleration>) -> Bounded<N> {
+fn of_torque<N: Number>(alpha: Outcome<N::Acceleration>) -> AccelerationBound<N> {
     let Outcome { value, saturated } = alpha;
-    Bounded {
+    AccelerationBound {
         alpha: finite::<N>(value),
         by: if saturated {
             Limit::Range

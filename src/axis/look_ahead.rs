@@ -5,8 +5,8 @@ use core::marker::PhantomData;
 use super::braking::{Braking, Course, ONE, Way};
 use super::envelope::in_range;
 use super::error::{positive, within};
-use super::{AxisError, Motion, Period};
-use crate::curve::{Format, Set};
+use super::{AxisError, MotionState, Period};
+use crate::curve::{CurveSet, Format};
 use crate::number::{Factor, Number, Quantity as _};
 use crate::{Model, Phase};
 
@@ -91,7 +91,7 @@ impl<N: Number, const NODES: usize> LookAhead<N, NODES> {
     /// that is not positive and finite (the deceleration may be infinite), or a speed beyond its base; too few nodes for this machine (fewer than 4,
     /// or J changes by half between two), or too many (more than 4096, or an interval takes less than one tick, or more than 2²², at the greatest
     /// speed).
-    pub fn new<F: Format<Number = N>, const SET: Set>(
+    pub fn new<F: Format<Number = N>, const SET: CurveSet>(
         model: &Model<'_, F, SET>,
         direction: Direction,
         braking: Braking,
@@ -135,7 +135,7 @@ impl<N: Number, const NODES: usize> LookAhead<N, NODES> {
             .moved(in_range(SPEED, top, scale.speed(), scale.omega(top))?)
             .to_bits();
         let tick = moved as f32 / way.width as f32 * course.step;
-        course.slow_down(&mut squares, [top, tick]);
+        course.slow_down(&mut squares, top, tick);
         let shift = course.works(&mut works, &mut inertias, top)?;
         let mut inverses = [0; NODES];
         for (k, inverse) in (0..).zip(&mut inverses) {
@@ -195,7 +195,7 @@ impl<N: Number, const NODES: usize> LookAhead<N, NODES> {
     #[inline]
     pub(super) fn greatest(
         &self,
-        motion: &Motion<N>,
+        motion: &MotionState<N>,
         [least, most]: [N::Acceleration; 2],
     ) -> (N::Acceleration, bool) {
         let (k, part) = self.way.cell(motion.phase);

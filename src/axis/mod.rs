@@ -3,21 +3,21 @@
 //! ```text
 //! register ─► Counter ─► count ─► Encoder ─► phase ─► Tracker ─► φ, ω, α
 //!                                                                 │  Period: into machine units
-//!  set-point ω, α ────────────────────────────────► Motion ◄──────┘
+//!  set-point ω, α ────────────────────────────────► MotionState ◄──────┘
 //!                                                     │  Period::later: lead time
 //!                                                     ▼
-//!                          Ramp: friction ─► FeedForward ─► torque, status
+//!                          FrictionRamp: friction ─► FeedForward ─► torque, status
 //!                                                     │  Transmission: to the motor
 //!                                                     ▼
 //!                                                TorqueLimits ─► command, what was clipped
 //! ```
 //!
 //! A drive link with a stroke takes a [`StrokeEncoder`] instead of the [`Encoder`]. The set-point comes from the program's own motion, from a
-//! [`Plan`] followed by a [`Follower`], or from a [`Governor`], which turns a commanded speed into a motion that the drive can make:
+//! [`Plan`] followed by a [`PlanFollower`], or from a [`Governor`], which turns a commanded speed into a motion that the drive can make:
 //!
 //! ```text
 //! Envelope: torque against speed ─► Limits ─► feasible α of this tick ─┐
-//!                                                                      ├─► Governor ─► α ─► Motion
+//!                                                                      ├─► Governor ─► α ─► MotionState
 //! LookAhead: greatest speed at each φ, where it stops ─────────────────┘
 //! ```
 //!
@@ -48,20 +48,21 @@ mod stroke;
 mod tracker;
 mod transmission;
 
+pub use crate::tick::MachineUnits;
 pub use braking::Braking;
 pub use counter::Counter;
 pub use encoder::{Counting, Encoder, Mounting};
 pub use envelope::Envelope;
 pub use error::AxisError;
-pub use feed_forward::{Checked, FeedForward, Limited, Ramp, TorqueLimits};
-pub use follower::{Follower, Planned, Rate, Stage};
-pub use governor::{Governed, Governor};
-pub use limits::{Bounded, Feasible, Limit, Limits};
+pub use feed_forward::{CheckedTorque, FeedForward, FrictionRamp, LimitedTorque, TorqueLimits};
+pub use follower::{Override, PlanFollower, PlanState, SetPoint};
+pub use governor::{Governor, GovernorOutput};
+pub use limits::{AccelerationBound, FeasibleAccelerations, Limit, Limits};
 pub use look_ahead::{Direction, LookAhead, Stop};
-pub use motion::{Motion, Period};
+pub use motion::{MotionState, Period};
 pub use motion_range::{MotionRange, Status};
 pub use plan::Plan;
 pub use slot::ImageSlot;
-pub use stroke::{Scaled, StrokeEncoder};
-pub use tracker::{Tracked, Tracker};
+pub use stroke::{StrokeEncoder, StrokeMounting};
+pub use tracker::{Tracker, TrackerOutput};
 pub use transmission::{Gearbox, Transmission};

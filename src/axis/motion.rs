@@ -3,14 +3,15 @@
 use core::marker::PhantomData;
 
 use super::error::{positive, within};
-use super::{AxisError, Tracked};
+use super::{AxisError, TrackerOutput};
 use crate::number::{Factor, Number, Quantity as _, Real as _};
-use crate::{Domain, MachineUnits, Outcome, Phase};
+use crate::tick::MachineUnits;
+use crate::{Domain, Outcome, Phase};
 
 /// Position, speed and acceleration of a drive link, in the machine units of a model.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Motion<N: Number> {
+pub struct MotionState<N: Number> {
     /// Its angle or position.
     pub phase: Phase,
     /// ω, or v.
@@ -22,7 +23,7 @@ pub struct Motion<N: Number> {
 /// A period of time, such as the tick or a lead time, for motions in the machine units of one model.
 ///
 /// Fixed-point results outside the number range are limited and flagged. Accuracy: 2⁻²³ of a result (its factors have single precision), plus six
-/// units of 2⁻³¹, in `Q15` one of 2⁻¹⁵.
+/// units of 2⁻³¹, in `Q15` one of 2⁻¹⁵ (test `the_middle_of_a_tick_is_the_mean`).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Period<N> {
@@ -84,13 +85,13 @@ impl<N: Number> Period<N> {
 
     /// The speed that a [`Tracker`](super::Tracker) found in this period.
     #[inline]
-    pub fn omega(&self, tracked: Tracked) -> Outcome<N::Speed> {
+    pub fn omega(&self, tracked: TrackerOutput) -> Outcome<N::Speed> {
         N::of_count(tracked.speed, &self.speed).map(N::Speed::of)
     }
 
     /// The acceleration that a [`Tracker`](super::Tracker) found in this period. Flagged, too, if the tracker limited it.
     #[inline]
-    pub fn alpha(&self, tracked: Tracked) -> Outcome<N::Acceleration> {
+    pub fn alpha(&self, tracked: TrackerOutput) -> Outcome<N::Acceleration> {
         let Outcome { value, saturated } =
             N::of_count(tracked.acceleration, &self.acceleration).map(N::Acceleration::of);
         Outcome {
@@ -125,13 +126,13 @@ impl<N: Number> Period<N> {
     /// less than half of its range in the period. NaN and infinity stay in the speed, where the status of [`FeedForward`](super::FeedForward) reports
     /// them; at NaN the distance is 0.
     #[inline]
-    pub fn later(&self, motion: Motion<N>) -> Outcome<Motion<N>> {
+    pub fn later(&self, motion: MotionState<N>) -> Outcome<MotionState<N>> {
         let gained = self.gained(motion.alpha);
         let omega = motion.omega.plus(gained.value);
         let half = |omega| self.moved(omega).to_bits().cast_signed() >> 1;
         let moved = half(motion.omega).wrapping_add(half(omega.value));
         Outcome {
-            value: Motion {
+            value: MotionState {
                 phase: self.advanced(motion.phase, moved),
                 omega: omega.value,
                 alpha: motion.alpha,
@@ -147,13 +148,13 @@ impl<N: Number> Period<N> {
     /// with acceleration and curves at the start of the period, of second order (test `the_middle_of_a_tick_is_one_order_better`). NaN and infinity
     /// stay in speed and acceleration.
     #[inline]
-    pub fn between(&self, phase: Phase, from: N::Speed, to: N::Speed) -> Outcome<Motion<N>> {
+    pub fn between(&self, phase: Phase, from: N::Speed, to: N::Speed) -> Outcome<MotionState<N>> {
         let gain = to.minus(from);
         let alpha = self.needed(gain.value);
         let quarter = |omega| self.moved(omega).to_bits().cast_signed() >> 2;
         let moved = quarter(from).wrapping_add(quarter(to));
         Outcome {
-            value: Motion {
+            value: MotionState {
                 phase: self.advanced(phase, moved),
                 omega: from.mean(to),
                 alpha: alpha.value,

@@ -1,8 +1,9 @@
 //! The motions that a table is valid for, and the status of other motions.
 
-use super::Motion;
-use crate::number::{Number, Quantity as _, Sliding};
-use crate::{Scale, Validity};
+use super::MotionState;
+use crate::Scale;
+use crate::number::{FrictionSign, Number, Quantity as _};
+use crate::tick::Validity;
 
 /// Factor on the validity.
 const MARGIN: f32 = 1.01;
@@ -13,7 +14,7 @@ const BELOW_BASE: f32 = 0.9999;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Status {
-    /// The speed, the set-point's speed or the speed in [`Sliding`] is outside, or the share in it is not from −1 to 1.
+    /// The speed, the set-point's speed or the speed in [`FrictionSign`] is outside, or the share in it is not from −1 to 1.
     pub speed_beyond: bool,
     /// The acceleration is outside.
     pub acceleration_beyond: bool,
@@ -32,8 +33,8 @@ impl Status {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct MotionRange<N: Number> {
-    omega: N::Speed,
-    alpha: N::Acceleration,
+    max_speed: N::Speed,
+    max_acceleration: N::Acceleration,
 }
 
 impl<N: Number> MotionRange<N> {
@@ -53,57 +54,63 @@ impl<N: Number> MotionRange<N> {
                 most
             }
         };
-        let alpha = within(validity.alpha, scale.acceleration());
+        let alpha = within(validity.max_acceleration, scale.acceleration());
         Self {
-            omega: scale.omega(within(validity.omega, scale.speed())).value,
-            alpha: scale.alpha(alpha).value,
+            max_speed: scale.omega(within(validity.max_speed, scale.speed())).value,
+            max_acceleration: scale.alpha(alpha).value,
         }
     }
 
     /// The greatest speed.
     #[must_use]
-    pub const fn omega(&self) -> N::Speed {
-        self.omega
+    pub const fn max_speed(&self) -> N::Speed {
+        self.max_speed
     }
 
     /// The greatest acceleration.
     #[must_use]
-    pub const fn alpha(&self) -> N::Acceleration {
-        self.alpha
+    pub const fn max_acceleration(&self) -> N::Acceleration {
+        self.max_acceleration
     }
 
     /// Whether the table is valid for this motion: |ω| and |α| within the range. NaN and infinity are not.
     #[inline]
     pub fn status(&self, omega: N::Speed, alpha: N::Acceleration) -> Status {
         Status {
-            speed_beyond: omega.exceeds(self.omega),
-            acceleration_beyond: alpha.exceeds(self.alpha),
+            speed_beyond: omega.exceeds(self.max_speed),
+            acceleration_beyond: alpha.exceeds(self.max_acceleration),
         }
     }
 
-    /// Whether the speed or share in `sliding` is outside the range.
+    /// Whether the speed or share in `friction` is outside the range.
     #[inline]
-    pub(super) fn is_beyond(&self, sliding: Sliding<N>) -> bool {
-        match sliding {
-            Sliding::Against(omega) => omega.exceeds(self.omega),
-            Sliding::Share(share) => !N::FIXED && share.exceeds(N::per_unit(1.0, 1.0).value),
+    pub(super) fn is_beyond(&self, friction: FrictionSign<N>) -> bool {
+        match friction {
+            FrictionSign::OfSpeed(omega) => omega.exceeds(self.max_speed),
+            FrictionSign::Scaled(share) => !N::FIXED && share.exceeds(N::per_unit(1.0, 1.0).value),
         }
     }
 
     /// The nearest valid motion and friction; NaN becomes rest, and no friction.
     #[cold]
     #[inline]
-    pub fn nearest(&self, motion: Motion<N>, sliding: Sliding<N>) -> (Motion<N>, Sliding<N>) {
-        let speeds = [self.omega.negated(), self.omega];
-        let nearest = Motion {
+    pub fn nearest(
+        &self,
+        motion: MotionState<N>,
+        friction: FrictionSign<N>,
+    ) -> (MotionState<N>, FrictionSign<N>) {
+        let speeds = [self.max_speed.negated(), self.max_speed];
+        let nearest = MotionState {
             phase: motion.phase,
             omega: motion.omega.within(speeds),
-            alpha: motion.alpha.within([self.alpha.negated(), self.alpha]),
+            alpha: motion
+                .alpha
+                .within([self.max_acceleration.negated(), self.max_acceleration]),
         };
-        let sliding = match sliding {
-            Sliding::Against(omega) => Sliding::Against(omega.within(speeds)),
-            Sliding::Share(share) => Sliding::Share(share.to_unit()),
+        let friction = match friction {
+            FrictionSign::OfSpeed(omega) => FrictionSign::OfSpeed(omega.within(speeds)),
+            FrictionSign::Scaled(share) => FrictionSign::Scaled(share.to_unit()),
         };
-        (nearest, sliding)
+        (nearest, friction)
     }
 }

@@ -1,8 +1,8 @@
 //! Memory for an image that is exchanged while the machine runs.
 
 use super::FeedForward;
-use crate::Validity;
-use crate::curve::{Format, Set};
+use crate::curve::{CurveSet, Format};
+use crate::tick::Validity;
 use crate::tick::{HEADER_WORDS, ImageError, Progress};
 
 /// Memory for an image and its feed-forward, to exchange the table while the machine runs.
@@ -26,11 +26,11 @@ use crate::tick::{HEADER_WORDS, ImageError, Progress};
 ///
 /// ```
 /// use jred::axis::{FeedForward, ImageSlot};
-/// use jred::{Set, Spline, curves, include_image};
+/// use jred::{CurveSet, Spline, curves, include_image};
 ///
-/// const PRESS: Set = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
+/// const PRESS: CurveSet = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
 ///
-/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// # fn main() -> Result<(), jred::FirmwareError> {
 /// let mut memory = [0; 600]; // words
 /// let mut slot = ImageSlot::<Spline<f32>, PRESS>::new(&mut memory);
 /// for packet in include_image!("../../examples/data/press_f32.jred").chunks(50) {
@@ -44,7 +44,7 @@ use crate::tick::{HEADER_WORDS, ImageError, Progress};
 /// # }
 /// ```
 #[derive(Debug)]
-pub struct ImageSlot<'m, F: Format, const SET: Set> {
+pub struct ImageSlot<'m, F: Format, const SET: CurveSet> {
     words: &'m mut [u32],
     /// Received bytes.
     received: usize,
@@ -55,9 +55,9 @@ pub struct ImageSlot<'m, F: Format, const SET: Set> {
 }
 
 /// The feed-forward without its words, and its validity; or why the image was refused.
-type Verdict<F, const SET: Set> = Result<(FeedForward<'static, F, SET>, Validity), ImageError>;
+type Verdict<F, const SET: CurveSet> = Result<(FeedForward<'static, F, SET>, Validity), ImageError>;
 
-impl<'m, F: Format, const SET: Set> ImageSlot<'m, F, SET> {
+impl<'m, F: Format, const SET: CurveSet> ImageSlot<'m, F, SET> {
     /// An empty slot, with memory for images of up to `memory.len()` words.
     #[must_use]
     pub const fn new(memory: &'m mut [u32]) -> Self {

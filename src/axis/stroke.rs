@@ -9,29 +9,29 @@ use crate::{Domain, Outcome, Phase};
 /// A scale or encoder along a stroke, and its mounting.
 ///
 /// ```text
-/// s = at_home + (count − home)·resolution
+/// s = home_position + (count − homing_offset)·resolution
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[repr(C)]
-pub struct Scaled {
+pub struct StrokeMounting {
     /// Movement of the drive link per count (m, or rad for one that swings); negative if the encoder counts down while the position grows.
     pub resolution: f64,
-    /// The count at the position `at_home`.
-    pub home: i64,
-    /// Position at the count `home` (m, or rad).
-    pub at_home: f64,
+    /// The count at `home_position`.
+    pub homing_offset: i64,
+    /// Position at the count `homing_offset` (m, or rad).
+    pub home_position: f64,
 }
 
 /// Converts any count of an encoder to the phase of a drive link that has a stroke, limited to its ends and flagged there.
 ///
 /// ```
 /// use jred::Domain;
-/// use jred::axis::{Scaled, StrokeEncoder};
+/// use jred::axis::{StrokeEncoder, StrokeMounting};
 ///
 /// // A stroke from 0.1 to 0.6 m, a micrometre a count, count 0 at 0.35 m.
 /// const STROKE: Domain = Domain::Stroke { from: 0.1, to: 0.6 };
-/// let scaled = Scaled { resolution: 1e-6, home: 0, at_home: 0.35 };
+/// let scaled = StrokeMounting { resolution: 1e-6, homing_offset: 0, home_position: 0.35 };
 /// let encoder = StrokeEncoder::new(STROKE, scaled)?;
 /// assert_eq!(encoder.phase(0).value.to_bits(), 1 << 31);
 /// assert!(!encoder.phase(-250_000).saturated);
@@ -87,11 +87,11 @@ impl StrokeEncoder {
     /// # Errors
     /// [`AxisError::NotFinite`]; [`AxisError::OutOfRange`]: a stroke of less than 16 or more than 2⁵³ counts (a turn has no stroke), a
     /// home 100,000 strokes away, or so far from the stroke that its counts have more than 62 bits.
-    pub fn new<R: Real>(domain: Domain<R>, scaled: Scaled) -> Result<Self, AxisError> {
-        let Scaled {
+    pub fn new<R: Real>(domain: Domain<R>, scaled: StrokeMounting) -> Result<Self, AxisError> {
+        let StrokeMounting {
             resolution,
-            home,
-            at_home,
+            homing_offset: home,
+            home_position: at_home,
         } = scaled;
         let (from, span) = match domain.to::<f64>() {
             Domain::Turn => (0.0, 0.0),

@@ -52,7 +52,7 @@ pub struct Tracker {
 /// Position, speed and acceleration of a drive link, as a [`Tracker`] found them, per period.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Tracked {
+pub struct TrackerOutput {
     /// The phase, filtered.
     pub phase: Phase,
     /// The speed, in units of 2⁻³² of the range per period.
@@ -93,7 +93,7 @@ impl Tracker {
     }
 
     /// The same, with the largest step of the machine in a period, in either direction, such as `tick.moved(most)` for its greatest speed. A reading
-    /// farther from the prediction has [`jumped`](Tracked::jumped). The default is a quarter of the range.
+    /// farther from the prediction has [`jumped`](TrackerOutput::jumped). The default is a quarter of the range.
     #[must_use]
     pub const fn with_largest_step(self, step: Phase) -> Self {
         Self {
@@ -126,7 +126,7 @@ impl Tracker {
 
     /// Advances one period, with the encoder's phase now, on a turn.
     #[inline]
-    pub const fn update(&mut self, measured: Phase) -> Tracked {
+    pub const fn update(&mut self, measured: Phase) -> TrackerOutput {
         let phase = self
             .phase
             .wrapping_add(self.speed)
@@ -140,7 +140,7 @@ impl Tracker {
 
     /// As [`update`](Self::update), on a stroke: at its ends phases do not wrap, but stay.
     #[inline]
-    pub const fn update_stroke(&mut self, measured: Phase) -> Tracked {
+    pub const fn update_stroke(&mut self, measured: Phase) -> TrackerOutput {
         // The prediction may lie beyond an end. Limiting it would remove the residual, and a speed at an end would persist.
         let phase =
             self.phase as u64 as i128 + self.speed as i128 + (self.acceleration >> 1) as i128;
@@ -186,10 +186,10 @@ impl Tracker {
     }
 
     #[inline]
-    const fn tracked(&self, residual: i32, lost: bool) -> Tracked {
+    const fn tracked(&self, residual: i32, lost: bool) -> TrackerOutput {
         let wide = self.acceleration >> 24;
         let upper = (wide >> 32) as i32;
-        Tracked {
+        TrackerOutput {
             phase: Phase::from_bits((self.phase >> 32) as u32),
             speed: (self.speed >> 32) as i32,
             acceleration: if upper == wide as i32 >> 31 {

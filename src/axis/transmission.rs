@@ -4,8 +4,9 @@ use core::marker::PhantomData;
 
 use super::AxisError;
 use super::error::{positive, within};
+use crate::Outcome;
 use crate::number::{Factor, Number, Quantity as _};
-use crate::{MachineUnits, Outcome};
+use crate::tick::MachineUnits;
 
 /// A gearbox between motor and drive link, and the motor's rotor.
 ///

@@ -3,7 +3,7 @@
 use core::fmt;
 
 use super::MAX_CELLS;
-use super::curves::{self, Set};
+use super::curves::{self, CurveSet};
 use crate::Phase;
 use crate::number::error::{Curable, error};
 use crate::number::spline::MIN_CELLS;
@@ -68,7 +68,7 @@ pub enum TableError {
     PieceUnits,
     /// The table has another set of [`curves`] than the model; or the set, given here, has an unknown bit, a friction both as a curve and as a
     /// constant, or a reciprocal for floating point.
-    Curves(Set),
+    Curves(CurveSet),
     /// The curve of the reciprocal inertia does not match the inertia in this cell.
     Reciprocal {
         /// Index of the cell.
@@ -100,7 +100,7 @@ pub enum TableError {
 }
 
 /// The curves of a set, named as their constants.
-const NAMES: [(Set, &str); 6] = [
+const NAMES: [(CurveSet, &str); 6] = [
     (curves::LOAD, "LOAD"),
     (curves::VISCOUS, "VISCOUS"),
     (curves::COULOMB, "COULOMB"),

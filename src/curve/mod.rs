@@ -10,7 +10,7 @@ mod table;
 mod unfold;
 mod usage;
 
-pub use curves::Set;
+pub use curves::CurveSet;
 pub use error::TableError;
 #[cfg(all(feature = "mechanics", feature = "micromath"))]
 pub(crate) use format::COEFFICIENTS;

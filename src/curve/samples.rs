@@ -1,6 +1,6 @@
 //! The source of tables: the curves of a machine at any place of its range.
 
-use super::curves::Set;
+use super::curves::CurveSet;
 use crate::{Domain, Scale};
 
 /// The curves at one place, in machine units.
@@ -19,7 +19,7 @@ pub struct Sample {
 /// The curves that a table of this many cells is made from.
 #[derive(Clone, Copy, Debug)]
 pub struct Samples<F> {
-    pub(crate) set: Set,
+    pub(crate) set: CurveSet,
     pub(crate) cells: u32,
     pub(crate) domain: Domain,
     pub(crate) scale: Scale,

@@ -1,6 +1,6 @@
 //! Tables: words and their meaning, checked.
 
-use super::curves::{self, Set};
+use super::curves::{self, CurveSet};
 use super::{Format, TableError};
 use crate::number::Number;
 use crate::{Domain, Phase, Scale};
@@ -10,7 +10,7 @@ pub const MAX_CELLS: u32 = 65_535;
 
 /// Words of a table of `cells` cells, for buffers whose length is known at compile time.
 #[must_use]
-pub const fn words_len<F: Format>(cells: u32, set: Set) -> usize {
+pub const fn words_len<F: Format>(cells: u32, set: CurveSet) -> usize {
     F::SIZE.words(cells as usize, set)
 }
 
@@ -18,7 +18,7 @@ pub const fn words_len<F: Format>(cells: u32, set: Set) -> usize {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Shape<F: Format> {
     /// The set of [`curves`].
-    pub set: Set,
+    pub set: CurveSet,
     /// Number of cells.
     pub cells: u32,
     /// Range of the drive link.
@@ -123,7 +123,7 @@ impl<'a, F: Format> Table<'a, F> {
     }
 
     /// The set of [`curves`].
-    pub const fn set(&self) -> Set {
+    pub const fn set(&self) -> CurveSet {
         self.shape.set
     }
 

@@ -59,9 +59,9 @@ pub struct Drive<'a> {
     stages: heapless::Vec<Stage<'a>, MAX_STAGES>,
 }
 
-/// The given quantity.
+/// Which quantity is given.
 #[derive(Clone, Copy)]
-enum Given {
+enum Input {
     /// The acceleration is given, the drive's torque unknown.
     Alpha(f64),
     /// All torques are given.
@@ -70,7 +70,7 @@ enum Given {
 
 /// Coefficients of a shaft.
 #[derive(Clone, Copy)]
-struct Coupled {
+struct ShaftCoefficients {
     /// j
     speed: f64,
     /// dj/dt
@@ -81,7 +81,7 @@ struct Coupled {
 
 /// The coefficients at one state.
 struct Kinematics {
-    shafts: heapless::Vec<Coupled, MAX_SHAFTS>,
+    shafts: heapless::Vec<ShaftCoefficients, MAX_SHAFTS>,
     stages: heapless::Vec<(Ratios, f64), MAX_STAGES>,
 }
 
@@ -141,7 +141,7 @@ impl<'a> Drive<'a> {
     /// Numbers of angles or shafts that do not match; a course outside its range; no inertia; load and slip that do not converge, because the slip
     /// grows too fast with the load.
     pub fn forward(&self, state: State, shafts: &[Shaft]) -> Result<Motion, FrictionError> {
-        self.solve(state, shafts, Given::Torques)
+        self.solve(state, shafts, Input::Torques)
     }
 
     /// The drive's torque on shaft 1, [`Motion::drive`], for the acceleration `alpha` of shaft 1 (rad/s²). Load and slip as in
@@ -156,10 +156,10 @@ impl<'a> Drive<'a> {
         shafts: &[Shaft],
     ) -> Result<Motion, FrictionError> {
         let alpha = finite("acceleration", alpha)?;
-        self.solve(state, shafts, Given::Alpha(alpha))
+        self.solve(state, shafts, Input::Alpha(alpha))
     }
 
-    fn solve(&self, state: State, shafts: &[Shaft], given: Given) -> Result<Motion, FrictionError> {
+    fn solve(&self, state: State, shafts: &[Shaft], given: Input) -> Result<Motion, FrictionError> {
         let expected = self.stages.len() + 1;
         for (what, count) in [
             ("number of angles", state.angles.len()),
@@ -230,7 +230,7 @@ impl<'a> Drive<'a> {
         let mut shafts = heapless::Vec::new();
         let mut stages = heapless::Vec::new();
         // Pushes cannot fail: the capacities are the number of stages, and one more.
-        let input = Coupled {
+        let input = ShaftCoefficients {
             speed: 1.0,
             rate: 0.0,
             force: 1.0,
@@ -250,7 +250,7 @@ impl<'a> Drive<'a> {
                 Contact::Ideal => j,
                 Contact::Slipping => ratios.geometric.value,
             };
-            let _ = shafts.push(Coupled {
+            let _ = shafts.push(ShaftCoefficients {
                 speed: a.speed * j,
                 rate: a.rate * j + a.speed * rate,
                 force: a.force * force,
@@ -264,7 +264,7 @@ impl<'a> Drive<'a> {
         &self,
         state: &State,
         shafts: &[Shaft],
-        given: Given,
+        given: Input,
         kinematics: &Kinematics,
     ) -> Result<Motion, FrictionError> {
         let omega = state.omega;
@@ -285,8 +285,8 @@ impl<'a> Drive<'a> {
         }
         finite("torques of the friction drive", torque)?;
         (motion.alpha, motion.drive) = match given {
-            Given::Alpha(alpha) => (alpha, mass * alpha + drag - torque),
-            Given::Torques => ((torque - drag) / mass, 0.0),
+            Input::Alpha(alpha) => (alpha, mass * alpha + drag - torque),
+            Input::Torques => ((torque - drag) / mass, 0.0),
         };
         for (k, (shaft, c)) in shafts.iter().zip(&kinematics.shafts).enumerate() {
             let own = c.speed * omega;

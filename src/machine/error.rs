@@ -65,36 +65,40 @@ impl fmt::Display for PoseError {
             Self::DeadPoint { phi, joint } => write!(
                 f,
                 "dead point: the drive cannot move the mechanism at {}; joint {joint} locks",
-                Place(phi)
+                Position(phi)
             ),
             Self::CannotAssemble { phi, joint, gap } => write!(
                 f,
                 "the mechanism cannot be assembled at {}: joint {joint} stays open by {gap:.3e}",
-                Place(phi)
+                Position(phi)
             ),
             Self::BranchChange { phi, joint } => write!(
                 f,
                 "the mechanism changes to another branch at {}, where joint {joint} is stretched or folded",
-                Place(phi)
+                Position(phi)
             ),
             Self::ChangePoint { phi } => write!(
                 f,
                 "the forces in the joints are not determined at {}, a change point, where the linkage lies flat",
-                Place(phi)
+                Position(phi)
             ),
             Self::EndsMeet { phi } => write!(
                 f,
                 "the ends of a spring or damper meet at {}, where it has no direction",
-                Place(phi)
+                Position(phi)
             ),
             Self::NoInertia { phi } => {
-                write!(f, "the reduced inertia is not positive at {}", Place(phi))
+                write!(
+                    f,
+                    "the reduced inertia is not positive at {}",
+                    Position(phi)
+                )
             }
             Self::NotPeriodic { phi } => write!(
                 f,
                 "inertia or load at {} are not the same a turn of the drive link later: a spring, or a force of fixed \
                  direction, acts on a link that does not come back",
-                Place(phi)
+                Position(phi)
             ),
         }
     }
@@ -200,9 +204,9 @@ impl Curable for MachineError {
 }
 
 /// A position of the drive link, which turns or slides, for a message.
-struct Place(f64);
+struct Position(f64);
 
-impl fmt::Display for Place {
+impl fmt::Display for Position {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(
             f,

@@ -24,11 +24,10 @@ use crate::number::error::{RangeError, finite, positive};
 /// doubles, not for a tick.
 ///
 /// ```
-/// use jred::machine::FreeMotion;
+/// use jred::machine::{FreeMotion, Link, Machine};
 /// use jred::mechanism::{Branch, SliderCrank, SliderCrankDimensions};
-/// use jred::{Link, Machine};
 ///
-/// # fn main() -> Result<(), jred::Error> {
+/// # fn main() -> Result<(), jred::error::Error> {
 /// let dimensions = SliderCrankDimensions { crank: 0.03, rod: 0.18, offset: 0.0 };
 /// let links = [Link::point_mass(0.5)?, Link::point_mass(0.7)?, Link::point_mass(4.0)?];
 /// let machine = Machine::new(SliderCrank::new(dimensions, Branch::Right, links)?).with_flywheel(0.02)?;

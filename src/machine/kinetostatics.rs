@@ -12,7 +12,7 @@
 //!
 //! V. G. Nazarenko, *Dynamics of mechanisms*, Minsk 2002, chapters 1 and 2.
 
-use crate::Machine;
+use crate::machine::Machine;
 use crate::machine::error::MachineError;
 use crate::machine::error::PoseError;
 use crate::machine::joint::{Body, Joint, Joints, MAX_JOINTS, Wrench};

@@ -37,7 +37,7 @@ pub trait Mechanism {
     }
 }
 
-/// A mechanism with known joints, so that the force in every joint can be calculated ([`Machine::forces`](crate::Machine::forces)).
+/// A mechanism with known joints, so that the force in every joint can be calculated ([`Machine::forces`](crate::machine::Machine::forces)).
 pub trait Jointed: Mechanism {
     /// The joints at the drive link's angle `phi` (rad), with the links at `frames`. Their number and order do not depend on `phi`. Together they
     /// leave the links one degree of freedom.

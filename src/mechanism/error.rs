@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-use super::{Blocked, Misfit};
+use super::{DimensionError, RotationError};
 use crate::machine::PoseError;
 use crate::number::error::{Curable, RangeError, error};
 
@@ -16,17 +16,17 @@ pub enum BuildError {
     /// An impossible position within the drive's range.
     Pose(PoseError),
     /// Dimensions that do not fit together.
-    Misfit(Misfit),
+    Dimensions(DimensionError),
     /// The drive link cannot turn fully.
-    Blocked(Blocked),
+    Rotation(RotationError),
 }
 
 error!(
     BuildError,
     Range(RangeError),
     Pose(PoseError),
-    Misfit(Misfit),
-    Blocked(Blocked)
+    Dimensions(DimensionError),
+    Rotation(RotationError)
 );
 
 impl fmt::Display for BuildError {
@@ -34,8 +34,8 @@ impl fmt::Display for BuildError {
         match self {
             Self::Range(error) => error.fmt(f),
             Self::Pose(error) => error.fmt(f),
-            Self::Misfit(error) => error.fmt(f),
-            Self::Blocked(error) => error.fmt(f),
+            Self::Dimensions(error) => error.fmt(f),
+            Self::Rotation(error) => error.fmt(f),
         }
     }
 }
@@ -45,8 +45,8 @@ impl Curable for BuildError {
         match self {
             Self::Range(error) => error.write_cure(f),
             Self::Pose(error) => error.write_cure(f),
-            Self::Misfit(error) => error.write_cure(f),
-            Self::Blocked(error) => error.write_cure(f),
+            Self::Dimensions(error) => error.write_cure(f),
+            Self::Rotation(error) => error.write_cure(f),
         }
     }
 }

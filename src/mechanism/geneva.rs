@@ -22,7 +22,7 @@ use crate::machine::{Frames, Jointed, Mechanism};
 use crate::mechanism::error::BuildError;
 use core::f64::consts::{PI, TAU};
 
-use super::misfit::centred;
+use super::dimensions::centred;
 use crate::machine::joint::{Body, Joint, Joints, Marker, Wrench};
 use crate::machine::link::{Frame, Link};
 use crate::number::error::{finite, positive, within};

@@ -50,12 +50,6 @@ impl Grashof {
             ][shortest]
         }
     }
-
-    /// Whether the crank turns fully.
-    #[must_use]
-    pub const fn crank_turns(self) -> bool {
-        matches!(self, Self::CrankRocker | Self::DoubleCrank)
-    }
 }
 
 /// Indices of the lengths, shortest first.

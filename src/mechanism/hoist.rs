@@ -67,7 +67,7 @@ impl Rope {
 
 /// The load on a rope of a hoist, with hook and lower block, or the counterweight.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Suspended {
+pub struct RopeLoad {
     /// The rope.
     pub rope: Rope,
     /// Its mass properties.
@@ -99,7 +99,7 @@ impl Hoist {
 
     /// A hoist of a `drum` with a load on its rope and no counterweight.
     #[must_use]
-    pub fn new(drum: Link, load: Suspended) -> Self {
+    pub fn new(drum: Link, load: RopeLoad) -> Self {
         Self {
             ropes: heapless::Vec::from_iter([load.rope]),
             links: heapless::Vec::from_iter([drum, load.link]),
@@ -108,7 +108,7 @@ impl Hoist {
 
     /// A hoist of a `drum` with a load and a counterweight, each on its rope: an elevator, a differential drum.
     #[must_use]
-    pub fn with_counterweight(drum: Link, load: Suspended, counterweight: Suspended) -> Self {
+    pub fn with_counterweight(drum: Link, load: RopeLoad, counterweight: RopeLoad) -> Self {
         Self {
             ropes: heapless::Vec::from_iter([load.rope, counterweight.rope]),
             links: heapless::Vec::from_iter([drum, load.link, counterweight.link]),

@@ -16,7 +16,7 @@
 use core::f64::consts::TAU;
 
 use super::cam::Segment;
-use super::misfit::centred;
+use super::dimensions::centred;
 use crate::machine::error::PoseError;
 use crate::machine::joint::{Body, Joint, Joints, Marker, Wrench};
 use crate::machine::link::{Frame, Link};

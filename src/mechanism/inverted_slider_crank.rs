@@ -19,7 +19,7 @@ use crate::mechanism::error::BuildError;
 use core::f64::consts::PI;
 
 use super::four_bar::beyond;
-use super::{Misfit, reach};
+use super::{DimensionError, reach};
 use crate::machine::joint::{Joint, Joints, Marker};
 use crate::machine::link::{Frame, Link};
 use crate::number::error::{finite, positive};
@@ -93,7 +93,7 @@ impl InvertedSliderCrank {
         if centres > rocking + hair || centres < turning - hair {
             return Ok(bare);
         }
-        Err(Misfit::ChangePoint {
+        Err(DimensionError::ChangePoint {
             centres,
             rocking,
             turning,

@@ -6,7 +6,7 @@
 //!
 //! (6.9) of Nazarenko, *Dynamics of mechanisms* (2002), with every stage on the drive shaft.
 
-use super::misfit::centred;
+use super::dimensions::centred;
 use crate::machine::error::PoseError;
 use crate::machine::joint::{Body, Joint, Joints, Marker, Wrench};
 use crate::machine::link::{Frame, Link};

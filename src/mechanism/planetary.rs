@@ -16,8 +16,8 @@ use crate::machine::{Frames, Jointed, Mechanism};
 use crate::mechanism::error::BuildError;
 use core::f64::consts::PI;
 
-use super::Misfit;
-use super::misfit::centred;
+use super::DimensionError;
+use super::dimensions::centred;
 use crate::machine::joint::{Body, Joint, Joints, Marker, Wrench};
 use crate::machine::link::{Frame, Link, MassProperties};
 use crate::number::error::{finite, positive, within};
@@ -105,11 +105,11 @@ impl PlanetaryGears {
         positive("centre distance", centres)?;
         let gap = ring.saturating_sub(sun);
         if gap.abs_diff(2 * planet) > 2 {
-            return Err(Misfit::PlanetTeeth { planet, gap }.into());
+            return Err(DimensionError::PlanetTeeth { planet, gap }.into());
         }
         if !(sun + ring).is_multiple_of(planets) {
             let teeth = sun + ring;
-            return Err(Misfit::PlanetSpacing { teeth, planets }.into());
+            return Err(DimensionError::PlanetSpacing { teeth, planets }.into());
         }
         // Neighbours' axes are 2a·sin(π/N) apart, pitch diameters 2a·z_p/(z_s + z_p).
         let diameter = f64::from(planet) / f64::from(sun + planet);
@@ -117,7 +117,7 @@ impl PlanetaryGears {
         if spacing <= diameter {
             let fits = |n: &u32| math::sin_cos(PI / f64::from(*n)).0 > diameter;
             let most = (2..planets).rev().find(fits).unwrap_or(2);
-            return Err(Misfit::PlanetsOverlap { planets, most }.into());
+            return Err(DimensionError::PlanetsOverlap { planets, most }.into());
         }
         Ok(Self(dimensions))
     }
@@ -150,8 +150,8 @@ impl PlanetaryGears {
 /// planet's axis, turning with it). The fixed member is a link at rest, so that its holding moment is among the reactions.
 ///
 /// The N planets are identical and balance each other. One link represents all of them, at the position of the first, with N·J_p. Their mass N·m_p,
-/// with its common centre on the axis, belongs to the carrier, with N·m_p·a² in its inertia. In [`link_inertias`](crate::Machine::link_inertias) the
-/// carrier's share includes the planets' orbital motion.
+/// with its common centre on the axis, belongs to the carrier, with N·m_p·a² in its inertia. In
+/// [`link_inertias`](crate::machine::Machine::link_inertias) the carrier's share includes the planets' orbital motion.
 ///
 /// Accuracy: 1e-13 against Willis' equation by the tabular method and the energy of N separate planets (tests `speeds_by_the_tabular_method`,
 /// `inertia_of_planets_one_by_one`).
@@ -185,7 +185,7 @@ impl Planetary {
         links: [Link; 4],
     ) -> Result<Self, BuildError> {
         if input == fixed {
-            return Err(Misfit::FixedInput(fixed.name()).into());
+            return Err(DimensionError::FixedInput(fixed.name()).into());
         }
         let [sun, carrier, ring, planet] = links;
         for (name, link) in ["sun", "carrier", "ring", "planet"].into_iter().zip(&links) {

@@ -25,7 +25,7 @@ use core::f64::consts::PI;
 
 use super::four_bar::beyond;
 use super::reach::{self, DeadPoints};
-use super::{Blocked, Branch, dyad};
+use super::{Branch, RotationError, dyad};
 use crate::machine::joint::{Joint, Joints, Marker};
 use crate::machine::link::{Frame, Link};
 use crate::number::error::{finite, positive};
@@ -87,7 +87,7 @@ impl SixLink {
         let six_link = Self::bare(dimensions, branch, links)?;
         if six_link.pin_meets_pivot() {
             let length = dimensions.crank;
-            return Err(Blocked::PinMeetsPivot { length }.into());
+            return Err(RotationError::PinMeetsPivot { length }.into());
         }
         let (l3, guide) = (dimensions.rod, dimensions.below);
         let shortest = dimensions.rocker * six_link.largest_sine() + math::abs(guide);
@@ -96,7 +96,7 @@ impl SixLink {
             // At φ = 0 the rocker lies along x.
             let assembled = math::abs(guide) < l3;
             let first = dead_points.iter().copied().fold(f64::INFINITY, f64::min);
-            return Err(Blocked::TooShort {
+            return Err(RotationError::TooShort {
                 link: "rod",
                 phi: if assembled { first } else { 0.0 },
                 shortest,
@@ -123,7 +123,7 @@ impl SixLink {
         let [from, to] = stroke;
         if six_link.pin_meets_pivot() && from + beyond(PI - from) <= to {
             let length = dimensions.crank;
-            return Err(Blocked::PinMeetsPivot { length }.into());
+            return Err(RotationError::PinMeetsPivot { length }.into());
         }
         let (sin, cos) = math::sin_cos(from);
         let (x, y) = (

@@ -11,7 +11,7 @@
 
 use core::f64::consts::PI;
 
-use super::Blocked;
+use super::RotationError;
 use super::four_bar::beyond;
 use super::reach::{self, DeadPoints};
 use crate::machine::error::PoseError;
@@ -98,7 +98,7 @@ impl SliderCrank {
             let dead_points = dimensions.dead_points(rod, 1e-9);
             let assembled = math::abs(offset) < rod;
             let first = dead_points.iter().copied().fold(f64::INFINITY, f64::min);
-            return Err(Blocked::TooShort {
+            return Err(RotationError::TooShort {
                 link: "rod",
                 phi: if assembled { first } else { 0.0 },
                 shortest,

@@ -40,7 +40,7 @@ const HALVINGS: usize = 56;
 /// The inertia of a driven wheel (kg·m²).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub enum Driven {
+pub enum WheelInertia {
     /// Independent of the ratio.
     Constant(f64),
     /// P·i⁴, with the module and width of a pinion with the inertia P.
@@ -54,7 +54,7 @@ pub struct OpenStage {
     /// Inertia of the driver (kg·m²).
     pub driver: f64,
     /// Inertia of the driven wheel (kg·m²).
-    pub driven: Driven,
+    pub driven: WheelInertia,
 }
 
 impl OpenStage {
@@ -63,15 +63,15 @@ impl OpenStage {
     pub const fn geared(pinion: f64) -> Self {
         Self {
             driver: pinion,
-            driven: Driven::LikePinion(pinion),
+            driven: WheelInertia::LikePinion(pinion),
         }
     }
 
     /// C/i² = `size`·i^`power` (kg·m²).
     const fn driven_at_driver(&self) -> (f64, f64) {
         match self.driven {
-            Driven::Constant(inertia) => (inertia, -2.0),
-            Driven::LikePinion(inertia) => (inertia, 2.0),
+            WheelInertia::Constant(inertia) => (inertia, -2.0),
+            WheelInertia::LikePinion(inertia) => (inertia, 2.0),
         }
     }
 }

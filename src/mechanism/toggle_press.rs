@@ -22,7 +22,7 @@ use core::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use super::four_bar::beyond;
 use super::reach;
-use super::{Blocked, Branch, FourBar, FourBarDimensions, Side, dyad};
+use super::{Branch, FourBar, FourBarDimensions, RotationError, Side, dyad};
 use crate::machine::joint::{Joint, Joints, Marker};
 use crate::machine::link::Link;
 use crate::number::error::{finite, positive};
@@ -120,7 +120,7 @@ impl TogglePress {
             let dead_points = press.dead_points(dimensions.lower)?;
             let assembled = press.off_guide_at(0.0)? < dimensions.lower;
             let first = dead_points.iter().copied().fold(f64::INFINITY, f64::min);
-            return Err(Blocked::TooShort {
+            return Err(RotationError::TooShort {
                 link: "lower link",
                 phi: if assembled { first } else { 0.0 },
                 shortest,

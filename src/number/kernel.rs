@@ -3,7 +3,7 @@
 use core::fmt;
 use core::ops::{Add, Mul, Sub};
 
-use super::{Number, Outcome, Quantity as _, Role, Scale, Sliding};
+use super::{FrictionSign, Number, Outcome, Quantity as _, Role, Scale};
 
 /// Numbers for the coefficients of a cell.
 pub trait Ring:
@@ -96,10 +96,10 @@ pub trait Kernel: Number {
     fn add_share(sum: Self::Raw, c: Self::Raw, share: Self) -> Self::Raw;
     /// sum plus Coulomb friction.
     #[inline(always)]
-    fn add_sliding(sum: Self::Raw, c: Self::Raw, sliding: Sliding<Self>) -> Self::Raw {
-        match sliding {
-            Sliding::Against(omega) => Self::add_signed(sum, c, omega.number()),
-            Sliding::Share(share) => Self::add_share(sum, c, share),
+    fn add_sliding(sum: Self::Raw, c: Self::Raw, friction: FrictionSign<Self>) -> Self::Raw {
+        match friction {
+            FrictionSign::OfSpeed(omega) => Self::add_signed(sum, c, omega.number()),
+            FrictionSign::Scaled(share) => Self::add_share(sum, c, share),
         }
     }
     /// The sum as a torque. It fits, as `Model::new` ensured.

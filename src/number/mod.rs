@@ -18,6 +18,7 @@
 pub(crate) mod error;
 mod factor;
 mod fence;
+mod friction_sign;
 mod kernel;
 #[cfg(feature = "mechanics")]
 #[allow(
@@ -37,7 +38,6 @@ mod quotient;
 mod role;
 pub(crate) mod scalar;
 pub(crate) mod scale;
-mod sliding;
 pub(crate) mod spline;
 pub(crate) mod transfer;
 
@@ -47,6 +47,7 @@ pub(crate) use kernel::{Kernel, Ring};
 
 pub(crate) use factor::Factor;
 pub(crate) use fence::fence;
+pub use friction_sign::FrictionSign;
 pub(crate) use product::{high, signed_words, upper_of_sum};
 pub use quantity::Quantity;
 pub use role::Role;
@@ -54,5 +55,4 @@ pub(crate) use scalar::Outcome;
 pub use scalar::{Number, Scalar};
 pub use scale::Bases;
 pub(crate) use scale::Scale;
-pub use sliding::Sliding;
 pub use transfer::Transfer;

@@ -80,17 +80,6 @@ impl Phase {
     pub fn cell(self, cells: u32) -> (u32, u32) {
         cell(self.0, cells)
     }
-
-    /// Sine and cosine by `micromath`: no double precision, about 60 instructions, |error| ≤ 1.2e-3 (test
-    /// `sin_cos_approx_keeps_its_bound`). For displays and first guesses; the tables do not use it.
-    #[cfg(feature = "micromath")]
-    #[must_use]
-    pub fn sin_cos_approx(self) -> (f32, f32) {
-        // As a signed angle in [−π, π), where micromath is best.
-        let angle =
-            micromath::F32(self.0 as i32 as f32 * (core::f32::consts::PI / 2_147_483_648.0));
-        (angle.sin().0, angle.cos().0)
-    }
 }
 
 /// Index of the cell, and the place in it as a fraction of 2³²; for up to 65535 cells.

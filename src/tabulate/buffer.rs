@@ -1,20 +1,23 @@
 //! A table and its memory.
 
-use super::{Request, Tabulated, fill, tabulate};
-use crate::curve::{Format, Set, words_len};
+use super::{Request, TableFigures, fill, tabulate};
+use crate::curve::{CurveSet, Format, words_len};
+use crate::error::Error;
 use crate::machine::Reducible;
-use crate::{Error, Model, Scale};
+use crate::{Model, Scale};
 
 /// Memory for tables of up to `CELLS` cells and `WORDS` words, for firmware that makes its own tables. Filling it returns the model over it.
 ///
 /// ```
 /// use jred::mechanism::{ScotchYoke, ScotchYokeDimensions};
 /// # use core::f64::consts::FRAC_PI_2;
+/// use jred::error::Error;
+/// use jred::machine::{Link, Machine};
 /// use jred::table::words_len;
 /// use jred::tabulate::{TableBuffer, scratch_len};
-/// use jred::{Error, Link, Machine, Phase, Scale, Set, Spline, curves};
+/// use jred::{CurveSet, Phase, Scale, Spline, curves};
 ///
-/// const SET: Set = curves::INERTIA;
+/// const SET: CurveSet = curves::INERTIA;
 /// const CELLS: u32 = 32;
 /// const WORDS: usize = words_len::<Spline<f32>>(CELLS, SET);
 ///
@@ -47,10 +50,12 @@ use crate::{Error, Model, Scale};
 /// Nor does refilling it while the model over the last table is in use:
 ///
 /// ```
+/// # use jred::error::Error;
+/// # use jred::machine::Machine;
 /// # use jred::tabulate::TableBuffer;
-/// # use jred::{Error, Machine, Phase, Scale, Spline};
+/// # use jred::{Phase, Scale, Spline};
 /// # type Buffer = TableBuffer::<Spline<f32>, 0, 32, 35>;
-/// # fn twice(buffer: &mut Buffer, machine: &impl jred::Reducible, scratch: &mut [f64]) -> Result<f32, Error> {
+/// # fn twice(buffer: &mut Buffer, machine: &impl jred::machine::Reducible, scratch: &mut [f64]) -> Result<f32, Error> {
 /// let before = buffer.fill(machine, 32, &Scale::SI, scratch)?.torque(Phase::default(), 0.0, 1.0);
 /// let after = buffer.fill(machine, 32, &Scale::SI, scratch)?.torque(Phase::default(), 0.0, 1.0);
 /// # Ok(after - before)
@@ -58,21 +63,23 @@ use crate::{Error, Model, Scale};
 /// ```
 ///
 /// ```compile_fail,E0499
+/// # use jred::error::Error;
+/// # use jred::machine::Machine;
 /// # use jred::tabulate::TableBuffer;
-/// # use jred::{Error, Machine, Phase, Scale, Spline};
+/// # use jred::{Phase, Scale, Spline};
 /// # type Buffer = TableBuffer::<Spline<f32>, 0, 32, 35>;
-/// # fn twice(buffer: &mut Buffer, machine: &impl jred::Reducible, scratch: &mut [f64]) -> Result<f32, Error> {
+/// # fn twice(buffer: &mut Buffer, machine: &impl jred::machine::Reducible, scratch: &mut [f64]) -> Result<f32, Error> {
 /// let before = buffer.fill(machine, 32, &Scale::SI, scratch)?;
 /// let after = buffer.fill(machine, 32, &Scale::SI, scratch)?;
 /// # Ok(after.torque(Phase::default(), 0.0, 1.0) - before.torque(Phase::default(), 0.0, 1.0))
 /// # }
 /// ```
 #[derive(Clone, Debug)]
-pub struct TableBuffer<F: Format, const SET: Set, const CELLS: u32, const WORDS: usize> {
+pub struct TableBuffer<F: Format, const SET: CurveSet, const CELLS: u32, const WORDS: usize> {
     words: [F::Word; WORDS],
 }
 
-impl<F: Format, const SET: Set, const CELLS: u32, const WORDS: usize>
+impl<F: Format, const SET: CurveSet, const CELLS: u32, const WORDS: usize>
     TableBuffer<F, SET, CELLS, WORDS>
 {
     /// Empty.
@@ -114,7 +121,7 @@ impl<F: Format, const SET: Set, const CELLS: u32, const WORDS: usize>
         request: &Request,
         scale: &Scale,
         scratch: &mut [f64],
-    ) -> Result<(Model<'_, F, SET>, Tabulated), Error> {
+    ) -> Result<(Model<'_, F, SET>, TableFigures), Error> {
         let request = request.with_max_cells(request.max_cells.min(CELLS));
         let found = tabulate::<F>(machine, SET, &request, scale, scratch, &mut self.words)?;
         let model = self.fill(machine, found.cells, &found.scale, scratch)?;
@@ -122,7 +129,7 @@ impl<F: Format, const SET: Set, const CELLS: u32, const WORDS: usize>
     }
 }
 
-impl<F: Format, const SET: Set, const CELLS: u32, const WORDS: usize> Default
+impl<F: Format, const SET: CurveSet, const CELLS: u32, const WORDS: usize> Default
     for TableBuffer<F, SET, CELLS, WORDS>
 {
     fn default() -> Self {

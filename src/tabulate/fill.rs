@@ -1,12 +1,15 @@
 //! Fills a table of a given size.
 
 use super::scratch_len;
-use crate::curve::{Format, MAX_CELLS, Sample, Samples, Set, Shape, Table, TableError, words_len};
+use crate::curve::{
+    CurveSet, Format, MAX_CELLS, Sample, Samples, Shape, Table, TableError, words_len,
+};
+use crate::error::Error;
 use crate::machine::Reducible;
 use crate::machine::error::PoseError;
 use crate::number::error::RangeError;
 use crate::number::spline::MIN_CELLS;
-use crate::{Domain, Error, Scale};
+use crate::{Domain, Scale};
 
 /// Fills `words` with a table of exactly `cells` cells and this set of [`curves`](crate::curves), and returns it.
 ///
@@ -18,7 +21,7 @@ use crate::{Domain, Error, Scale};
 /// a set that the format cannot have; as [`Table::new`].
 pub fn fill<'w, F: Format>(
     machine: &impl Reducible,
-    set: Set,
+    set: CurveSet,
     cells: u32,
     scale: &Scale,
     scratch: &mut [f64],

@@ -1,10 +1,11 @@
 //! The error of a table.
 
-use super::{CHECKS_PER_CELL, Request, Tabulated};
+use super::{CHECKS_PER_CELL, Request, TableFigures};
 use crate::curve::{CurveValues, Format, Table};
+use crate::error::Error;
 use crate::machine::reducible::Reducible;
 use crate::machine::reduction::Reduction;
-use crate::{Domain, Error, Phase, math};
+use crate::{Domain, Phase, math};
 
 /// The largest torque error of a table within the range of the request. With 16 bits the rounding of the tick is significant and is added: at most ¾
 /// of a unit of 2⁻¹⁵ of the torque base (`tests/proofs/q15_rows.g`). So at the places checked no tick within the range of the request, with ω and α
@@ -16,7 +17,7 @@ pub fn measure<F: Format>(
     machine: &impl Reducible,
     table: &Table<'_, F>,
     request: &Request,
-) -> Result<Tabulated, Error> {
+) -> Result<TableFigures, Error> {
     measure_until(machine, table, request, (0.0, CHECKS_PER_CELL), false)
 }
 
@@ -54,11 +55,11 @@ pub(super) fn measure_until<F: Format>(
     request: &Request,
     from: (f64, u32),
     stop: bool,
-) -> Result<Tabulated, Error> {
+) -> Result<TableFigures, Error> {
     let limit = stop.then_some(request.torque_error);
     let look = |phase| torque_error(machine, table, request, phase);
     let mut found = scan(machine.domain(), table.cells(), limit, from, look)?;
-    let within = |found: &Tabulated| limit.is_none_or(|limit| found.torque_error <= limit);
+    let within = |found: &TableFigures| limit.is_none_or(|limit| found.torque_error <= limit);
     let mut before = [(f64::NAN, f64::NAN); 2];
     for (k, place) in edge_places(machine).enumerate() {
         // The request is exceeded already.
@@ -77,7 +78,7 @@ pub(super) fn measure_until<F: Format>(
         found.bound = found.bound.max(bound);
         before = [before[1], (place, error)];
     }
-    Ok(Tabulated {
+    Ok(TableFigures {
         scale: *table.scale(),
         ..found
     })
@@ -91,7 +92,7 @@ pub(crate) fn scan(
     limit: Option<f64>,
     (start, checks): (f64, u32),
     torque_error: impl Fn(Phase) -> Result<(f64, f64), Error>,
-) -> Result<Tabulated, Error> {
+) -> Result<TableFigures, Error> {
     let places = Places {
         first: domain.phase(start).cell(cells).0,
         cells,
@@ -104,7 +105,7 @@ pub(crate) fn scan(
     } else {
         start
     };
-    Ok(Tabulated { worst, ..found })
+    Ok(TableFigures { worst, ..found })
 }
 
 /// Places of a table where its error is evaluated.
@@ -126,17 +127,17 @@ pub(super) fn scan_places(
     limit: Option<f64>,
     places: Places,
     torque_error: impl Fn(Phase) -> Result<(f64, f64), Error>,
-) -> Result<Tabulated, Error> {
+) -> Result<TableFigures, Error> {
     let checks = u64::from(places.checks);
     let first = u64::from(places.first) * checks;
     let count = u64::from(places.cells) * checks;
     let all = u64::from(cells) * checks;
-    let mut found = Tabulated {
+    let mut found = TableFigures {
         cells,
         torque_error: 0.0,
         bound: 0.0,
         spacing: domain.span() / all.max(1) as f64,
-        ..Tabulated::default()
+        ..TableFigures::default()
     };
     let mut find = |phase: Phase| -> Result<(f64, bool), Error> {
         let (error, phi) = torque_error(phase)?;
@@ -194,10 +195,10 @@ pub(super) fn torque_error<F: Format>(
 /// Bound of the difference between the drive torques of a table and of the machine within the range of the request, as in the [module](super)'s head.
 pub fn torque_between(request: &Request, read: &CurveValues, exact: &Reduction) -> f64 {
     [
-        (read.inertia - exact.inertia) * request.alpha,
-        0.5 * (read.inertia_slope - exact.inertia_slope) * request.omega * request.omega,
+        (read.inertia - exact.inertia) * request.max_acceleration,
+        0.5 * (read.inertia_slope - exact.inertia_slope) * request.max_speed * request.max_speed,
         read.load - exact.load_torque(),
-        (read.viscous - exact.viscous) * request.omega,
+        (read.viscous - exact.viscous) * request.max_speed,
         read.coulomb - exact.coulomb,
     ]
     .iter()

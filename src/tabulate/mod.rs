@@ -1,7 +1,7 @@
 //! From a machine to the smallest table that meets a torque error.
 //!
-//! In the data flow it comes between a [`Reduction`](crate::Reduction) and a [`Table`](crate::Table): on the host, or in firmware after a change of
-//! payload.
+//! In the data flow it comes between a [`Reduction`](crate::machine::Reduction) and a [`Table`](crate::table::Table): on the host, or in firmware
+//! after a change of payload.
 //!
 //! At every position checked, the error of the drive torque of a table is bounded by the sum of its curves' errors at the ends of the stated range:
 //!
@@ -30,11 +30,13 @@ pub use part::Part;
 pub use search::{growing, smallest, tabulate};
 
 use crate::curve::MAX_CELLS;
-use crate::curve::curves::{self, Set};
+use crate::curve::curves::{self, CurveSet};
+use crate::error::Error;
 use crate::machine::Reducible;
 use crate::number::error::positive;
 use crate::number::spline::{MIN_CELLS, control_points};
-use crate::{Error, Scale, Validity, math};
+use crate::tick::Validity;
+use crate::{Scale, math};
 
 /// Places in each cell at which a table is compared with the exact curves.
 pub const CHECKS_PER_CELL: u32 = 64;
@@ -48,14 +50,14 @@ pub const EXHAUSTIVE: u32 = 128;
 ///
 /// ```
 /// # use jred::tabulate::Request;
-/// let request = Request::new(0.01).with_omega(60.0).with_alpha(400.0).with_max_cells(128);
+/// let request = Request::new(0.01).with_max_speed(60.0).with_max_acceleration(400.0).with_max_cells(128);
 /// ```
 ///
 /// Later versions may add fields, so that a program cannot list them:
 ///
 /// ```compile_fail,E0639
 /// # use jred::tabulate::Request;
-/// let request = Request { torque_error: 0.01, omega: 60.0, alpha: 400.0, max_cells: 128 };
+/// let request = Request { torque_error: 0.01, max_speed: 60.0, max_acceleration: 400.0, max_cells: 128 };
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
@@ -63,45 +65,39 @@ pub struct Request {
     /// Largest error of the drive torque (N·m).
     pub torque_error: f64,
     /// Largest speed (rad/s).
-    pub omega: f64,
+    pub max_speed: f64,
     /// Largest acceleration (rad/s²).
-    pub alpha: f64,
+    pub max_acceleration: f64,
     /// Greatest number of cells or harmonics to try.
     pub max_cells: u32,
 }
 
 impl Request {
-    /// An error of the drive torque of at most `torque_error` (N·m). Add the range of the motion: [`with_omega`](Self::with_omega),
-    /// [`with_alpha`](Self::with_alpha).
+    /// An error of the drive torque of at most `torque_error` (N·m). Add the range of the motion: [`with_max_speed`](Self::with_max_speed),
+    /// [`with_max_acceleration`](Self::with_max_acceleration).
     #[must_use]
     pub const fn new(torque_error: f64) -> Self {
         Self {
             torque_error,
-            omega: 0.0,
-            alpha: 0.0,
+            max_speed: 0.0,
+            max_acceleration: 0.0,
             max_cells: MAX_CELLS,
         }
     }
 
-    /// Changes the largest error of the drive torque (N·m).
+    /// Sets the largest speed (rad/s).
     #[must_use]
-    pub const fn with_torque_error(self, torque_error: f64) -> Self {
+    pub const fn with_max_speed(self, max_speed: f64) -> Self {
+        Self { max_speed, ..self }
+    }
+
+    /// Sets the largest acceleration (rad/s²).
+    #[must_use]
+    pub const fn with_max_acceleration(self, max_acceleration: f64) -> Self {
         Self {
-            torque_error,
+            max_acceleration,
             ..self
         }
-    }
-
-    /// Sets the largest speed `omega` (rad/s).
-    #[must_use]
-    pub const fn with_omega(self, omega: f64) -> Self {
-        Self { omega, ..self }
-    }
-
-    /// Sets the largest acceleration `alpha` (rad/s²).
-    #[must_use]
-    pub const fn with_alpha(self, alpha: f64) -> Self {
-        Self { alpha, ..self }
     }
 
     /// Sets the greatest number of cells or harmonics.
@@ -117,8 +113,8 @@ impl Request {
 
     pub(crate) fn check(&self) -> Result<(), Error> {
         positive("torque error", self.torque_error)?;
-        positive("largest speed", self.omega)?;
-        positive("largest acceleration", self.alpha)?;
+        positive("largest speed", self.max_speed)?;
+        positive("largest acceleration", self.max_acceleration)?;
         Ok(())
     }
 }
@@ -127,7 +123,7 @@ impl Request {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
-pub struct Tabulated {
+pub struct TableFigures {
     /// Number of cells.
     pub cells: u32,
     /// Largest error of the drive torque (N·m) at the places checked: of curves and words; for 16 bits also the rounding of the tick's sums; without
@@ -147,13 +143,13 @@ pub struct Tabulated {
     pub scale: Scale,
 }
 
-impl Tabulated {
+impl TableFigures {
     /// The validity for the header of an image.
     #[must_use]
     pub fn validity(&self, request: &Request) -> Validity {
         Validity {
-            omega: request.omega as f32,
-            alpha: request.alpha as f32,
+            max_speed: request.max_speed as f32,
+            max_acceleration: request.max_acceleration as f32,
             torque_error: self.torque_error as f32,
         }
     }
@@ -161,7 +157,7 @@ impl Tabulated {
 
 /// Numbers of `f64` scratch for tables of up to `cells` cells.
 #[must_use]
-pub const fn scratch_len(cells: u32, set: Set) -> usize {
+pub const fn scratch_len(cells: u32, set: CurveSet) -> usize {
     (curves::width(set) + 1) * control_points(cells as usize)
 }
 
@@ -170,7 +166,7 @@ pub const fn scratch_len(cells: u32, set: Set) -> usize {
 ///
 /// # Errors
 /// The machine's errors.
-pub fn curves_in_use(machine: &impl Reducible, positions: u32) -> Result<Set, Error> {
+pub fn curves_in_use(machine: &impl Reducible, positions: u32) -> Result<CurveSet, Error> {
     // Rounding of sums over links.
     const SAME: f64 = 1e-12;
     let mut set = curves::INERTIA;

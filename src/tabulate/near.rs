@@ -6,9 +6,9 @@
 
 use super::measure::{Places, measure_until, scan_places, torque_error};
 use super::search::smallest;
-use super::{CHECKS_PER_CELL, COARSE_CHECKS, EXHAUSTIVE, Request, Tabulated};
-use crate::Error;
+use super::{CHECKS_PER_CELL, COARSE_CHECKS, EXHAUSTIVE, Request, TableFigures};
 use crate::curve::{Format, Table};
+use crate::error::Error;
 use crate::machine::reducible::Reducible;
 
 /// Cells on each side of the worst place that are checked.
@@ -26,8 +26,8 @@ pub(super) enum Look {
 /// As [`smallest`], for a `meets` that can check fewer places.
 pub(super) fn search_near(
     request: &Request,
-    mut meets: impl FnMut(u32, Look) -> Result<Option<Tabulated>, Error>,
-) -> Result<Option<Tabulated>, Error> {
+    mut meets: impl FnMut(u32, Look) -> Result<Option<TableFigures>, Error>,
+) -> Result<Option<TableFigures>, Error> {
     let most = request.most_cells();
     let near = smallest(most, EXHAUSTIVE, |cells| meets(cells, Look::Near))?;
     let Some((guess, found)) = near else {
@@ -58,9 +58,9 @@ pub(super) fn meets_near<F: Format>(
     table: &Table<'_, F>,
     request: &Request,
     worst: &mut Worst,
-) -> Result<Option<Tabulated>, Error> {
+) -> Result<Option<TableFigures>, Error> {
     let (domain, cells) = (machine.domain(), table.cells());
-    let meets = |found: &Tabulated| found.torque_error <= request.torque_error;
+    let meets = |found: &TableFigures| found.torque_error <= request.torque_error;
     let survey = || measure_until(machine, table, request, (0.0, COARSE_CHECKS), false);
     let around = |place: f64| {
         let first = domain.phase(place).cell(cells).0 + cells - NEIGHBOURS;
@@ -94,23 +94,23 @@ pub(super) fn meets_near<F: Format>(
 #[cfg(test)]
 mod tests {
     use super::{Look, search_near};
-    use crate::tabulate::{EXHAUSTIVE, Request, Tabulated};
+    use crate::tabulate::{EXHAUSTIVE, Request, TableFigures};
 
     /// Result of a search where sizes from `near` on pass the check near the worst place, and those from `all` on pass every check; and the number of
     /// checks at all places of sizes beyond [`EXHAUSTIVE`].
     fn found(near: u32, all: u32, max_cells: u32) -> (Option<u32>, u32) {
         let request = Request::new(1.0)
-            .with_omega(1.0)
-            .with_alpha(1.0)
+            .with_max_speed(1.0)
+            .with_max_acceleration(1.0)
             .with_max_cells(max_cells);
         let mut looks = 0;
         let found = search_near(&request, |cells, look| {
             let near_only = look == Look::Near && cells > EXHAUSTIVE;
             looks += u32::from(!near_only && cells > EXHAUSTIVE);
             let enough = if near_only { near } else { all };
-            Ok((cells >= enough).then(|| Tabulated {
+            Ok((cells >= enough).then(|| TableFigures {
                 cells,
-                ..Tabulated::default()
+                ..TableFigures::default()
             }))
         });
         (found.ok().flatten().map(|found| found.cells), looks)

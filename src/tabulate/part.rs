@@ -1,10 +1,10 @@
 //! A part of a machine's range, tabulated separately.
 
-use crate::machine::PoseError;
+use crate::machine::{PoseError, Reducible, Reduction};
 use crate::number::error::{RangeError, finite};
 use core::f64::consts::TAU;
 
-use crate::{Domain, Reducible, Reduction, math};
+use crate::{Domain, math};
 
 /// A part of a machine's range, as a stroke from 0 to its length: the source of one table of [`Pieces`](crate::Pieces).
 ///

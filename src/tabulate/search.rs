@@ -2,29 +2,30 @@
 
 use super::measure::{measure, measure_until};
 use super::near::{Look, meets_near, search_near};
-use super::{CHECKS_PER_CELL, COARSE_CHECKS, EXHAUSTIVE, Request, Tabulated, fill};
-use crate::curve::{Format, Set, Table};
+use super::{CHECKS_PER_CELL, COARSE_CHECKS, EXHAUSTIVE, Request, TableFigures, fill};
+use crate::Scale;
+use crate::curve::{CurveSet, Format, Table};
+use crate::error::Error;
 use crate::machine::Reducible;
 use crate::number::spline::MIN_CELLS;
-use crate::{Error, Scale};
 
 /// Finds the table with the fewest cells that meets the request, fills `words` with it, and returns its figures.
 ///
 /// Sizes are tried as in [`smallest`], every one up to [`EXHAUSTIVE`] cells. A candidate is rejected at the first position that exceeds the request;
 /// the check starts where the previous candidate had its largest error. The bisection checks only the cells near that position; the resulting size is
-/// checked at all places, and larger ones follow if it fails. In fixed point [`Tabulated::scale`] has the machine units of the table.
+/// checked at all places, and larger ones follow if it fails. In fixed point [`TableFigures::scale`] has the machine units of the table.
 ///
 /// # Errors
 /// [`Error::TorqueErrorNotReached`] if no size up to `max_cells` meets the request, with the best of them; [`Error::Table`] if the largest does not
 /// form a fixed-point model; otherwise as [`fill`](fill()).
 pub fn tabulate<F: Format>(
     machine: &impl Reducible,
-    set: Set,
+    set: CurveSet,
     request: &Request,
     scale: &Scale,
     scratch: &mut [f64],
     words: &mut [F::Word],
-) -> Result<Tabulated, Error> {
+) -> Result<TableFigures, Error> {
     request.check()?;
     let (mut worst, mut near) = (0.0, None);
     let found = search_near(request, |cells, look| {
@@ -52,7 +53,7 @@ pub fn tabulate<F: Format>(
 /// The table of `cells` cells, in suitable machine units, if it forms a model.
 fn candidate<'w, F: Format>(
     machine: &impl Reducible,
-    set: Set,
+    set: CurveSet,
     cells: u32,
     scale: &Scale,
     scratch: &mut [f64],
@@ -119,9 +120,9 @@ pub fn smallest<T, E>(
 fn meets(
     request: &Request,
     worst: &mut f64,
-    measure: impl Fn((f64, u32)) -> Result<Tabulated, Error>,
-) -> Result<Option<Tabulated>, Error> {
-    let mut found = Tabulated::default();
+    measure: impl Fn((f64, u32)) -> Result<TableFigures, Error>,
+) -> Result<Option<TableFigures>, Error> {
+    let mut found = TableFigures::default();
     for checks in [COARSE_CHECKS, CHECKS_PER_CELL] {
         found = measure((*worst, checks))?;
         *worst = found.worst;
@@ -135,11 +136,11 @@ fn meets(
 /// The best of the growing sizes, or why the largest does not form a table.
 fn not_reached(
     request: &Request,
-    mut measured: impl FnMut(u32) -> Result<Tabulated, Error>,
+    mut measured: impl FnMut(u32) -> Result<TableFigures, Error>,
 ) -> Error {
-    let mut best = Tabulated {
+    let mut best = TableFigures {
         torque_error: f64::INFINITY,
-        ..Tabulated::default()
+        ..TableFigures::default()
     };
     let mut refused = None;
     for cells in growing(request.most_cells()) {

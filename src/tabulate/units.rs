@@ -20,7 +20,7 @@ impl Scale {
         alpha: f64,
         positions: u32,
     ) -> Result<Self, PoseError> {
-        let most = Most::of(machine, omega, alpha, positions)?;
+        let most = Extremes::of(machine, omega, alpha, positions)?;
         // The greatest torque against the greatest resistance, where the inertia is least.
         most.scale((most.inertia * alpha + 2.0 * most.resisting) / most.least)
     }
@@ -36,12 +36,12 @@ impl Scale {
         alpha: f64,
         positions: u32,
     ) -> Result<Self, PoseError> {
-        Most::of(machine, omega, alpha, positions)?.scale(alpha)
+        Extremes::of(machine, omega, alpha, positions)?.scale(alpha)
     }
 }
 
 /// The largest quantities of a machine, including a scale's margin for the speed.
-struct Most {
+struct Extremes {
     /// Least inertia.
     least: f64,
     /// Greatest inertia.
@@ -52,7 +52,7 @@ struct Most {
     omega: f64,
 }
 
-impl Most {
+impl Extremes {
     const MARGIN: f64 = 1.05;
 
     fn of(

@@ -11,6 +11,6 @@ pub use image::{
     image_len,
 };
 pub(crate) use image::{Beginning, Progress, covered, seal};
-pub use model::{AccelerationRange, AnyModel, Contributions, Model};
+pub use model::{AccelerationRange, AnyModel, Model, TorqueTerms};
 pub use pieces::Pieces;
 pub use units::MachineUnits;

@@ -9,8 +9,8 @@
 //! link: a motor behind a gear ratio i has T/i, and its rotor belongs in J as i²·J_M (`Machine::with_flywheel`). sgn 0 = 0: at standstill the model
 //! has no friction, because friction then balances the other forces.
 
-use crate::curve::{AccelerationOf, Format, Set, SpeedOf, Table, TableError, TorqueOf};
-use crate::number::{Number, Quantity, Sliding};
+use crate::curve::{AccelerationOf, CurveSet, Format, SpeedOf, Table, TableError, TorqueOf};
+use crate::number::{FrictionSign, Number, Quantity};
 use crate::{Outcome, Phase};
 
 /// A reduced machine ready for the tick, over a table in RAM or in flash. Its set of [`curves`](crate::curves) is part of the type, so that absent
@@ -115,7 +115,7 @@ use crate::{Outcome, Phase};
 /// ```
 #[derive(Clone, Copy, Debug)]
 #[repr(transparent)]
-pub struct Model<'a, F: Format, const SET: Set>(AnyModel<'a, F>);
+pub struct Model<'a, F: Format, const SET: CurveSet>(AnyModel<'a, F>);
 
 /// As [`Model`], with a set of [`curves`](crate::curves) known at run time: for hosts, which tick any table. The same bits.
 #[derive(Clone, Copy, Debug)]
@@ -137,9 +137,9 @@ pub struct AccelerationRange<N: Number> {
 /// The terms of the drive torque.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Contributions<N: Number> {
+pub struct TorqueTerms<N: Number> {
     /// J·α
-    pub inertial: N::Torque,
+    pub acceleration: N::Torque,
     /// ½·J′·ω²
     pub velocity: N::Torque,
     /// −load
@@ -170,14 +170,14 @@ impl<'a, F: Format> AnyModel<'a, F> {
 
     /// The same model over its words, borrowed again or moved.
     #[inline(always)]
-    fn moved<'b>(&self, words: &'b [F::Word], set: Set) -> AnyModel<'b, F> {
+    fn moved<'b>(&self, words: &'b [F::Word], set: CurveSet) -> AnyModel<'b, F> {
         let table = self.table.moved(words);
         let tick = F::moved(&self.tick, &table, set);
         AnyModel { table, tick }
     }
 }
 
-impl<'a, F: Format, const SET: Set> Model<'a, F, SET> {
+impl<'a, F: Format, const SET: CurveSet> Model<'a, F, SET> {
     /// Creates a model over `table`.
     ///
     /// # Errors
@@ -243,38 +243,38 @@ macro_rules! dynamics {
             /// docs/performance.md.
             #[inline]
             pub fn torque(&self, phase: Phase, omega: SpeedOf<F>, alpha: AccelerationOf<F>) -> TorqueOf<F> {
-                self.torque_with(phase, omega, alpha, Sliding::Against(omega))
+                self.torque_with(phase, omega, alpha, FrictionSign::OfSpeed(omega))
             }
 
-            /// As [`torque`](Self::torque), with Coulomb friction given by `sliding`: the sign of the set-point, or a ramp.
+            /// As [`torque`](Self::torque), with Coulomb friction given by `friction`: the sign of the set-point, or a ramp.
             #[inline(always)]
             pub fn torque_with(
                 &self,
                 phase: Phase,
                 omega: SpeedOf<F>,
                 alpha: AccelerationOf<F>,
-                sliding: Sliding<F::Number>,
+                friction: FrictionSign<F::Number>,
             ) -> TorqueOf<F> {
                 let $any = self.any();
-                let motion = [omega.number(), alpha.number()];
-                TorqueOf::<F>::of(F::torque(&$any.table, &$any.tick, $curves, phase, motion, sliding))
+                let (omega, alpha) = (omega.number(), alpha.number());
+                TorqueOf::<F>::of(F::torque(&$any.table, &$any.tick, $curves, phase, omega, alpha, friction))
             }
 
             /// The separate terms of [`torque_with`](Self::torque_with). Their sum is the torque except for their roundings, each of four units in
             /// `Q31` and of one in `Q15`.
-            pub fn contributions(
+            pub fn torque_terms(
                 &self,
                 phase: Phase,
                 omega: SpeedOf<F>,
                 alpha: AccelerationOf<F>,
-                sliding: Sliding<F::Number>,
-            ) -> Contributions<F::Number> {
+                friction: FrictionSign<F::Number>,
+            ) -> TorqueTerms<F::Number> {
                 let $any = self.any();
-                let motion = [omega.number(), alpha.number()];
-                let [inertial, velocity, load, viscous, coulomb] =
-                    F::contributions(&$any.table, &$any.tick, $curves, phase, motion, sliding)
+                let (omega, alpha) = (omega.number(), alpha.number());
+                let [acceleration, velocity, load, viscous, coulomb] =
+                    F::torque_terms(&$any.table, &$any.tick, $curves, phase, omega, alpha, friction)
                         .map(TorqueOf::<F>::of);
-                Contributions { inertial, velocity, load, viscous, coulomb }
+                TorqueTerms { acceleration, velocity, load, viscous, coulomb }
             }
 
             /// Forward dynamics: the acceleration that `torque` on the drive link causes at the speed `omega`; in fixed point limited to the number
@@ -288,9 +288,9 @@ macro_rules! dynamics {
                 torque: TorqueOf<F>,
             ) -> Outcome<AccelerationOf<F>> {
                 let $any = self.any();
-                let sliding = Sliding::Against(omega);
+                let friction = FrictionSign::OfSpeed(omega);
                 let [found, _] = F::accelerations(
-                    &$any.table, &$any.tick, $curves, phase, omega.number(), sliding, [torque.number(); 2],
+                    &$any.table, &$any.tick, $curves, phase, omega.number(), friction, [torque.number(); 2],
                 );
                 found.map(AccelerationOf::<F>::of)
             }
@@ -304,23 +304,23 @@ macro_rules! dynamics {
                 least: TorqueOf<F>,
                 greatest: TorqueOf<F>,
             ) -> AccelerationRange<F::Number> {
-                self.acceleration_range_with(phase, omega, Sliding::Against(omega), [least, greatest])
+                self.acceleration_range_with(phase, omega, FrictionSign::OfSpeed(omega), least, greatest)
             }
 
-            /// As [`acceleration_range`](Self::acceleration_range), with Coulomb friction given by `sliding`: at rest, against the motion that is to
+            /// As [`acceleration_range`](Self::acceleration_range), with Coulomb friction given by `friction`: at rest, against the motion that is to
             /// begin.
             #[inline(always)]
             pub fn acceleration_range_with(
                 &self,
                 phase: Phase,
                 omega: SpeedOf<F>,
-                sliding: Sliding<F::Number>,
-                torques: [TorqueOf<F>; 2],
+                friction: FrictionSign<F::Number>,
+                least: TorqueOf<F>,
+                greatest: TorqueOf<F>,
             ) -> AccelerationRange<F::Number> {
                 let $any = self.any();
-                let [least, greatest] = torques;
                 let [least, greatest] = F::accelerations(
-                    &$any.table, &$any.tick, $curves, phase, omega.number(), sliding,
+                    &$any.table, &$any.tick, $curves, phase, omega.number(), friction,
                     [least.number(), greatest.number()],
                 );
                 AccelerationRange {
@@ -331,8 +331,8 @@ macro_rules! dynamics {
         }
     };
     (@type $model:ident []) => { $model<'a, F> };
-    (@type $model:ident [const SET: Set]) => { $model<'a, F, SET> };
+    (@type $model:ident [const SET: CurveSet]) => { $model<'a, F, SET> };
 }
 
-dynamics!(Model, [const SET: Set], |any| SET);
+dynamics!(Model, [const SET: CurveSet], |any| SET);
 dynamics!(AnyModel, [], |any| any.table.set());

@@ -5,7 +5,7 @@
 //! large error, to the width of a cell (test `one_table_cannot_follow_a_jump`). Separate tables for the pieces between the jumps have no such cells.
 //! A [`Part`](crate::tabulate::Part) of the machine is tabulated as a stroke; [`Pieces`] combines the models again.
 
-use crate::curve::{AccelerationOf, Format, Set, SpeedOf, TableError, TorqueOf};
+use crate::curve::{AccelerationOf, CurveSet, Format, SpeedOf, TableError, TorqueOf};
 use crate::math::Real;
 use crate::number::{Number, Outcome};
 use crate::{AccelerationRange, Domain, Model, Phase, Scale};
@@ -22,9 +22,10 @@ use crate::{AccelerationRange, Domain, Model, Phase, Scale};
 ///
 /// ```
 /// use core::f64::consts::TAU;
-/// use jred::machine::PoseError;
+/// use jred::error::Error;
+/// use jred::machine::{PoseError, Reducible, Reduction};
 /// use jred::tabulate::{Part, Request, fill, scratch_len, tabulate};
-/// use jred::{Domain, Error, Model, Phase, Pieces, Reducible, Reduction, Scale, Set, Spline, curves};
+/// use jred::{CurveSet, Domain, Model, Phase, Pieces, Scale, Spline, curves};
 ///
 /// /// A flywheel, and a brake that is on from 1 to 2 rad.
 /// struct Braked;
@@ -41,9 +42,9 @@ use crate::{AccelerationRange, Domain, Model, Phase, Scale};
 /// }
 ///
 /// fn main() -> Result<(), Error> {
-///     const SET: Set = curves::LOAD;
+///     const SET: CurveSet = curves::LOAD;
 ///     const MOST: u32 = 16;
-///     let request = Request::new(0.001).with_omega(20.0).with_alpha(100.0).with_max_cells(MOST);
+///     let request = Request::new(0.001).with_max_speed(20.0).with_max_acceleration(100.0).with_max_cells(MOST);
 ///     let mut scratch = [0.0; scratch_len(MOST, SET)];
 ///     let mut words = [[0.0f32; 2 * (MOST as usize + 3)]; 2];
 ///     let [on, off] = words.each_mut();
@@ -52,11 +53,11 @@ use crate::{AccelerationRange, Domain, Model, Phase, Scale};
 ///         let words: &mut [f32; 2 * (MOST as usize + 3)] = words;
 ///         let cells = tabulate::<Spline<f32>>(&part, SET, &request, &Scale::SI, &mut scratch, &mut words[..])?.cells;
 ///         let table = fill::<Spline<f32>>(&part, SET, cells, &Scale::SI, &mut scratch, words)?;
-///         let model = Model::new(table).map_err(Error::Table)?;
+///         let model = Model::new(table)?;
 ///         Ok::<_, Error>((Phase::from_radians(from), model))
 ///     };
 ///     let turn: Pieces<'_, Spline<f32>, SET, 2> =
-///         Pieces::new(Domain::Turn, [model(1.0, 2.0, on)?, model(2.0, 1.0 + TAU, off)?]).map_err(Error::Table)?;
+///         Pieces::new(Domain::Turn, [model(1.0, 2.0, on)?, model(2.0, 1.0 + TAU, off)?])?;
 ///     let torque = |phi: f64| turn.torque(Phase::from_radians(phi), 0.0, 0.0);
 ///     assert!(torque(0.999_999).abs() < 0.001 && (torque(1.000_001) - 5.0).abs() < 0.001);
 ///     assert!((torque(1.999_999) - 5.0).abs() < 0.001 && torque(2.000_001).abs() < 0.001);
@@ -64,14 +65,14 @@ use crate::{AccelerationRange, Domain, Model, Phase, Scale};
 /// }
 /// ```
 #[derive(Clone, Copy, Debug)]
-pub struct Pieces<'a, F: Format, const SET: Set, const N: usize> {
+pub struct Pieces<'a, F: Format, const SET: CurveSet, const N: usize> {
     models: [Piece<'a, F, SET>; N],
     pub(super) scale: Scale,
     pub(super) domain: Domain<<F::Number as Number>::Real>,
 }
 
 #[derive(Clone, Copy, Debug)]
-struct Piece<'a, F: Format, const SET: Set> {
+struct Piece<'a, F: Format, const SET: CurveSet> {
     start: u32,
     /// Left shift of the piece's length until its top bit is set.
     shift: u32,
@@ -85,7 +86,7 @@ const UNITS: f32 = 1e-4;
 /// 2³²
 const TURN: f32 = 4_294_967_296.0;
 
-impl<'a, F: Format, const SET: Set, const N: usize> Pieces<'a, F, SET, N> {
+impl<'a, F: Format, const SET: CurveSet, const N: usize> Pieces<'a, F, SET, N> {
     /// Creates pieces of this range, from their models and the phases at which they start, in ascending order; the last ends where the first starts.
     ///
     /// # Errors

@@ -1,7 +1,7 @@
 //! The machine units of a model.
 
 use super::{AnyModel, Model, Pieces};
-use crate::curve::{Format, Set};
+use crate::curve::{CurveSet, Format};
 use crate::number::{Number, Real};
 use crate::{Domain, Scale};
 
@@ -42,6 +42,6 @@ macro_rules! units {
     };
 }
 
-units!([const SET: Set] Model<'_, F, SET>, |model| model.table().scale(), model.table().domain());
+units!([const SET: CurveSet] Model<'_, F, SET>, |model| model.table().scale(), model.table().domain());
 units!([] AnyModel<'_, F>, |model| model.table().scale(), model.table().domain());
-units!([const SET: Set, const N: usize] Pieces<'_, F, SET, N>, |turn| &turn.scale, turn.domain);
+units!([const SET: CurveSet, const N: usize] Pieces<'_, F, SET, N>, |turn| &turn.scale, turn.domain);

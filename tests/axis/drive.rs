@@ -1,4 +1,4 @@
-use jred::axis::{Gearbox, Ramp, TorqueLimits, Transmission};
+use jred::axis::{FrictionRamp, Gearbox, TorqueLimits, Transmission};
 use jred::{Acceleration, Domain, MotorTorque, Q15, Q31, Scale, Speed, Spline, Torque};
 
 use super::machine::{in_units, si};
@@ -144,6 +144,6 @@ fn limits_take_away_and_say_so() {
         assert!(Transmission::new(wrong, &units).is_err(), "{wrong:?}");
     }
     for width in [0.0, -1.0, f32::NAN, 1e-7] {
-        assert!(Ramp::new(width, &units).is_err(), "{width}");
+        assert!(FrictionRamp::new(width, &units).is_err(), "{width}");
     }
 }

@@ -1,5 +1,5 @@
 use jred::Domain;
-use jred::axis::{AxisError, Counter, Counting, Encoder, Mounting, Scaled, StrokeEncoder};
+use jred::axis::{AxisError, Counter, Counting, Encoder, Mounting, StrokeEncoder, StrokeMounting};
 use proptest::prelude::*;
 
 use crate::support::config;
@@ -21,7 +21,7 @@ fn mounting() -> impl Strategy<Value = Mounting> {
             counts_per_turn,
             gear,
             counting: if up { Counting::Up } else { Counting::Down },
-            home,
+            homing_offset: home,
         })
         .prop_filter("two counts a turn", |m| {
             m.gear[0] > 0
@@ -33,7 +33,7 @@ fn mounting() -> impl Strategy<Value = Mounting> {
 /// The error of the phase, in fractions of 2⁻³² turn: with a denominator of at least the encoder's counts per turn.
 fn check(mounting: &Mounting, count: i64, phase: u32) {
     let per = i128::from(mounting.counts_per_turn) * i128::from(mounting.gear[0]);
-    let from_home = i128::from(count) - i128::from(mounting.home);
+    let from_home = i128::from(count) - i128::from(mounting.homing_offset);
     let counts = match mounting.counting {
         Counting::Up => from_home,
         Counting::Down => -from_home,
@@ -71,8 +71,8 @@ proptest! {
         let per = i64::from(mounting.counts_per_turn) * i64::from(mounting.gear[0].min(1 << 20));
         if mounting.gear[1] == 1 && mounting.gear[0] < 1 << 20 {
             for turns in [0, 1, -3, 100] {
-                let count = mounting.home.wrapping_add(turns * per);
-                if mounting.home.checked_add(turns * per).is_some() {
+                let count = mounting.homing_offset.wrapping_add(turns * per);
+                if mounting.homing_offset.checked_add(turns * per).is_some() {
                     prop_assert_eq!(encoder.phase_wide(count).to_bits(), 0);
                 }
             }
@@ -94,7 +94,7 @@ proptest! {
         let resolution = if down { -span } else { span } / counts;
         let at_home = from + part * span;
         let domain = Domain::Stroke { from, to };
-        let encoder = StrokeEncoder::new(domain, Scaled { resolution, home, at_home }).unwrap();
+        let encoder = StrokeEncoder::new(domain, StrokeMounting { resolution, homing_offset: home, home_position: at_home }).unwrap();
         for at in at {
             let count = (at * counts) as i32;
             let counted = f64::from(count) - home as f64;
@@ -189,10 +189,10 @@ fn an_encoder_that_cannot_be_is_refused() {
     );
 
     let stroke = Domain::Stroke { from: 0.0, to: 0.5 };
-    let good = Scaled {
+    let good = StrokeMounting {
         resolution: 1e-6,
-        home: 0,
-        at_home: 0.0,
+        homing_offset: 0,
+        home_position: 0.0,
     };
     for (domain, scaled, says) in [
         (
@@ -207,7 +207,7 @@ fn an_encoder_that_cannot_be_is_refused() {
         ),
         (
             stroke,
-            Scaled {
+            StrokeMounting {
                 resolution: f64::NAN,
                 ..good
             },
@@ -215,7 +215,7 @@ fn an_encoder_that_cannot_be_is_refused() {
         ),
         (
             stroke,
-            Scaled {
+            StrokeMounting {
                 resolution: 0.0,
                 ..good
             },
@@ -223,7 +223,7 @@ fn an_encoder_that_cannot_be_is_refused() {
         ),
         (
             stroke,
-            Scaled {
+            StrokeMounting {
                 resolution: 0.3,
                 ..good
             },
@@ -231,16 +231,16 @@ fn an_encoder_that_cannot_be_is_refused() {
         ),
         (
             stroke,
-            Scaled {
-                at_home: f64::INFINITY,
+            StrokeMounting {
+                home_position: f64::INFINITY,
                 ..good
             },
             "the position at home is not a finite number",
         ),
         (
             stroke,
-            Scaled {
-                at_home: 1e9,
+            StrokeMounting {
+                home_position: 1e9,
                 ..good
             },
             "the position at home, in strokes, is 2000000000, but must be from -100000 to 100000",
@@ -258,10 +258,10 @@ fn an_end_of_the_stroke_is_in_it() {
         let resolution = (0.4 - 0.1) / f64::from(counts);
         let encoder = StrokeEncoder::new(
             domain,
-            Scaled {
+            StrokeMounting {
                 resolution,
-                home: -5,
-                at_home: 0.1,
+                homing_offset: -5,
+                home_position: 0.1,
             },
         )
         .unwrap();
@@ -281,7 +281,7 @@ fn the_extremes_keep_the_promises() {
             counts_per_turn: 4_294_967_294,
             gear: [2_863_311_532, 1],
             counting,
-            home: 0,
+            homing_offset: 0,
         };
         let encoder = Encoder::new(mounting).unwrap();
         for count in [1 << 40, -(1 << 40), i64::MIN, i64::MAX] {
@@ -296,10 +296,10 @@ fn the_extremes_keep_the_promises() {
     ] {
         let encoder = StrokeEncoder::new(
             domain,
-            Scaled {
+            StrokeMounting {
                 resolution,
-                home,
-                at_home,
+                homing_offset: home,
+                home_position: at_home,
             },
         )
         .unwrap();
@@ -325,10 +325,10 @@ fn strokes_of_many_counts_are_within_a_unit() {
     ] {
         for (sign, home) in [(1, 0), (-1, 12_345), (1, -(1 << 40)), (-1, 1 << 60)] {
             let a_turn = 1_i64 << bits;
-            let scaled = Scaled {
+            let scaled = StrokeMounting {
                 resolution: sign as f64 * 0.010 / a_turn as f64,
-                home,
-                at_home: 0.25,
+                homing_offset: home,
+                home_position: 0.25,
             };
             let stroke = Domain::Stroke {
                 from: 0.25,
@@ -362,10 +362,10 @@ fn a_register_may_overflow_within_the_stroke() {
         -3,
         i64::MAX >> 3,
     ] {
-        let scaled = Scaled {
+        let scaled = StrokeMounting {
             resolution: 0.01 / a_turn as f64,
-            home,
-            at_home: 0.0,
+            homing_offset: home,
+            home_position: 0.0,
         };
         let encoder = StrokeEncoder::new(stroke, scaled).unwrap();
         for count in [0, 1, 0xffff, 0x1_0000, a_turn * 15, a_turn * 30] {
@@ -382,10 +382,10 @@ fn a_register_may_overflow_within_the_stroke() {
         }
     }
     // More counts than the register has: each is flagged, none is read as another position.
-    let scaled = Scaled {
+    let scaled = StrokeMounting {
         resolution: 1e-11,
-        home: 0,
-        at_home: 0.0,
+        homing_offset: 0,
+        home_position: 0.0,
     };
     let encoder = StrokeEncoder::new(stroke, scaled).unwrap();
     for count in [i32::MIN, -1, 0, 1, i32::MAX] {
@@ -394,8 +394,8 @@ fn a_register_may_overflow_within_the_stroke() {
     assert!(!encoder.phase_wide(1 << 33).saturated);
     let error = StrokeEncoder::new(
         stroke,
-        Scaled {
-            home: i64::MIN,
+        StrokeMounting {
+            homing_offset: i64::MIN,
             ..scaled
         },
     )

@@ -1,10 +1,11 @@
 use core::f64::consts::TAU;
 
-use jred::axis::{FeedForward, Motion, Ramp};
-use jred::number::{Number, Quantity, Sliding};
+use jred::axis::{FeedForward, FrictionRamp, MotionState};
+use jred::image::Validity;
+use jred::number::{FrictionSign, Number, Quantity};
 use jred::table::{AccelerationOf, Format, SpeedOf};
 use jred::{
-    Cubic, Domain, Phase, Q15, Q31, Quadratic, Rows16, Scale, Set, Speed, Spline, Validity, curves,
+    Cubic, CurveSet, Domain, Phase, Q15, Q31, Quadratic, Rows16, Scale, Speed, Spline, curves,
 };
 
 use super::machine::{in_units, si, with_model};
@@ -12,7 +13,7 @@ use crate::support::images::VALIDITY;
 use crate::support::{assert_near, quantity, samples, scale_of, value};
 
 /// Every term against its curve; their sum against the torque.
-fn terms<F: Format, const SET: Set>(scale: Scale, error: f64) {
+fn terms<F: Format, const SET: CurveSet>(scale: Scale, error: f64) {
     with_model::<F, SET>(scale, |model| {
         let scale = *model.table().scale();
         let torque = f64::from(scale.torque());
@@ -26,17 +27,20 @@ fn terms<F: Format, const SET: Set>(scale: Scale, error: f64) {
                 f64::from(bits) / 4_294_967_296.0 * TAU,
             );
             let (w, a) = si::<F::Number>(&scale, [omega, alpha]);
-            for (sliding, c) in [
-                (Sliding::Against(w), omega.signum()),
+            for (friction, c) in [
+                (FrictionSign::OfSpeed(w), omega.signum()),
                 (
-                    Sliding::Against(si::<F::Number>(&scale, [-omega, 0.0]).0),
+                    FrictionSign::OfSpeed(si::<F::Number>(&scale, [-omega, 0.0]).0),
                     -omega.signum(),
                 ),
-                (Sliding::Share(F::Number::from_f64(share).unwrap()), share),
+                (
+                    FrictionSign::Scaled(F::Number::from_f64(share).unwrap()),
+                    share,
+                ),
             ] {
-                let found = model.contributions(phase, w, a, sliding);
+                let found = model.torque_terms(phase, w, a, friction);
                 let exact = [
-                    (found.inertial, (1.0 + 0.25 * phi.cos()) * alpha),
+                    (found.acceleration, (1.0 + 0.25 * phi.cos()) * alpha),
                     (found.velocity, -0.125 * phi.sin() * omega * omega),
                     (found.load, -3.0 * phi.sin()),
                     (found.viscous, 0.1 * omega),
@@ -53,7 +57,7 @@ fn terms<F: Format, const SET: Set>(scale: Scale, error: f64) {
                     );
                     sum += found;
                 }
-                let whole = value(model.torque_with(phase, w, a, sliding)) * torque;
+                let whole = value(model.torque_with(phase, w, a, friction)) * torque;
                 assert_near("their sum", sum, whole, error);
             }
         }
@@ -62,8 +66,8 @@ fn terms<F: Format, const SET: Set>(scale: Scale, error: f64) {
 
 #[test]
 fn contributions_are_the_terms_of_the_equation() {
-    const CURVES: Set = curves::ALL;
-    const CONSTANTS: Set = curves::LOAD | curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB;
+    const CURVES: CurveSet = curves::ALL;
+    const CONSTANTS: CurveSet = curves::LOAD | curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB;
     let scale = scale_of(150.0, 10.0, 1.4);
     terms::<Spline<f32>, CURVES>(Scale::SI, 1e-4);
     terms::<Cubic<f64>, CONSTANTS>(Scale::SI, 1e-4);
@@ -76,19 +80,19 @@ fn contributions_are_the_terms_of_the_equation() {
 /// The measured speed flickers around zero; the friction follows the set-point.
 #[test]
 fn friction_does_not_chatter() {
-    const SET: Set = curves::LOAD | curves::CONSTANT_COULOMB;
+    const SET: CurveSet = curves::LOAD | curves::CONSTANT_COULOMB;
     with_model::<Spline<f64>, SET>(Scale::SI, |model| {
         let feed_forward = FeedForward::new(model, VALIDITY);
         let phase = Phase::from_radians(1.0);
         let torque = |measured: f64, reference: f64| {
-            let reference = Motion {
+            let reference = MotionState {
                 phase,
                 omega: reference,
                 alpha: 2.0,
             };
-            let sliding = Sliding::Against(reference.omega);
+            let friction = FrictionSign::OfSpeed(reference.omega);
             feed_forward
-                .at_measured(phase, measured, reference, sliding)
+                .at_measured(phase, measured, reference, friction)
                 .torque
         };
         let rest = torque(0.0, 0.01);
@@ -101,7 +105,7 @@ fn friction_does_not_chatter() {
         assert_near("chatter", chatter[0] - chatter[1], 1.0, 1e-9);
 
         // A ramp is continuous, and c beyond its width.
-        let ramp = Ramp::new(0.2, &model).unwrap();
+        let ramp = FrictionRamp::new(0.2, &model).unwrap();
         for (omega, share) in [
             (0.0, 0.0),
             (0.05, 0.25),
@@ -111,15 +115,15 @@ fn friction_does_not_chatter() {
             (9.0, 1.0),
         ] {
             let found = model
-                .contributions(phase, omega, 0.0, ramp.at(omega))
+                .torque_terms(phase, omega, 0.0, ramp.at(omega))
                 .coulomb;
             assert_near("ramp", found, 0.5 * share, 1e-7);
         }
     });
     let model = in_units::<Spline<Q31>>(Domain::Turn, scale_of(1.0, 10.0, 1.0));
-    let ramp = Ramp::new(0.2, &model).unwrap();
+    let ramp = FrictionRamp::new(0.2, &model).unwrap();
     for (omega, share) in [(0.05, 0.25), (-0.1, -0.5), (0.4, 1.0), (-3.0, -1.0)] {
-        let Sliding::Share(found) = ramp.at(quantity::<Speed<Q31>>(omega / 10.0)) else {
+        let FrictionSign::Scaled(found) = ramp.at(quantity::<Speed<Q31>>(omega / 10.0)) else {
             panic!("a share");
         };
         assert_near("ramp", found.to_f64(), share, 1e-6);
@@ -131,8 +135,8 @@ fn a_motion_beyond_the_table_is_flagged() {
     fn flags<F: Format>(scale: Scale, cases: &[(F::Number, F::Number, bool, bool)]) {
         with_model::<F, { curves::LOAD }>(scale, |model| {
             let validity = Validity {
-                omega: 4.0,
-                alpha: 40.0,
+                max_speed: 4.0,
+                max_acceleration: 40.0,
                 torque_error: 0.0,
             };
             let feed_forward = FeedForward::new(model, validity);
@@ -145,12 +149,12 @@ fn a_motion_beyond_the_table_is_flagged() {
                     "{omega:?} {alpha:?}"
                 );
                 assert_eq!(status.is_valid(), !(speed || acceleration));
-                let motion = Motion {
+                let motion = MotionState {
                     phase: Phase::default(),
                     omega,
                     alpha,
                 };
-                let checked = feed_forward.at_reference(motion, Sliding::Against(omega));
+                let checked = feed_forward.at_reference(motion, FrictionSign::OfSpeed(omega));
                 assert_eq!(checked.status, status);
             }
         });
@@ -201,8 +205,8 @@ fn a_number_that_was_limited_is_flagged() {
             let scale = *model.table().scale();
             for share in [0.995, 1.0, 2.0] {
                 let validity = Validity {
-                    omega: share * scale.speed(),
-                    alpha: share * scale.acceleration(),
+                    max_speed: share * scale.speed(),
+                    max_acceleration: share * scale.acceleration(),
                     torque_error: 0.0,
                 };
                 let feed_forward = FeedForward::new(model, validity);
@@ -230,17 +234,17 @@ fn a_number_that_was_limited_is_flagged() {
 
 #[test]
 fn the_measured_state_is_where_the_curves_are_read() {
-    const SET: Set = curves::LOAD | curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB;
+    const SET: CurveSet = curves::LOAD | curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB;
     with_model::<Cubic<f64>, SET>(Scale::SI, |model| {
         let feed_forward = FeedForward::new(model, VALIDITY);
         let (at, speed) = (2.0, 6.0);
-        let reference = Motion {
+        let reference = MotionState {
             phase: Phase::from_radians(0.5),
             omega: -3.0,
             alpha: 20.0,
         };
-        let sliding = Sliding::Against(reference.omega);
-        let found = feed_forward.at_measured(Phase::from_radians(at), speed, reference, sliding);
+        let friction = FrictionSign::OfSpeed(reference.omega);
+        let found = feed_forward.at_measured(Phase::from_radians(at), speed, reference, friction);
         let (sin, cos) = f64::sin_cos(at);
         let expected =
             (1.0 + 0.25 * cos) * 20.0 - 0.125 * sin * speed * speed - 3.0 * sin + 0.1 * speed - 0.5;
@@ -250,26 +254,26 @@ fn the_measured_state_is_where_the_curves_are_read() {
         let expected = (1.0 + 0.25 * cos) * 20.0 - 0.125 * sin * 9.0 - 3.0 * sin - 0.3 - 0.5;
         assert_near(
             "at the reference",
-            feed_forward.at_reference(reference, sliding).torque,
+            feed_forward.at_reference(reference, friction).torque,
             expected,
             1e-5,
         );
         // The measured speed is checked, and a set-point of NaN.
         assert!(
             feed_forward
-                .at_measured(reference.phase, 11.0, reference, sliding)
+                .at_measured(reference.phase, 11.0, reference, friction)
                 .status
                 .speed_beyond
         );
-        let none = Sliding::Against(f64::NAN);
+        let none = FrictionSign::OfSpeed(f64::NAN);
         assert!(
             feed_forward
                 .at_measured(reference.phase, 1.0, reference, none)
                 .status
                 .speed_beyond
         );
-        let ramp = Ramp::new(0.2, &model).unwrap();
-        assert_eq!(ramp.at(f64::NAN), Sliding::Share(0.0));
+        let ramp = FrictionRamp::new(0.2, &model).unwrap();
+        assert_eq!(ramp.at(f64::NAN), FrictionSign::Scaled(0.0));
     });
 }
 
@@ -283,8 +287,8 @@ fn what_is_flagged_holds_the_weight() {
             let feed_forward = FeedForward::new(
                 model,
                 Validity {
-                    omega: 4.0,
-                    alpha: 0.1,
+                    max_speed: 4.0,
+                    max_acceleration: 0.1,
                     torque_error: 0.0,
                 },
             );
@@ -294,42 +298,47 @@ fn what_is_flagged_holds_the_weight() {
                 let (omega, alpha) = si::<F::Number>(&scale, [wrong, wrong]);
                 let sides = [wrong.clamp(-4.04, 4.04), wrong.clamp(-0.101, 0.101)];
                 let [w, a] = sides.map(|x| if x.is_nan() { 0.0 } else { x });
-                let motion = Motion {
+                let motion = MotionState {
                     phase,
                     omega,
                     alpha,
                 };
-                let none = Motion {
+                let none = MotionState {
                     phase,
-                    ..Motion::default()
+                    ..MotionState::default()
                 };
                 for (found, exact) in [
                     (
-                        feed_forward.at_reference(motion, Sliding::Against(omega)),
+                        feed_forward.at_reference(motion, FrictionSign::OfSpeed(omega)),
                         a - 0.125 * w * w - 3.0,
                     ),
                     (
                         feed_forward.at_reference(
-                            Motion {
+                            MotionState {
                                 alpha: Default::default(),
                                 ..motion
                             },
-                            Sliding::Against(omega),
+                            FrictionSign::OfSpeed(omega),
                         ),
                         -0.125 * w * w - 3.0,
                     ),
                     (
                         feed_forward.at_reference(
-                            Motion {
+                            MotionState {
                                 omega: Default::default(),
                                 ..motion
                             },
-                            Sliding::Against(none.omega),
+                            FrictionSign::OfSpeed(none.omega),
                         ),
                         a - 3.0,
                     ),
                     (
-                        feed_forward.at_measured(phase, omega, none, Sliding::Against(none.omega)),
+                        feed_forward.at_measured(
+                            phase,
+                            omega,
+                            none,
+                            FrictionSign::OfSpeed(none.omega),
+                        ),
                         -0.125 * w * w - 3.0,
                     ),
                     (
@@ -337,7 +346,7 @@ fn what_is_flagged_holds_the_weight() {
                             phase,
                             none.omega,
                             motion,
-                            Sliding::Against(none.omega),
+                            FrictionSign::OfSpeed(none.omega),
                         ),
                         a - 3.0,
                     ),
@@ -345,11 +354,11 @@ fn what_is_flagged_holds_the_weight() {
                         feed_forward.at_measured(
                             phase,
                             none.omega,
-                            Motion {
+                            MotionState {
                                 alpha: none.alpha,
                                 ..motion
                             },
-                            Sliding::Share(F::Number::default()),
+                            FrictionSign::Scaled(F::Number::default()),
                         ),
                         -3.0,
                     ),

@@ -2,10 +2,10 @@
 
 use core::f64::consts::TAU;
 
-use jred::axis::plan::{Knot, Place, PlanError, with_ramp};
-use jred::axis::{Follower, Plan, Rate, Stage};
+use jred::axis::plan::{Knot, PlanError, PlanPoint, with_ramp};
+use jred::axis::{MachineUnits, Override, Plan, PlanFollower, PlanState};
 use jred::number::{Number, Quantity as _};
-use jred::{Domain, MachineUnits, Q31, Rows16, Scale, Spline};
+use jred::{Domain, Q31, Rows16, Scale, Spline};
 
 use super::machine::in_units;
 use super::plan::{evenly, exact, found, image, trapezoid};
@@ -18,21 +18,21 @@ fn a_follower_is_on_time() {
     let words = image(&trapezoid(), Domain::Turn);
     let plan = Plan::new(&words, &model).unwrap();
     for period in [0.000_25_f32, 0.000_062_5, 0.001, 0.003_7] {
-        let mut follower = Follower::new(plan, period, 0.5, &model).unwrap();
+        let mut follower = PlanFollower::new(plan, period, 0.5, &model).unwrap();
         for _ in 0..3 {
-            let planned = follower.next(Rate::FULL);
-            assert_eq!(planned.stage, Stage::Waiting);
+            let planned = follower.next(Override::FULL);
+            assert_eq!(planned.state, PlanState::Waiting);
             assert_eq!((planned.motion.omega, planned.motion.alpha), (0.0, 0.0));
         }
         follower.start();
         let mut ticks = 0_u32;
         loop {
-            let planned = follower.next(Rate::FULL);
-            if planned.stage == Stage::Done {
+            let planned = follower.next(Override::FULL);
+            if planned.state == PlanState::Done {
                 break;
             }
-            assert_eq!(planned.stage, Stage::Running);
-            let place = Place {
+            assert_eq!(planned.state, PlanState::Running);
+            let place = PlanPoint {
                 motion: planned.motion,
                 turns: planned.turns,
             };
@@ -47,10 +47,10 @@ fn a_follower_is_on_time() {
             (f64::from(ticks) - all).abs() <= 1.0,
             "{period}: {ticks} {all}"
         );
-        let end = follower.next(Rate::FULL);
-        assert_eq!((end.stage, end.motion.omega), (Stage::Done, 0.0));
+        let end = follower.next(Override::FULL);
+        assert_eq!((end.state, end.motion.omega), (PlanState::Done, 0.0));
         follower.reset();
-        assert_eq!(follower.next(Rate::FULL).stage, Stage::Waiting);
+        assert_eq!(follower.next(Override::FULL).state, PlanState::Waiting);
     }
 }
 
@@ -61,25 +61,25 @@ fn an_override_is_a_motion() {
     let words = image(&trapezoid(), Domain::Turn);
     let plan = Plan::new(&words, &model).unwrap();
     let period = 0.000_5;
-    let mut follower = Follower::new(plan, period as f32, 0.4, &model).unwrap();
+    let mut follower = PlanFollower::new(plan, period as f32, 0.4, &model).unwrap();
     follower.start();
     let rate = |k: u32| {
-        Rate::percent(match k {
+        Override::percent(match k {
             1000..3000 => 40,
             3000..4000 => 0,
             4000..6000 => 70,
             _ => 100,
         })
     };
-    let mut rows: Vec<([f64; 3], Stage)> = Vec::new();
+    let mut rows: Vec<([f64; 3], PlanState)> = Vec::new();
     for k in 0..20_000 {
         let planned = follower.next(rate(k));
-        let place = Place {
+        let place = PlanPoint {
             motion: planned.motion,
             turns: planned.turns,
         };
-        rows.push((found(&place, &model), planned.stage));
-        if planned.stage == Stage::Done {
+        rows.push((found(&place, &model), planned.state));
+        if planned.state == PlanState::Done {
             break;
         }
     }
@@ -103,10 +103,10 @@ fn an_override_is_a_motion() {
     }
     // Three of the plan, and two or three of each ramp, which ends within a tick.
     assert!((11..=15).contains(&corners), "{corners}");
-    let held = rows.iter().filter(|row| row.1 == Stage::Held).count();
+    let held = rows.iter().filter(|row| row.1 == PlanState::Held).count();
     // A thousand ticks minus the 320 of the ramp from 40 % to 0.
     assert!((679..=681).contains(&held), "{held}");
-    assert_eq!(rows.last().unwrap().1, Stage::Done);
+    assert_eq!(rows.last().unwrap().1, PlanState::Done);
     // At 40 % in the first part, φ = 0.5 + s²: the speed of the plan times 0.4, its acceleration times 0.16.
     let ([position, omega, alpha], _) = rows[2900];
     let time = (position - 0.5).sqrt();
@@ -119,7 +119,7 @@ fn an_override_is_a_motion() {
 fn a_closed_plan_is_repeated() {
     let model = in_units::<Spline<f32>>(Domain::Turn, Scale::SI);
     let words = image(&trapezoid(), Domain::Turn);
-    let open = Follower::new(Plan::new(&words, &model).unwrap(), 0.001, 0.0, &model).unwrap();
+    let open = PlanFollower::new(Plan::new(&words, &model).unwrap(), 0.001, 0.0, &model).unwrap();
     assert_eq!(open.repeating().map(|_| ()), Err(PlanError::Open));
     // One turn per second at constant speed.
     let knot = |t, position| Knot {
@@ -130,14 +130,14 @@ fn a_closed_plan_is_repeated() {
     };
     let words = image(&[knot(0.0, 1.0), knot(1.0, 1.0 + TAU)], Domain::Turn);
     let plan = Plan::new(&words, &model).unwrap();
-    let mut follower = Follower::new(plan, 0.001, 0.0, &model)
+    let mut follower = PlanFollower::new(plan, 0.001, 0.0, &model)
         .unwrap()
         .repeating()
         .unwrap();
     follower.start();
     for k in 0..5000 {
-        let planned = follower.next(Rate::FULL);
-        assert_eq!(planned.stage, Stage::Running);
+        let planned = follower.next(Override::FULL);
+        assert_eq!(planned.state, PlanState::Running);
         assert!((f64::from(planned.motion.omega) - TAU).abs() < 1e-5);
         let turns = 1.0 / TAU + f64::from(k) * f64::from(0.001_f32);
         let phase = f64::from(planned.motion.phase.to_bits()) / 2f64.powi(32);
@@ -146,7 +146,7 @@ fn a_closed_plan_is_repeated() {
     }
     for (period, ramp) in [(2.0, 0.0), (0.0, 0.0), (0.001, -1.0), (0.001, f32::NAN)] {
         assert!(matches!(
-            Follower::new(plan, period, ramp, &model),
+            PlanFollower::new(plan, period, ramp, &model),
             Err(PlanError::Axis(_))
         ));
     }
@@ -169,7 +169,7 @@ fn a_ramp_that_is_too_short_is_refused() {
         with_ramp(&mut words, least).unwrap();
         let plan = Plan::new(&words, &model).unwrap();
         assert_eq!(plan.least_ramp().to_bits(), least.to_bits());
-        let made = Follower::new(plan, 0.001, ramp, &model);
+        let made = PlanFollower::new(plan, 0.001, ramp, &model);
         assert_eq!(made.is_ok(), follows, "{least} {ramp}");
         if let Err(error) = made {
             assert!(error.to_string().contains("the shortest ramp"), "{error}");
@@ -193,17 +193,17 @@ fn a_long_ramp_takes_its_time() {
         (0.000_062_5, 700.0),
         (0.000_003, 30.0),
     ] {
-        let mut follower = Follower::new(plan, period, ramp, &model).unwrap();
+        let mut follower = PlanFollower::new(plan, period, ramp, &model).unwrap();
         follower.start();
         // The first tick has the commanded rate.
-        let first = follower.next(Rate::percent(1));
+        let first = follower.next(Override::percent(1));
         let per_tick = f64::from(period) / f64::from(ramp);
         let began = first.motion.omega / 2.0;
         assert!((began - 0.01).abs() < 1e-7, "{began}");
         let mut last = first;
         let ticks = 200_000;
         for _ in 0..ticks {
-            last = follower.next(Rate::FULL);
+            last = follower.next(Override::FULL);
         }
         // The rate of a tick is the one reached by the ticks before it.
         let changes = f64::from(ticks) - 1.0;
@@ -220,7 +220,7 @@ fn a_long_ramp_takes_its_time() {
         );
         // One tick at the first rate, then the mean of both ends of each. The position in a row of 16 s is resolved to 32 s·2⁻³².
         let time = f64::from(period) * (began + changes * 0.5 * (began + rate));
-        let place = Place {
+        let place = PlanPoint {
             motion: last.motion,
             turns: last.turns,
         };
@@ -248,10 +248,10 @@ fn a_ramp_is_as_fine_as_its_numbers() {
             (0.000_062_5, 0.9),
             (0.000_025, 7.3),
         ] {
-            let mut follower = Follower::new(plan, period, ramp, model).unwrap();
+            let mut follower = PlanFollower::new(plan, period, ramp, model).unwrap();
             follower.start();
-            follower.next(Rate::percent(90));
-            for (commanded, sign) in [(Rate::FULL, 1.0), (Rate::percent(50), -1.0)] {
+            follower.next(Override::percent(90));
+            for (commanded, sign) in [(Override::FULL, 1.0), (Override::percent(50), -1.0)] {
                 follower.next(commanded);
                 let planned = follower.next(commanded);
                 assert!(!planned.limited);

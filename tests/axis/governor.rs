@@ -1,17 +1,19 @@
 use core::f64::consts::TAU;
-use jred::number::Sliding;
+use jred::number::FrictionSign;
 
 use jred::axis::{
-    Braking, Direction, Envelope, FeedForward, Governor, Limit, Limits, LookAhead, Motion, Period,
+    Braking, Direction, Envelope, FeedForward, Governor, Limit, Limits, LookAhead, MotionState,
+    Period,
 };
+use jred::image::Validity;
 use jred::table::Format;
-use jred::{Cubic, Domain, Phase, Q31, Quadratic, Rows16, Scale, Set, Spline, Validity, curves};
+use jred::{Cubic, CurveSet, Domain, Phase, Q31, Quadratic, Rows16, Scale, Spline, curves};
 
 use super::machine::{WAVE, si, with_model, with_model_of};
 use crate::support::machines::Wave;
 use crate::support::{scale_of, value};
 
-const SET: Set = curves::LOAD | curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB;
+const SET: CurveSet = curves::LOAD | curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB;
 const TICK: f32 = 0.000_5;
 /// 8 N·m up to 6 rad/s, 4 at 12; 8 when braking.
 const POINTS: [[f32; 2]; 2] = [[6.0, 8.0], [12.0, 4.0]];
@@ -53,13 +55,13 @@ fn governed<F: Format>(scale: Scale, seconds: f32, commanded: fn(f32) -> f64) ->
         let governor = Governor::both_ways(&forward, &backward).unwrap();
         let [torque_base, speed, alpha_base] =
             [scale.torque(), scale.speed(), scale.acceleration()].map(f64::from);
-        let mut motion = Motion::default();
+        let mut motion = MotionState::default();
         for k in 0..(seconds / TICK) as u32 {
             let (wanted, _) = si::<F::Number>(&scale, [commanded(k as f32 * TICK), 0.0]);
             let governed = governor.govern(&limits, &model, &motion, wanted);
             motion.alpha = governed.alpha;
             let torque =
-                model.torque_with(motion.phase, motion.omega, motion.alpha, governed.sliding);
+                model.torque_with(motion.phase, motion.omega, motion.alpha, governed.friction);
             let way = if motion.omega < Default::default() {
                 &backward
             } else {
@@ -169,7 +171,7 @@ fn what_cannot_be_kept_ahead_is_flagged_and_a_slow_machine_may_be_strong() {
                 LookAhead::<f64, 64>::new(&model, Direction::Forward, braking, limit, &period)
                     .unwrap();
             let governor = Governor::one_way(&ahead);
-            let mut motion = Motion::default();
+            let mut motion = MotionState::default();
             let (mut flagged, mut fastest_change) = (0, 0.0_f64);
             for _ in 0..turns {
                 let governed = governor.govern(&limits, &model, &motion, 9.0);
@@ -216,12 +218,12 @@ fn at_rest_the_torque_is_one_that_the_drive_has() {
         ] {
             let envelope = Envelope::new([[12.0, peak]], peak, &model).unwrap();
             let limits = Limits::new(envelope, 11.0, 100.0, period, &model).unwrap();
-            let motion = Motion {
+            let motion = MotionState {
                 phase: Phase::from_bits(1 << 30),
-                ..Motion::default()
+                ..MotionState::default()
             };
             let governed = governor.govern(&limits, &model, &motion, wanted);
-            let torque = model.torque_with(motion.phase, 0.0, governed.alpha, governed.sliding);
+            let torque = model.torque_with(motion.phase, 0.0, governed.alpha, governed.friction);
             let held = governed.alpha == 0.0;
             assert!(
                 held || torque.abs() < f64::from(peak) + 1e-4,
@@ -281,7 +283,7 @@ fn one_way_is_one_way() {
         assert!(Governor::both_ways(&forward, &forward).is_err());
         for (ahead, way) in [(&forward, 1.0), (&backward, -1.0)] {
             let governor = Governor::one_way(ahead);
-            let mut motion = Motion::default();
+            let mut motion = MotionState::default();
             for wanted in [way * 3.0, -way * 3.0] {
                 for _ in 0..3000 {
                     motion.alpha = governor.govern(&limits, &model, &motion, wanted).alpha;
@@ -299,9 +301,9 @@ fn one_way_is_one_way() {
             (f32::INFINITY, 1.0),
             (1.0, f32::INFINITY),
         ] {
-            let motion = Motion {
+            let motion = MotionState {
                 omega,
-                ..Motion::default()
+                ..MotionState::default()
             };
             let found = governor.govern(&limits, &model, &motion, wanted);
             assert!(found.alpha.is_finite(), "{omega} {wanted}: {found:?}");
@@ -331,7 +333,7 @@ fn a_stroke_is_stopped_at_its_end() {
         };
         let [forward, backward] = [Direction::Forward, Direction::Backward].map(made);
         let governor = Governor::both_ways(&forward, &backward).unwrap();
-        let mut motion = Motion::default();
+        let mut motion = MotionState::default();
         for way in [1.0, -1.0, 1.0] {
             let (wanted, _) = si::<Q31>(&scale, [way * 8.0, 0.0]);
             let mut fastest = 0.0_f64;
@@ -380,13 +382,13 @@ fn a_start_from_rest_is_a_valid_motion() {
             let [forward, backward] = [Direction::Forward, Direction::Backward].map(ahead);
             let governor = Governor::both_ways(&forward, &backward).unwrap();
             let validity = Validity {
-                omega: 10.0,
-                alpha: 40.0,
+                max_speed: 10.0,
+                max_acceleration: 40.0,
                 torque_error: 0.0,
             };
             let feed_forward = FeedForward::new(model, validity);
             for way in [1.0, -1.0] {
-                let mut motion = Motion::default();
+                let mut motion = MotionState::default();
                 let (commanded, _) = si::<F::Number>(&scale, [way * 5.0, 0.0]);
                 let governed = governor.govern(&limits, &model, &motion, commanded);
                 motion.alpha = governed.alpha;
@@ -394,11 +396,11 @@ fn a_start_from_rest_is_a_valid_motion() {
                     way * value(motion.alpha) * f64::from(scale.acceleration()) > 10.0,
                     "{motion:?}"
                 );
-                let Sliding::Against(against) = governed.sliding else {
+                let FrictionSign::OfSpeed(against) = governed.friction else {
                     panic!("all of c");
                 };
                 assert!(way * value(against) > 0.0, "{against:?}");
-                let found = feed_forward.at_reference(motion, governed.sliding);
+                let found = feed_forward.at_reference(motion, governed.friction);
                 assert!(found.status.is_valid(), "{}: {motion:?}", F::NAME);
             }
         });
@@ -449,7 +451,7 @@ fn the_deceleration_of_the_limits_gives_no_false_alarm() {
                 .unwrap();
                 let governor = Governor::one_way(&ahead);
                 let (wanted, _) = si::<F::Number>(&scale, [top.into(), 0.0]);
-                let mut motion = Motion::default();
+                let mut motion = MotionState::default();
                 let (mut turns, mut fastest) = (0, 0.0_f64);
                 for _ in 0..100_000 {
                     let governed = governor.govern(&limits, &model, &motion, wanted);
@@ -498,7 +500,7 @@ fn a_command_that_is_no_number_stays_within_what_is_possible() {
         // A weak drive: at a quarter turn the load pulls with 3 N·m, friction is 0.5 and 0.1·ω, J is 1.
         let envelope = Envelope::new([[12.0, 1.0]], 1.0, &model).unwrap();
         let limits = Limits::new(envelope, 11.0, 100.0, period, &model).unwrap();
-        let motion = Motion {
+        let motion = MotionState {
             phase: Phase::from_bits(1 << 30),
             omega: 2.0,
             alpha: 0.0,

@@ -4,17 +4,17 @@ use core::f64::consts::TAU;
 
 use jred::axis::plan::Knot;
 use jred::axis::{
-    Braking, Direction, Envelope, Follower, Governor, Limits, LookAhead, Period, Plan, Rate,
+    Braking, Direction, Envelope, Governor, Limits, LookAhead, Override, Period, Plan, PlanFollower,
 };
 use jred::number::Quantity as _;
 use jred::table::Format;
-use jred::{Cubic, Domain, Q31, Rows16, Scale, Set, Spline, curves};
+use jred::{Cubic, CurveSet, Domain, Q31, Rows16, Scale, Spline, curves};
 
 use super::machine::{si, with_model};
 use super::plan::image;
 use crate::support::{scale_of, value};
 
-const SET: Set = curves::LOAD | curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB;
+const SET: CurveSet = curves::LOAD | curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB;
 const TICK: f32 = 0.000_5;
 /// Braking torque of the drive (N·m).
 const BRAKE: f32 = 8.0;
@@ -55,12 +55,12 @@ fn stops<F: Format>(scale: Scale, error: f64) {
         let governor = Governor::one_way(&ahead);
         let torque_base = f64::from(scale.torque());
         for leave in (100..7900).step_by(650) {
-            let mut follower = Follower::new(plan, TICK, RAMP, &model).unwrap();
+            let mut follower = PlanFollower::new(plan, TICK, RAMP, &model).unwrap();
             follower.start();
             for _ in 0..leave {
-                follower.next(Rate::FULL);
+                follower.next(Override::FULL);
             }
-            let mut motion = follower.next(Rate::FULL).motion;
+            let mut motion = follower.next(Override::FULL).motion;
             let told = ahead.stop(motion.phase, motion.omega);
             let begin = motion.phase.to_bits();
             let told = f64::from(told.turns) * TAU
@@ -71,7 +71,7 @@ fn stops<F: Format>(scale: Scale, error: f64) {
                 let governed = governor.govern(&limits, &model, &motion, still);
                 motion.alpha = governed.alpha;
                 let torque =
-                    model.torque_with(motion.phase, motion.omega, motion.alpha, governed.sliding);
+                    model.torque_with(motion.phase, motion.omega, motion.alpha, governed.friction);
                 let torque = value(torque) * torque_base;
                 let at = format!("{} left at {leave}, tick {ticks}: {torque} N·m", F::NAME);
                 assert!(torque > -f64::from(BRAKE) - error, "{at}");
@@ -86,7 +86,7 @@ fn stops<F: Format>(scale: Scale, error: f64) {
             // The follower's own ramp, which ignores torque, takes longer or needs more torque than the drive has.
             let (mut slow, mut least) = (0.0, 0.0f64);
             for _ in 0..=(RAMP / TICK) as u32 {
-                let planned = follower.next(Rate::STILL).motion;
+                let planned = follower.next(Override::STILL).motion;
                 slow += speed_of::<F>(&scale, planned.omega.number()) * f64::from(TICK);
                 let torque = model.torque(planned.phase, planned.omega, planned.alpha);
                 least = least.min(value(torque) * torque_base);

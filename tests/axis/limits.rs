@@ -3,13 +3,13 @@ use core::f64::consts::TAU;
 use jred::axis::{AxisError, Envelope, Gearbox, Limit, Limits, Period};
 use jred::number::Number;
 use jred::table::{Format, TorqueOf};
-use jred::{Cubic, Domain, Phase, Q31, Quadratic, Rows16, Scale, Set, Speed, Spline, curves};
+use jred::{Cubic, CurveSet, Domain, Phase, Q31, Quadratic, Rows16, Scale, Speed, Spline, curves};
 use proptest::num::u32::ANY;
 
 use super::machine::{in_units, si, with_model};
 use crate::support::{assert_near, quantity, samples, scale_of, value};
 
-const SET: Set = curves::LOAD | curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB;
+const SET: CurveSet = curves::LOAD | curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB;
 /// A drive for the wave: 8 N·m up to 4 rad/s, 3 at 8 and nothing beyond; 6 when braking.
 const POINTS: [[f32; 2]; 3] = [[4.0, 8.0], [6.0, 7.0], [8.0, 3.0]];
 

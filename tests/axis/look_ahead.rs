@@ -1,14 +1,15 @@
 use core::f64::consts::TAU;
 
 use jred::axis::{AxisError, Braking, Direction, LookAhead, Period};
+use jred::machine::Reducible;
 use jred::table::Format;
-use jred::{Cubic, Domain, Model, Phase, Q31, Reducible, Scale, Set, Spline, curves};
+use jred::{Cubic, CurveSet, Domain, Model, Phase, Q31, Scale, Spline, curves};
 
 use super::machine::{WAVE, with_model, with_model_of};
 use crate::support::machines::Wave;
 use crate::support::{assert_near, scale_of};
 
-pub(super) const SET: Set = curves::LOAD | curves::CONSTANT_COULOMB;
+pub(super) const SET: CurveSet = curves::LOAD | curves::CONSTANT_COULOMB;
 pub(super) const BRAKING: Braking = Braking {
     torque: 8.0,
     deceleration: f32::INFINITY,

@@ -2,7 +2,7 @@
 
 use jred::number::Number;
 use jred::table::{Format, MAX_CELLS};
-use jred::{Domain, Model, Scale, Set, curves};
+use jred::{CurveSet, Domain, Model, Scale, curves};
 
 use crate::support::machines::Wave;
 use crate::support::rows::Rows;
@@ -17,7 +17,7 @@ pub(crate) const WAVE: Wave = Wave {
 };
 
 /// Calls `with` with a model of the wave.
-pub(crate) fn with_model<F: Format, const SET: Set>(
+pub(crate) fn with_model<F: Format, const SET: CurveSet>(
     scale: Scale,
     with: impl FnOnce(Model<'_, F, SET>),
 ) {
@@ -25,7 +25,7 @@ pub(crate) fn with_model<F: Format, const SET: Set>(
 }
 
 /// As `with_model`, of another wave.
-pub(crate) fn with_model_of<F: Format, const SET: Set>(
+pub(crate) fn with_model_of<F: Format, const SET: CurveSet>(
     wave: &Wave,
     scale: Scale,
     with: impl FnOnce(Model<'_, F, SET>),

@@ -3,8 +3,9 @@
 use core::fmt::Display;
 
 use jred::axis::{
-    AxisError, Braking, Direction, Encoder, Envelope, Gearbox, Governor, Limits, LookAhead,
-    Mounting, Period, Ramp, Scaled, StrokeEncoder, TorqueLimits, Tracker, Transmission,
+    AxisError, Braking, Direction, Encoder, Envelope, FrictionRamp, Gearbox, Governor, Limits,
+    LookAhead, Mounting, Period, StrokeEncoder, StrokeMounting, TorqueLimits, Tracker,
+    Transmission,
 };
 use jred::{Domain, Phase, Q31, Scale, Spline};
 
@@ -78,7 +79,7 @@ fn an_axis_error_says_value_limit_and_cure() {
         "the efficiency of the gearbox is 1.063, but must be from 0.01 to 1; give a value from 0.01 to 1",
     );
     says(
-        Ramp::new(1e-7, &single),
+        FrictionRamp::new(1e-7, &single),
         "the width of the friction ramp is less than 0.001, but must be at least a millionth of the speed base; \
          give a value at least a millionth of the speed base",
     );
@@ -89,10 +90,10 @@ fn an_axis_error_says_value_limit_and_cure() {
         ),
     );
     let stroke = Domain::Stroke { from: 0.0, to: 0.5 };
-    let scaled = Scaled {
+    let scaled = StrokeMounting {
         resolution: 0.25,
-        home: 0,
-        at_home: 0.0,
+        homing_offset: 0,
+        home_position: 0.0,
     };
     says(
         StrokeEncoder::new(stroke, scaled),

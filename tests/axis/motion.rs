@@ -1,9 +1,9 @@
 use core::f64::consts::TAU;
 
-use jred::axis::{Motion, Period};
+use jred::axis::{MotionState, Period};
+use jred::machine::Reducible;
 use jred::{
-    Acceleration, Cubic, Domain, Phase, Q15, Q31, Reducible, Rows16, Scale, Set, Speed, Spline,
-    curves,
+    Acceleration, Cubic, CurveSet, Domain, Phase, Q15, Q31, Rows16, Scale, Speed, Spline, curves,
 };
 
 use super::machine::{WAVE, in_units, si, with_model};
@@ -33,7 +33,7 @@ fn driven(torque: f64, [phi, omega]: [f64; 2], time: f64) -> [f64; 2] {
 
 #[test]
 fn the_middle_of_a_tick_is_one_order_better() {
-    const SET: Set = curves::LOAD | curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB;
+    const SET: CurveSet = curves::LOAD | curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB;
     with_model::<Cubic<f64>, SET>(Scale::SI, |model| {
         for (bits, from, alpha) in samples(
             40,
@@ -46,8 +46,8 @@ fn the_middle_of_a_tick_is_one_order_better() {
                 let to = from + alpha * time;
                 let period = Period::new(time as f32, &model).unwrap();
                 let middle = period.between(phase, from, to).value;
-                let torque = |m: Motion<f64>| model.torque(m.phase, m.omega, m.alpha);
-                let start = Motion {
+                let torque = |m: MotionState<f64>| model.torque(m.phase, m.omega, m.alpha);
+                let start = MotionState {
                     phase,
                     omega: from,
                     alpha,
@@ -141,7 +141,7 @@ fn a_lead_time_is_made_up_for() {
             assert_near(&format!("{name} angle"), turned, moved, error * lead + 1e-8);
             assert_near(&format!("{name} speed"), found, later, error);
         };
-        let start = Motion {
+        let start = MotionState {
             phase: Phase::default(),
             omega,
             alpha,
@@ -152,7 +152,7 @@ fn a_lead_time_is_made_up_for() {
             .value;
         check("f64", after.phase, after.omega, 1e-6);
         let (w, a) = si::<Q31>(&scale, [omega, alpha]);
-        let start = Motion {
+        let start = MotionState {
             phase: Phase::default(),
             omega: w,
             alpha: a,
@@ -160,7 +160,7 @@ fn a_lead_time_is_made_up_for() {
         let after = Period::new(lead as f32, &long).unwrap().later(start).value;
         check("q31", after.phase, value(after.omega) * 10.0, 1e-5);
         let (w, a) = si::<Q15>(&scale, [omega, alpha]);
-        let start = Motion {
+        let start = MotionState {
             phase: Phase::default(),
             omega: w,
             alpha: a,
@@ -183,7 +183,7 @@ fn a_limited_motion_is_flagged_and_a_stroke_ends() {
     assert!(!time.between(Phase::default(), fast, fast).saturated);
     let strong = in_units::<Spline<Q31>>(Domain::Turn, scale_of(1000.0, 30.0, 1.0));
     let long = Period::new(0.05, &strong).unwrap();
-    let start = Motion {
+    let start = MotionState {
         phase: Phase::default(),
         omega: fast,
         alpha: Acceleration::<Q31>::MAX,
@@ -191,7 +191,7 @@ fn a_limited_motion_is_flagged_and_a_stroke_ends() {
     assert!(long.later(start).saturated);
     assert!(
         !long
-            .later(Motion {
+            .later(MotionState {
                 alpha: Acceleration::default(),
                 ..start
             })
@@ -202,7 +202,7 @@ fn a_limited_motion_is_flagged_and_a_stroke_ends() {
     assert!(Period::new(0.25 * TAU as f32 / 30.0 * 0.99, &model).is_ok());
     // Up to half a turn, also in floating point.
     let lead = Period::new(0.006, &in_units::<Spline<f64>>(Domain::Turn, Scale::SI)).unwrap();
-    let ahead = lead.later(Motion {
+    let ahead = lead.later(MotionState {
         phase: Phase::default(),
         omega: 100.0 * core::f64::consts::PI / 4.0,
         alpha: 0.0,
@@ -213,7 +213,7 @@ fn a_limited_motion_is_flagged_and_a_stroke_ends() {
         0.075,
         1e-6,
     );
-    let ahead = lead.later(Motion {
+    let ahead = lead.later(MotionState {
         phase: Phase::default(),
         omega: 450.0,
         alpha: 0.0,
@@ -228,7 +228,7 @@ fn a_limited_motion_is_flagged_and_a_stroke_ends() {
     let stroke = Domain::stroke(0.0, 0.5).unwrap();
     let time = Period::new(0.01, &in_units::<Spline<f64>>(stroke, Scale::SI)).unwrap();
     for (phase, omega, end) in [(0xffff_0000, 1.0, u32::MAX), (0x0001_0000, -1.0, 0)] {
-        let start = Motion {
+        let start = MotionState {
             phase: Phase::from_bits(phase),
             omega,
             alpha: 0.0,

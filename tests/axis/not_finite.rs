@@ -5,18 +5,19 @@ use std::path::Path;
 
 use jred::axis::plan::{Errors, Knot, encode, image_len, with_ramp};
 use jred::axis::{
-    Braking, Direction, Envelope, FeedForward, Follower, Gearbox, Governor, Limits, LookAhead,
-    Motion, MotionRange, Period, Plan, Ramp, Scaled, StrokeEncoder, TorqueLimits, Tracker,
-    Transmission,
+    Braking, Direction, Envelope, FeedForward, FrictionRamp, Gearbox, Governor, Limits, LookAhead,
+    MotionRange, MotionState, Period, Plan, PlanFollower, StrokeEncoder, StrokeMounting,
+    TorqueLimits, Tracker, Transmission,
 };
-use jred::number::Sliding;
-use jred::{Domain, Model, Phase, Scale, Set, Spline, Validity, curves, include_image};
+use jred::image::Validity;
+use jred::number::FrictionSign;
+use jred::{CurveSet, Domain, Model, Phase, Scale, Spline, curves, include_image};
 
 use super::machine::with_model;
 use crate::no_panic_list::public_of;
 use crate::support::images::VALIDITY;
 
-const SET: Set = curves::LOAD | curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB;
+const SET: CurveSet = curves::LOAD | curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB;
 type Press<'a> = Model<'a, Spline<f32>, SET>;
 
 /// Result of a function for NaN or infinity.
@@ -53,8 +54,8 @@ fn flagged(flag: bool, values: &[f32]) -> Becomes {
     }
 }
 
-fn motion(omega: f32, alpha: f32) -> Motion<f32> {
-    Motion {
+fn motion(omega: f32, alpha: f32) -> MotionState<f32> {
+    MotionState {
         phase: Phase::from_bits(1 << 29),
         omega,
         alpha,
@@ -88,7 +89,7 @@ fn made(
     LookAhead::new(model, Direction::Forward, braking, |_| limit, &period)
 }
 
-fn governed(model: &Press<'_>, motion: Motion<f32>, commanded: f32) -> Becomes {
+fn governed(model: &Press<'_>, motion: MotionState<f32>, commanded: f32) -> Becomes {
     let ahead = ahead(model);
     let governed = Governor::one_way(&ahead).govern(&limits(model), model, &motion, commanded);
     let range = limits(model).feasible(model, motion.phase, motion.omega);
@@ -117,15 +118,15 @@ const GEARBOX: Gearbox = Gearbox {
     rotor: 0.002,
 };
 const STROKE: Domain = Domain::Stroke { from: 0.0, to: 0.5 };
-const SCALED: Scaled = Scaled {
+const SCALED: StrokeMounting = StrokeMounting {
     resolution: 1e-6,
-    home: 0,
-    at_home: 0.0,
+    homing_offset: 0,
+    home_position: 0.0,
 };
 
 fn followed(model: &Press<'_>, period: f32, ramp: f32) -> Becomes {
     let plan = Plan::from_bytes(include_image!("../../examples/data/press_plan.jred"), model);
-    refused(Follower::new(plan.unwrap(), period, ramp, model))
+    refused(PlanFollower::new(plan.unwrap(), period, ramp, model))
 }
 
 fn encoded(knot: Knot, errors: Errors) -> Becomes {
@@ -143,27 +144,27 @@ fn encoded(knot: Knot, errors: Errors) -> Becomes {
     ))
 }
 
-fn checked(model: &Press<'_>, omega: f32, alpha: f32, sliding: Sliding<f32>) -> Becomes {
+fn checked(model: &Press<'_>, omega: f32, alpha: f32, friction: FrictionSign<f32>) -> Becomes {
     let feed_forward = FeedForward::new(*model, VALIDITY);
-    let found = feed_forward.at_reference(motion(omega, alpha), sliding);
+    let found = feed_forward.at_reference(motion(omega, alpha), friction);
     flagged(!found.status.is_valid(), &[found.torque])
 }
 
 fn measured(
     model: &Press<'_>,
     omega: f32,
-    reference: Motion<f32>,
-    sliding: Sliding<f32>,
+    reference: MotionState<f32>,
+    friction: FrictionSign<f32>,
 ) -> Becomes {
     let feed_forward = FeedForward::new(*model, VALIDITY);
-    let found = feed_forward.at_measured(Phase::default(), omega, reference, sliding);
+    let found = feed_forward.at_measured(Phase::default(), omega, reference, friction);
     flagged(!found.status.is_valid(), &[found.torque])
 }
 
-fn nearest(omega: f32, alpha: f32, sliding: Sliding<f32>) -> Becomes {
+fn nearest(omega: f32, alpha: f32, friction: FrictionSign<f32>) -> Becomes {
     let range = MotionRange::<f32>::new(VALIDITY, &Scale::SI);
-    let (motion, sliding) = range.nearest(motion(omega, alpha), sliding);
-    let (Sliding::Against(x) | Sliding::Share(x)) = sliding;
+    let (motion, friction) = range.nearest(motion(omega, alpha), friction);
+    let (FrictionSign::OfSpeed(x) | FrictionSign::Scaled(x)) = friction;
     carried(&[motion.omega, motion.alpha, x])
 }
 
@@ -175,13 +176,13 @@ fn status(omega: f32, alpha: f32) -> Becomes {
 /// A range no wider than the known one.
 fn ranged(omega: f32, alpha: f32) -> Becomes {
     let validity = Validity {
-        omega,
-        alpha,
+        max_speed: omega,
+        max_acceleration: alpha,
         torque_error: 0.0,
     };
     let range = MotionRange::<f32>::new(validity, &Scale::SI);
     assert!(!range.status(f32::INFINITY, f32::NAN).is_valid());
-    carried(&[range.omega(), range.alpha()])
+    carried(&[range.max_speed(), range.max_acceleration()])
 }
 
 /// Each function with NaN in one of its arguments, or in all; infinity has the same result as NaN, or acts as a limit.
@@ -191,19 +192,19 @@ const CASES: &[Case] = &[
     ("MotionRange::status", Flagged, |_, x| status(x, 1.0)),
     ("MotionRange::status", Flagged, |_, x| status(1.0, x)),
     ("MotionRange::nearest", Finite, |_, x| {
-        nearest(x, x, Sliding::Against(x))
+        nearest(x, x, FrictionSign::OfSpeed(x))
     }),
     ("MotionRange::nearest", Finite, |_, x| {
-        nearest(x, x, Sliding::Share(x))
+        nearest(x, x, FrictionSign::Scaled(x))
     }),
     ("FeedForward::new", Flagged, |m, x| {
         let validity = Validity {
-            omega: x,
-            alpha: x,
+            max_speed: x,
+            max_acceleration: x,
             torque_error: 0.0,
         };
         let feed_forward = FeedForward::new(*m, validity);
-        let found = feed_forward.at_reference(motion(f32::NAN, 1.0), Sliding::Share(0.0));
+        let found = feed_forward.at_reference(motion(f32::NAN, 1.0), FrictionSign::Scaled(0.0));
         flagged(!found.status.is_valid(), &[])
     }),
     ("FeedForward::status", Flagged, |m, x| {
@@ -213,51 +214,55 @@ const CASES: &[Case] = &[
         )
     }),
     ("FeedForward::at_reference", Flagged, |m, x| {
-        checked(m, x, 1.0, Sliding::Against(1.0))
+        checked(m, x, 1.0, FrictionSign::OfSpeed(1.0))
     }),
     ("FeedForward::at_reference", Flagged, |m, x| {
-        checked(m, 1.0, x, Sliding::Against(1.0))
+        checked(m, 1.0, x, FrictionSign::OfSpeed(1.0))
     }),
     ("FeedForward::at_reference", Flagged, |m, x| {
-        checked(m, 1.0, 1.0, Sliding::Against(x))
+        checked(m, 1.0, 1.0, FrictionSign::OfSpeed(x))
     }),
     ("FeedForward::at_reference", Flagged, |m, x| {
-        checked(m, 1.0, 1.0, Sliding::Share(x))
+        checked(m, 1.0, 1.0, FrictionSign::Scaled(x))
     }),
     ("FeedForward::at_reference", Flagged, |m, x| {
-        let ramp = Ramp::new(0.5, m).unwrap();
+        let ramp = FrictionRamp::new(0.5, m).unwrap();
         checked(m, x, x, ramp.at(x))
     }),
     ("FeedForward::at_measured", Flagged, |m, x| {
-        measured(m, x, motion(1.0, 1.0), Sliding::Share(0.5))
+        measured(m, x, motion(1.0, 1.0), FrictionSign::Scaled(0.5))
     }),
     ("FeedForward::at_measured", Flagged, |m, x| {
-        measured(m, 1.0, motion(x, 1.0), Sliding::Share(0.5))
+        measured(m, 1.0, motion(x, 1.0), FrictionSign::Scaled(0.5))
     }),
     ("FeedForward::at_measured", Flagged, |m, x| {
-        measured(m, 1.0, motion(x, 1.0), Sliding::Against(1.0))
+        measured(m, 1.0, motion(x, 1.0), FrictionSign::OfSpeed(1.0))
     }),
     ("FeedForward::at_measured", Flagged, |m, x| {
-        measured(m, 1.0, motion(1.0, x), Sliding::Share(0.5))
+        measured(m, 1.0, motion(1.0, x), FrictionSign::Scaled(0.5))
     }),
     ("FeedForward::at_measured", Flagged, |m, x| {
-        measured(m, 1.0, motion(1.0, 1.0), Sliding::Share(x))
+        measured(m, 1.0, motion(1.0, 1.0), FrictionSign::Scaled(x))
     }),
     ("FeedForward::at_measured", Flagged, |m, x| {
-        measured(m, 1.0, motion(1.0, 1.0), Sliding::Against(x))
+        measured(m, 1.0, motion(1.0, 1.0), FrictionSign::OfSpeed(x))
     }),
     ("FeedForward::at_measured", Flagged, |m, x| {
         // The ramp drops the value that the status detects in the set-point.
-        let ramp = Ramp::new(0.5, m).unwrap();
+        let ramp = FrictionRamp::new(0.5, m).unwrap();
         measured(m, 1.0, motion(x, 1.0), ramp.at(x))
     }),
-    ("Ramp::new", Refused, |m, x| refused(Ramp::new(x, m))),
-    ("Ramp::at", Finite, |m, x| {
-        match Ramp::new(0.5, m).unwrap().at(x) {
-            Sliding::Share(share) => carried(&[share]),
-            Sliding::Against(omega) => carried(&[omega]),
-        }
+    ("FrictionRamp::new", Refused, |m, x| {
+        refused(FrictionRamp::new(x, m))
     }),
+    (
+        "FrictionRamp::at",
+        Finite,
+        |m, x| match FrictionRamp::new(0.5, m).unwrap().at(x) {
+            FrictionSign::Scaled(share) => carried(&[share]),
+            FrictionSign::OfSpeed(omega) => carried(&[omega]),
+        },
+    ),
     ("TorqueLimits::new", Refused, |_, x| {
         // An infinite limit means no limit.
         if x.is_nan() {
@@ -364,7 +369,7 @@ const CASES: &[Case] = &[
     ("StrokeEncoder::new", Refused, |_, x| {
         refused(StrokeEncoder::new(
             STROKE,
-            Scaled {
+            StrokeMounting {
                 resolution: x.into(),
                 ..SCALED
             },
@@ -373,8 +378,8 @@ const CASES: &[Case] = &[
     ("StrokeEncoder::new", Refused, |_, x| {
         refused(StrokeEncoder::new(
             STROKE,
-            Scaled {
-                at_home: x.into(),
+            StrokeMounting {
+                home_position: x.into(),
                 ..SCALED
             },
         ))
@@ -461,8 +466,8 @@ const CASES: &[Case] = &[
     ("Governor::govern", Flagged, |m, x| {
         governed(m, motion(x, x), x)
     }),
-    ("Follower::new", Refused, |m, x| followed(m, x, 0.1)),
-    ("Follower::new", Refused, |m, x| followed(m, 0.001, x)),
+    ("PlanFollower::new", Refused, |m, x| followed(m, x, 0.1)),
+    ("PlanFollower::new", Refused, |m, x| followed(m, 0.001, x)),
     // An infinite ramp has a meaning: no ramp satisfies the torque limit.
     ("with_ramp", Refused, |_, x| {
         let end = Knot {
@@ -539,8 +544,8 @@ fn every_function_of_the_axis_is_tried() {
     // Bytes, counts, phases, and values made from them.
     const WITHOUT: &[&str] = &[
         "Status::is_valid",
-        "MotionRange::omega",
-        "MotionRange::alpha",
+        "MotionRange::max_speed",
+        "MotionRange::max_acceleration",
         "ImageSlot",
         "image_len",
         "Plan::new",
@@ -549,7 +554,8 @@ fn every_function_of_the_axis_is_tried() {
         "Plan::least_ramp",
         "Plan::machine",
         "Plan::errors",
-        "Plan::most",
+        "Plan::max_speed",
+        "Plan::max_acceleration",
         "Plan::rows",
         "Plan::duration",
         "Plan::end",
@@ -569,12 +575,12 @@ fn every_function_of_the_axis_is_tried() {
         "Tracker::update",
         "Tracker::update_stroke",
         "Transmission::base",
-        "Rate::percent",
-        "Follower::repeating",
-        "Follower::plan",
-        "Follower::start",
-        "Follower::reset",
-        "Follower::next",
+        "Override::percent",
+        "PlanFollower::repeating",
+        "PlanFollower::plan",
+        "PlanFollower::start",
+        "PlanFollower::reset",
+        "PlanFollower::next",
         "FeedForward::model",
         "FeedForward::range",
         "StrokeEncoder::phase",

@@ -2,10 +2,10 @@
 
 use core::f64::consts::TAU;
 
-use jred::axis::Plan;
-use jred::axis::plan::{Errors, Knot, Place, PlanError, encode, image_len};
+use jred::axis::plan::{Errors, Knot, PlanError, PlanPoint, encode, image_len};
+use jred::axis::{MachineUnits, Plan};
 use jred::number::{Number, Quantity as _};
-use jred::{Domain, MachineUnits, Q31, Rows16, Scale, Spline};
+use jred::{Domain, Q31, Rows16, Scale, Spline};
 use proptest::prelude::*;
 
 use super::machine::in_units;
@@ -73,7 +73,7 @@ pub(super) fn between(a: &Knot, b: &Knot, t: f64) -> [f64; 3] {
 }
 
 pub(super) fn found<N: Number>(
-    place: &Place<N>,
+    place: &PlanPoint<N>,
     model: &impl MachineUnits<Number = N>,
 ) -> [f64; 3] {
     let scale = model.scale();
@@ -167,7 +167,7 @@ fn a_plan_follows_its_polynomials() {
                 .map(|pair| terms(&pair[0], &pair[1])[j])
                 .fold(0.0, f64::max)
         };
-        let (raised, fastest) = (most(0), most(1).max(plan.most()[0].into()));
+        let (raised, fastest) = (most(0), most(1).max(plan.max_speed().into()));
         for pair in knots.windows(2) {
             let h = pair[1].t - pair[0].t;
             let [.., way] = terms(&pair[0], &pair[1]);
@@ -236,7 +236,7 @@ fn corners_of_the_acceleration_are_kept() {
         assert_eq!(plan.duration().to_bits(), 5.5_f32.to_bits());
         assert_eq!(plan.end(), units(5.5));
         assert_eq!(
-            plan.most().map(f32::to_bits),
+            [plan.max_speed(), plan.max_acceleration()].map(f32::to_bits),
             [2.0_f32, 4.0].map(f32::to_bits)
         );
         let [speed, acceleration] =
@@ -344,7 +344,8 @@ fn the_greatest_rates_are_those_of_the_polynomials() {
     let model = in_units::<Spline<f64>>(Domain::Turn, Scale::SI);
     let check = |knots: &[Knot]| {
         let words = image(knots, Domain::Turn);
-        let most = Plan::new(&words, &model).unwrap().most().map(f64::from);
+        let plan = Plan::new(&words, &model).unwrap();
+        let most = [plan.max_speed(), plan.max_acceleration()].map(f64::from);
         let mut sampled = [0.0_f64; 2];
         // In the shortest row the rounding of positions by half a unit at both ends is largest.
         let mut rounded = [0.0_f64; 2];

@@ -1,6 +1,6 @@
 use core::f64::consts::TAU;
 
-use jred::axis::{Period, Tracked, Tracker};
+use jred::axis::{Period, Tracker, TrackerOutput};
 use jred::table::Format;
 use jred::{Domain, Phase, Q15, Q31, Rows16, Scale, Speed, Spline};
 use proptest::prelude::*;
@@ -9,8 +9,8 @@ use super::machine::in_units;
 use crate::support::{assert_near, budget, config, samples, scale_of, value};
 
 /// Feeds the phases of φ(k)/2π, k = 1, 2, …
-fn follow(tracker: &mut Tracker, periods: u32, turns: impl Fn(f64) -> f64) -> Tracked {
-    let mut last = Tracked::default();
+fn follow(tracker: &mut Tracker, periods: u32, turns: impl Fn(f64) -> f64) -> TrackerOutput {
+    let mut last = TrackerOutput::default();
     for k in 1..=periods {
         let turn = turns(f64::from(k)).rem_euclid(1.0);
         last = tracker.update(Phase::from_bits((turn * 4_294_967_296.0) as u32));
@@ -21,11 +21,11 @@ fn follow(tracker: &mut Tracker, periods: u32, turns: impl Fn(f64) -> f64) -> Tr
 const UNIT: f64 = 1.0 / 4_294_967_296.0;
 
 /// In ranges a period, and a period squared.
-fn speed(tracked: Tracked) -> f64 {
+fn speed(tracked: TrackerOutput) -> f64 {
     f64::from(tracked.speed) * UNIT
 }
 
-fn acceleration(tracked: Tracked) -> f64 {
+fn acceleration(tracked: TrackerOutput) -> f64 {
     f64::from(tracked.acceleration) * UNIT / 256.0
 }
 
@@ -103,7 +103,7 @@ fn the_filter_settles_and_smooths_as_stated() {
 }
 
 /// Speed, acceleration, and counts of that speed, per period.
-fn found<F: Format>(period: f32, tracked: Tracked, scale: Scale) -> [f64; 3] {
+fn found<F: Format>(period: f32, tracked: TrackerOutput, scale: Scale) -> [f64; 3] {
     let rates = Period::new(period, &in_units::<F>(Domain::Turn, scale)).unwrap();
     let (omega, alpha) = (rates.omega(tracked), rates.alpha(tracked));
     assert!(!omega.saturated && !alpha.saturated);
@@ -119,11 +119,11 @@ fn found<F: Format>(period: f32, tracked: Tracked, scale: Scale) -> [f64; 3] {
 #[test]
 fn rates_give_the_motion_in_every_number() {
     let (period, omega, alpha) = (1e-4, 12.0, -340.0);
-    let tracked = Tracked {
+    let tracked = TrackerOutput {
         phase: Phase::default(),
         speed: (omega * f64::from(period) / TAU / UNIT) as i32,
         acceleration: (alpha * f64::from(period).powi(2) / TAU / UNIT * 256.0) as i32,
-        ..Tracked::default()
+        ..TrackerOutput::default()
     };
     let scale = scale_of(100.0, 20.0, 0.2);
     let wanted = [omega, alpha, f64::from(tracked.speed)];
@@ -158,14 +158,14 @@ fn rates_give_the_motion_in_every_number() {
 
     // Beyond the machine units: limited and flagged, in both directions.
     let short = Period::new(period, &in_units::<Rows16>(Domain::Turn, scale)).unwrap();
-    let fast = Tracked {
+    let fast = TrackerOutput {
         speed: 2 * tracked.speed,
         ..tracked
     };
     assert!(short.omega(fast).saturated && short.omega(fast).value == Speed::<Q15>::MAX);
     let rates = Period::new(period, &in_units::<Spline<Q31>>(Domain::Turn, scale)).unwrap();
     for sign in [1, -1] {
-        let fast = Tracked {
+        let fast = TrackerOutput {
             speed: 2 * sign * tracked.speed,
             acceleration: 2 * sign * tracked.acceleration,
             ..tracked
@@ -234,7 +234,7 @@ fn a_jump_over_the_stroke_is_half_a_stroke() {
         };
         let [up, down] = [jump(0, u32::MAX), jump(u32::MAX, 0)];
         let gain = 1.0 - f64::from(memory).powi(3);
-        let moved = |tracked: Tracked| f64::from(tracked.phase.to_bits()) * UNIT;
+        let moved = |tracked: TrackerOutput| f64::from(tracked.phase.to_bits()) * UNIT;
         assert_near("up", moved(up), 0.5 * gain, 1e-7);
         assert_near("down", 1.0 - moved(down), 0.5 * gain, 1e-7);
     }
@@ -310,7 +310,7 @@ proptest! {
         }
         // In a stroke a residual is limited to half of it, and at its ends the filter waits.
         let settled = if stroke { 60.0 } else { 20.0 } / (1.0 - memory);
-        let (mut place, mut last) = (at, Tracked::default());
+        let (mut place, mut last) = (at, TrackerOutput::default());
         for _ in 0..settled as u32 {
             place = place.wrapping_add_signed(moves);
             last = update(place);
@@ -418,9 +418,9 @@ fn a_count_that_jumps_is_flagged_and_forgotten() {
 #[test]
 fn an_acceleration_that_was_limited_is_flagged() {
     let period = Period::new(0.001, &in_units::<Spline<f32>>(Domain::Turn, Scale::SI)).unwrap();
-    let tracked = |acceleration| Tracked {
+    let tracked = |acceleration| TrackerOutput {
         acceleration,
-        ..Tracked::default()
+        ..TrackerOutput::default()
     };
     assert!(period.alpha(tracked(i32::MAX)).saturated && period.alpha(tracked(i32::MIN)).saturated);
     assert!(!period.alpha(tracked(i32::MAX - 1)).saturated);

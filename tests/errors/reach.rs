@@ -2,9 +2,9 @@
 
 use std::f64::consts::PI;
 
-use jred::Error;
+use jred::error::Error;
 use jred::machine::Mechanism;
-use jred::mechanism::{Blocked, BuildError};
+use jred::mechanism::{BuildError, RotationError};
 
 use super::{says, slider_crank};
 use crate::support::{assert_near, budget};
@@ -23,7 +23,7 @@ fn short_rod_names_its_angle() {
             slider_crank(r, l, e),
             &["make the rod longer than", "shorten the crank"],
         );
-        let Error::Build(BuildError::Blocked(Blocked::TooShort {
+        let Error::Build(BuildError::Rotation(RotationError::TooShort {
             phi,
             shortest,
             reach,
@@ -62,13 +62,13 @@ fn short_rod_names_its_angle() {
     }
     // A guide farther away than the rod's length is not reached at φ = 0.
     let error = says(slider_crank(0.1, 0.3, -0.4), &["φ = 0.00°", "0.500000 m"]);
-    let blocked = Blocked::TooShort {
+    let blocked = RotationError::TooShort {
         link: "rod",
         phi: 0.0,
         shortest: 0.5,
         reach: None,
     };
-    assert_eq!(error, Error::Build(BuildError::Blocked(blocked)));
+    assert_eq!(error, Error::Build(BuildError::Rotation(blocked)));
 }
 
 /// l = r + |e| exactly, up to rounding: the angle is 270°, not a full turn.
@@ -76,7 +76,7 @@ fn short_rod_names_its_angle() {
 fn rod_of_the_limit_length_names_its_angle() {
     let (r, e) = (0.1, 0.2);
     let error = slider_crank(r, r + e, e).unwrap_err();
-    let BuildError::Blocked(Blocked::TooShort { phi, .. }) = error else {
+    let BuildError::Rotation(RotationError::TooShort { phi, .. }) = error else {
         panic!("{error:?}")
     };
     assert_near("φ", phi, 1.5 * PI, budget::LIMIT_ANGLE);
@@ -88,7 +88,10 @@ fn a_rod_of_a_hair_more_than_the_limit_turns_fully_or_is_refused() {
     let r = 0.807_812_5; // chosen so that l·(1/l) rounds to r/l = 1
     let refused = slider_crank(r, f64::next_up(r), 0.0).unwrap_err();
     assert!(
-        matches!(refused, BuildError::Blocked(Blocked::TooShort { .. })),
+        matches!(
+            refused,
+            BuildError::Rotation(RotationError::TooShort { .. })
+        ),
         "{refused:?}"
     );
     let mechanism = slider_crank(r, r * (1.0 + 2e-12), 0.0).unwrap();

@@ -1,13 +1,15 @@
 //! Machines without a table, and words that are not a table.
 
+use jred::error::Error;
 use jred::machine::{
-    Action, Element, Frame, Frames, Load, Marker, MassProperties, Mechanism, PoseError, Window,
+    Action, Element, Frame, Frames, Link, Load, Machine, Marker, MassProperties, Mechanism,
+    PoseError, Reducible, Window,
 };
 use jred::mechanism::{Branch, Geneva, RackAndPinion, SliderCrank, SliderCrankDimensions};
 use jred::number::{RangeError, Transfer};
-use jred::table::{CubicSpline, Format, MAX_CELLS};
+use jred::table::{CubicSpline, Format, MAX_CELLS, TableError};
 use jred::tabulate::{Request, fill, tabulate};
-use jred::{Domain, Error, Link, Machine, Q31, Reducible, Scale, Set, Spline, TableError, curves};
+use jred::{CurveSet, Domain, Q31, Scale, Spline, curves};
 
 use super::says;
 use crate::support::machines::Wave;
@@ -17,7 +19,7 @@ use crate::support::scale_of;
 /// The table of a machine, or the reason for its absence.
 fn rows<S: jred::number::Scalar>(
     machine: &impl Reducible,
-    set: Set,
+    set: CurveSet,
     cells: u32,
     scale: &Scale,
 ) -> Result<Vec<<Spline<S> as Format>::Word>, Error> {
@@ -93,8 +95,8 @@ fn tables_that_cannot_be_made_say_why() {
         &["holds 18", "19"],
     );
     let request = Request::new(1e-9)
-        .with_omega(10.0)
-        .with_alpha(10.0)
+        .with_max_speed(10.0)
+        .with_max_acceleration(10.0)
         .with_max_cells(16);
     let parts = ["1e-9", "16 cells reach", "allow a larger error"];
     let error = says(
@@ -107,8 +109,8 @@ fn tables_that_cannot_be_made_say_why() {
     assert!(reached > 1e-9 && reached < 1.0);
     for [torque_error, omega, alpha] in [[0.0, 1.0, 1.0], [1.0, -1.0, 1.0], [1.0, 1.0, 0.0]] {
         let bad = Request::new(torque_error)
-            .with_omega(omega)
-            .with_alpha(alpha)
+            .with_max_speed(omega)
+            .with_max_acceleration(alpha)
             .with_max_cells(16);
         let refused =
             tabulate::<Spline<f32>>(&wave, 0, &bad, &Scale::SI, &mut [0.0; 38], &mut rows);

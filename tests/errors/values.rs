@@ -1,11 +1,12 @@
 //! Quantities outside their range, and too many parts.
 
+use jred::error::Error;
 use jred::machine::motion::{Law, Move};
-use jred::machine::{Action, Load, MachineError, Window};
+use jred::machine::{Action, Link, Load, MachineError, Window};
 use jred::mechanism::{BeltDimensions, GearDimensions, Mesh, Stage, Train};
 use jred::number::{Bases, RangeError};
 use jred::table::{fit_bounded, fit_periodic};
-use jred::{Domain, Error, Link, Scale};
+use jred::{Domain, Scale};
 
 use super::{machine, says, slider_crank};
 

@@ -2,9 +2,11 @@
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use jred::machine::{Action, Jointed, Load, MachineError, Mechanism, PoseError};
-use jred::mechanism::{BuildError, FourBar, FourBarDimensions, Misfit, Side};
-use jred::{Domain, Link, Machine, Reducible};
+use jred::Domain;
+use jred::machine::{
+    Action, Jointed, Link, Load, Machine, MachineError, Mechanism, PoseError, Reducible,
+};
+use jred::mechanism::{BuildError, DimensionError, FourBar, FourBarDimensions, Side};
 use proptest::prelude::*;
 
 use super::links;
@@ -333,5 +335,5 @@ fn what_has_no_branch_to_keep_is_refused() {
         Err(BuildError::Range(_))
     ));
     let error = kept([0.1, 0.2, 0.3, 0.4], 0.0, Side::Left, Domain::Turn, links()).unwrap_err();
-    assert_eq!(error, BuildError::Misfit(Misfit::TwoTurns));
+    assert_eq!(error, BuildError::Dimensions(DimensionError::TwoTurns));
 }

@@ -1,7 +1,7 @@
 //! Impossible input is refused, with the quantity, its value and its limit.
 
 use crate::support::spoken;
-use jred::Error;
+use jred::error::Error;
 use jred::friction::{
     Arrangement, Contact, Creep, CreepContact, CreepLimit, Drive, Flow, FrictionDrive,
     OperatingPoint, Ramp, RampShape, Shaft, Sine, SineShape, Stage, State, Variable,

@@ -1,9 +1,8 @@
 //! Constant ratios: equivalent to a gear train.
 
 use jred::friction::{Arrangement, Contact, Drive, Flow, FrictionDrive, Shaft, Stage, State};
-use jred::machine::{Jointed, Load, Mechanism};
+use jred::machine::{Jointed, Load, Machine, Mechanism, Reducible};
 use jred::mechanism::{Stage as Gear, Train};
-use jred::{Machine, Reducible};
 use proptest::prelude::*;
 
 use crate::support::forces::dalembert;

@@ -5,8 +5,8 @@ use jred::friction::{
     State, Variable,
 };
 use jred::machine::motion::Law;
+use jred::machine::{Link, Machine, Reducible};
 use jred::mechanism::{Branch, SliderCrank, SliderCrankDimensions};
-use jred::{Link, Machine, Reducible};
 
 use super::integrate;
 use crate::support::{assert_near, budget, link_of};

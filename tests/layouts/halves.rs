@@ -3,12 +3,12 @@
 use crate::support::rows::{Meaning, Rows};
 use crate::support::{assert_near, budget, grid, scale_of};
 use jred::number::Role;
-use jred::{Domain, Q31, Scale, Set, Spline, Spline16, curves};
+use jred::{CurveSet, Domain, Q31, Scale, Spline, Spline16, curves};
 
 use super::Smooth;
 
 /// One, three, four and five curves: words that are half empty, and full ones.
-const SETS: [Set; 4] = [
+const SETS: [CurveSet; 4] = [
     curves::INERTIA,
     curves::LOAD | curves::COULOMB,
     curves::ALL,
@@ -20,7 +20,7 @@ fn scale() -> Scale {
 }
 
 /// The roles of a row, in the order of their bits.
-fn roles(set: Set) -> Vec<Role> {
+fn roles(set: CurveSet) -> Vec<Role> {
     let others = [
         (curves::LOAD, Role::Load),
         (curves::VISCOUS, Role::Viscous),
@@ -40,7 +40,7 @@ struct Pair {
 }
 
 impl Pair {
-    fn of(domain: Domain, set: Set, cells: u32) -> Self {
+    fn of(domain: Domain, set: CurveSet, cells: u32) -> Self {
         let machine = Smooth(domain);
         Self {
             wide: Rows::of(&machine, set, cells, &scale()).unwrap(),

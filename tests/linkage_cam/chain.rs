@@ -2,11 +2,11 @@
 
 use std::f64::consts::TAU;
 
-use jred::machine::{Body, Joint, Marker, Mechanism, PoseError};
+use jred::Domain;
+use jred::machine::{Body, Joint, Machine, Marker, Mechanism, PoseError};
 use jred::mechanism::linkage::{Assembly, Linkage, LinkageError, Pair, PlacedCam, Pose};
 use jred::mechanism::{DiscCam, Follower, Roller, RollerDimensions, Swing};
 use jred::number::Transfer;
-use jred::{Domain, Machine};
 
 use super::{O, Place, pin, profile};
 use crate::support::{assert_near, budget, cams, forces, jointed, link_of};

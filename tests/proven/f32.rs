@@ -5,9 +5,9 @@ use crate::support::budget::{self, Proven};
 use crate::support::rows::Rows;
 use crate::support::scale_of;
 use jred::table::{Constants, Format};
-use jred::{Cubic, Domain, Phase, Quadratic, Set, Spline, curves};
+use jred::{Cubic, CurveSet, Domain, Phase, Quadratic, Spline, curves};
 
-const ALL: Set = curves::ALL;
+const ALL: CurveSet = curves::ALL;
 const CELLS: u32 = 4;
 /// Phase, speed, acceleration, factor, mean of J; then up to four words of each of four curves.
 const GENES: usize = 5 + 16;

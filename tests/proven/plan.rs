@@ -7,8 +7,8 @@ use crate::axis::machine::in_units;
 use crate::support::images::sealed;
 use crate::support::search::extremes;
 use jred::axis::plan::{Errors, HEADER_WORDS, Knot, encode, image_len};
-use jred::axis::{Follower, Plan, Rate};
-use jred::{Domain, MachineUnits, Scale, Spline};
+use jred::axis::{MachineUnits, Override, Plan, PlanFollower};
+use jred::{Domain, Scale, Spline};
 
 const SCRIPT: &str = include_str!("../proofs/plan.g");
 
@@ -72,9 +72,9 @@ fn errors<M: MachineUnits<Number = f64>>(
 
     let percent = rate % 101;
     let share = f64::from((percent << 24) / 100) / 2f64.powi(24);
-    let mut follower = Follower::new(plan, 1e-3, 0.1, model).unwrap();
+    let mut follower = PlanFollower::new(plan, 1e-3, 0.1, model).unwrap();
     follower.start();
-    let slower = follower.next(Rate::percent(percent)).motion;
+    let slower = follower.next(Override::percent(percent)).motion;
     let begins = counts(plan.at(0).value.motion.alpha, finer);
     Some([
         (position - middle) as f64 - moved(u) - way(u),

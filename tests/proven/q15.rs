@@ -5,9 +5,9 @@ use crate::support::budget;
 use crate::support::rows::Rows;
 use crate::support::scale_of;
 use jred::table::RowConstants;
-use jred::{Acceleration, Domain, Phase, Q15, Rows16, Set, Speed, curves};
+use jred::{Acceleration, CurveSet, Domain, Phase, Q15, Rows16, Speed, curves};
 
-const ALL: Set = curves::ALL;
+const ALL: CurveSet = curves::ALL;
 const CELLS: u32 = 4;
 /// Phase, speed, acceleration; then two halves of each word of a row.
 const GENES: usize = 3 + 12;

@@ -5,9 +5,9 @@ use crate::support::budget::{self, Proven, Q31_UNIT};
 use crate::support::exact::place_bits;
 use crate::support::rows::{Fixed, Rows};
 use crate::support::scale_of;
-use jred::{Acceleration, Cubic, Domain, Phase, Q31, Quadratic, Set, Speed, Spline, curves};
+use jred::{Acceleration, Cubic, CurveSet, Domain, Phase, Q31, Quadratic, Speed, Spline, curves};
 
-const ALL: Set = curves::ALL;
+const ALL: CurveSet = curves::ALL;
 const CELLS: u32 = 4;
 /// Phase, speed, acceleration; then up to four words of each of four curves.
 const GENES: usize = 3 + 16;

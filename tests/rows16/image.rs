@@ -1,14 +1,15 @@
 //! Images of tables of 16-bit rows: word by word, round trip, and refusals.
 
 use jred::image::{HEADER_WORDS, encode, image_len};
-use jred::{Domain, Image, ImageError, Phase, Rows16, Set, Spline, TableError, curves};
+use jred::table::TableError;
+use jred::{CurveSet, Domain, Image, ImageError, Phase, Rows16, Spline, curves};
 
 use super::{Short, model, q15};
 use crate::support::images::{VALIDITY, sealed, small};
 use crate::support::machines::Wave;
 use crate::support::scale_of;
 
-const SET: Set = super::CONSTANT;
+const SET: CurveSet = super::CONSTANT;
 
 fn wave(domain: Domain) -> Wave {
     Wave {

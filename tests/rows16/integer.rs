@@ -1,14 +1,14 @@
 //! The tick against its formulas in wide integers, which cannot wrap: random rows, not only those of machines.
 
 use jred::table::RowConstants;
-use jred::{Domain, Phase, Set, curves};
+use jred::{CurveSet, Domain, Phase, curves};
 use proptest::prelude::*;
 
 use super::{CONSTANT, Short, q15, row_words};
 use crate::support::{config, scale_of};
 
-const ALL: Set = curves::ALL;
-const FULL: Set = super::EVERY;
+const ALL: CurveSet = curves::ALL;
+const FULL: CurveSet = super::EVERY;
 
 /// floor(x/2ⁿ)
 fn floor(x: i128, n: u32) -> i128 {
@@ -21,13 +21,13 @@ fn line(word: u32, u: i128) -> i128 {
 }
 
 /// Torque and resisting torque, Q31 before the last floor, of the first cell.
-fn sums<const SET: Set>(
+fn sums<const SET: CurveSet>(
     words: &[u32],
     constants: RowConstants,
     u: i128,
     [omega, alpha]: [i128; 2],
 ) -> [i128; 2] {
-    let has = |of: Set| SET & of != 0;
+    let has = |of: CurveSet| SET & of != 0;
     let mut row = words.iter().copied();
     let mut next = || row.next().unwrap();
     let load = if has(curves::LOAD) { next() } else { 0 };
@@ -58,7 +58,7 @@ fn sums<const SET: Set>(
 }
 
 /// (torque − resisting)/J of the same cell before limiting; and whether it must be limited.
-fn quotient<const SET: Set>(words: &[u32], shift: u32, u: i128, net: i128) -> i128 {
+fn quotient<const SET: CurveSet>(words: &[u32], shift: u32, u: i128, net: i128) -> i128 {
     if SET & curves::RECIPROCAL != 0 {
         return floor(line(words[row_words(SET) - 1], u) * net, shift);
     }
@@ -67,7 +67,7 @@ fn quotient<const SET: Set>(words: &[u32], shift: u32, u: i128, net: i128) -> i1
     (net << 16) / inertia
 }
 
-fn check<const SET: Set>(random: &Random) -> bool {
+fn check<const SET: CurveSet>(random: &Random) -> bool {
     let mut words: Vec<u32> = random.words[..row_words(SET)].to_vec();
     // V must match J, otherwise no model is built: per unit, a slope per cell counts eight times.
     let scale = scale_of(1.0, 1.0, 1.0);

@@ -2,9 +2,11 @@
 
 use std::f64::consts::TAU;
 
+use jred::error::Error;
+use jred::machine::Reducible;
 use jred::table::words_len;
 use jred::tabulate::{Request, measure, scratch_len, tabulate};
-use jred::{Error, Phase, Reducible, Rows16, Scale, Set, curves};
+use jred::{CurveSet, Phase, Rows16, Scale, curves};
 use proptest::prelude::*;
 
 use super::{Short, model, q15};
@@ -13,12 +15,12 @@ use crate::support::{budget, largest, samples, value};
 
 const OMEGA: f64 = 40.0;
 const ALPHA: f64 = 800.0;
-const SET: Set = curves::LOAD;
+const SET: CurveSet = curves::LOAD;
 
 fn request(torque_error: f64) -> Request {
     Request::new(torque_error)
-        .with_omega(OMEGA)
-        .with_alpha(ALPHA)
+        .with_max_speed(OMEGA)
+        .with_max_acceleration(ALPHA)
         .with_max_cells(1024)
 }
 
@@ -35,7 +37,7 @@ fn scale() -> Scale {
     Scale::limited_to(&press(), OMEGA, ALPHA, 1440).unwrap()
 }
 
-fn tabulated(share: f64) -> Result<(Short, jred::tabulate::Tabulated), Error> {
+fn tabulated(share: f64) -> Result<(Short, jred::tabulate::TableFigures), Error> {
     let mut scratch = vec![0.0; scratch_len(1024, SET)];
     let mut words = vec![0; words_len::<Rows16>(1024, SET)];
     let request = request(share * peak());

@@ -1,7 +1,8 @@
 //! Values read from a table against the machine, for every set, on a turn and on a stroke.
 
+use jred::machine::{Reducible, Reduction};
 use jred::table::Usage;
-use jred::{Domain, Phase, Reducible, Reduction, Set, curves};
+use jred::{CurveSet, Domain, Phase, curves};
 
 use super::{Short, read_at, row_words};
 use crate::support::{budget, grid, largest, scale_of};
@@ -33,7 +34,7 @@ fn domains() -> [Domain; 2] {
 }
 
 /// Largest errors of J, V, load, b, c, 1/J, in units of 2⁻¹⁵ (of 2⁻¹⁵ of 1/J).
-fn errors(set: Set, domain: Domain, cells: u32) -> [f64; 6] {
+fn errors(set: CurveSet, domain: Domain, cells: u32) -> [f64; 6] {
     let scale = scale_of(1.0, 0.9, 1.0);
     let machine = Smooth(domain);
     let rows = Short::of(&machine, set, cells, &scale).unwrap();
@@ -41,14 +42,14 @@ fn errors(set: Set, domain: Domain, cells: u32) -> [f64; 6] {
     assert_eq!(rows.table().words(), rows.words);
     assert_eq!((rows.table().cells(), rows.table().set()), (cells, set));
     let table = rows.table();
-    let has = |of: Set| if set & of == 0 { 0.0 } else { 1.0 };
+    let has = |of: CurveSet| if set & of == 0 { 0.0 } else { 1.0 };
     let mut found = [0.0; 6];
     let places = 16 * cells;
     let start = machine.reduction(domain.position(0.0)).unwrap();
     for (phase, position) in grid(domain, places) {
         let exact = machine.reduction(position).unwrap();
         let [inertia, velocity, load, b, c, reciprocal] = read_at(&table, phase);
-        let of = |curve: Set, constant: Set, here: f64, at_start: f64| {
+        let of = |curve: CurveSet, constant: CurveSet, here: f64, at_start: f64| {
             if set & curve != 0 {
                 here
             } else {

@@ -1,16 +1,17 @@
 //! Invalid tables, and machines beyond 16 bits.
 
-use jred::machine::PoseError;
+use jred::error::Error;
+use jred::machine::{PoseError, Reducible, Reduction};
 use jred::number::RangeError;
-use jred::table::{MAX_CELLS, RowConstants, words_len};
+use jred::table::{MAX_CELLS, RowConstants, TableError, words_len};
 use jred::tabulate::{Request, fill, scratch_len, tabulate};
-use jred::{Domain, Error, Reducible, Reduction, Rows16, Scale, Set, TableError, curves};
+use jred::{CurveSet, Domain, Rows16, Scale, curves};
 
 use super::{CONSTANT, Short, model, row_words};
 use crate::support::machines::Wave;
 use crate::support::scale_of;
 
-const SET: Set = super::EVERY;
+const SET: CurveSet = super::EVERY;
 
 /// J = 0.5, 1/J = 2, all else 0.
 fn good() -> Short {
@@ -196,7 +197,7 @@ fn a_model_of_another_set_span_or_scale() {
     );
 }
 
-fn filled(machine: &impl Reducible, set: Set, cells: u32, scale: &Scale) -> Error {
+fn filled(machine: &impl Reducible, set: CurveSet, cells: u32, scale: &Scale) -> Error {
     Short::of(machine, set, cells, scale)
         .map(|_| ())
         .unwrap_err()
@@ -206,7 +207,7 @@ fn filled(machine: &impl Reducible, set: Set, cells: u32, scale: &Scale) -> Erro
 fn machines_out_of_range() {
     let scale = scale_of(60.0, 11.0, 2.0);
     let wave = Wave::bare(1.0, 0.25);
-    let base = |wave: &Wave, set: Set| match filled(wave, set, 40, &scale) {
+    let base = |wave: &Wave, set: CurveSet| match filled(wave, set, 40, &scale) {
         Error::Table(TableError::Overflow { base, .. }) => base,
         other => panic!("{other}"),
     };
@@ -266,8 +267,8 @@ fn buffers_and_requests() {
         );
     }
     let request = Request::new(0.0)
-        .with_omega(10.0)
-        .with_alpha(20.0)
+        .with_max_speed(10.0)
+        .with_max_acceleration(20.0)
         .with_max_cells(40);
     let (mut scratch, mut words) = (vec![0.0; scratch], vec![0; words]);
     let error = tabulate::<Rows16>(&wave, SET, &request, &scale, &mut scratch, &mut words);

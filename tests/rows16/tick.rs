@@ -1,6 +1,6 @@
 //! The tick against the curves of its table, and against its own inverse.
 
-use jred::{Phase, Q15, Scale, Set, Torque, curves};
+use jred::{CurveSet, Phase, Q15, Scale, Torque, curves};
 use proptest::prelude::*;
 
 use super::{CONSTANT, EVERY, Short, model, q15, units, velocity};
@@ -8,15 +8,15 @@ use crate::support::machines::{Spec, spec};
 use crate::support::{budget, config, largest, samples, value};
 use jred::table::CurveValues;
 
-const ALL: Set = curves::ALL;
-const CONSTANTS: Set = curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB;
+const ALL: CurveSet = curves::ALL;
+const CONSTANTS: CurveSet = curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB;
 
 fn scale(spec: &Spec) -> Scale {
     Scale::limited_to(&spec.machine(), 60.0, 900.0, 256).unwrap()
 }
 
 /// The table of the set; without machines whose curves overshoot in so few cells.
-fn table(spec: &Spec, set: Set) -> Option<Short> {
+fn table(spec: &Spec, set: CurveSet) -> Option<Short> {
     Short::of(&spec.machine(), set, 200, &scale(spec)).ok()
 }
 
@@ -29,7 +29,7 @@ fn resisting(read: &CurveValues, scale: &Scale, omega: f64) -> f64 {
 }
 
 /// Torque minus that of the curves, in units of 2⁻¹⁵.
-fn torque_error<const SET: Set>(rows: &Short, phase: Phase, omega: i16, alpha: i16) -> f64 {
+fn torque_error<const SET: CurveSet>(rows: &Short, phase: Phase, omega: i16, alpha: i16) -> f64 {
     let read = rows.table().at(phase);
     let (omega, alpha) = (q15(omega), q15(alpha));
     let (w, a) = (value(omega), value(alpha));
@@ -48,7 +48,7 @@ fn cases(count: u32) -> Vec<Case> {
     )
 }
 
-fn torque_of_set<const SET: Set>() {
+fn torque_of_set<const SET: CurveSet>() {
     let mut worst = [0.0f64; 2];
     for (spec, phase, omega, alpha) in cases(300) {
         let Some(rows) = table(&spec, SET) else {
@@ -87,7 +87,7 @@ fn torque_is_that_of_the_curves() {
 
 /// Acceleration from the torque for an acceleration, minus that acceleration, over its permitted error: a share of it, and units of the torque over
 /// J.
-fn there_and_back<const SET: Set>() {
+fn there_and_back<const SET: CurveSet>() {
     let mut worst = 0.0f64;
     let mut compared = 0;
     for (spec, phase, omega, alpha) in cases(400) {
@@ -130,7 +130,7 @@ fn forward_undoes_inverse() {
 }
 
 /// If the exact acceleration is clearly out of range or clearly within it, the flag agrees, and the value is the nearest.
-fn saturation<const SET: Set>(rows: &Short, phase: Phase, omega: i16, torque: i16) {
+fn saturation<const SET: CurveSet>(rows: &Short, phase: Phase, omega: i16, torque: i16) {
     let (omega, torque) = (q15(omega), q15(torque));
     let model = model::<SET>(rows);
     let read = model.table().at(phase);

@@ -45,11 +45,9 @@ pub(crate) const PHASE_UNITS: f64 = 0.5 + 1e-6;
 /// `Phase::from_radians_f32` promises 6e-8 of a turn for |φ| ≤ 2π.
 pub(crate) const PHASE_F32_TURNS: f64 = 6e-8;
 
-/// `Phase::sin_cos_approx` promises this, and its error is at least half of it.
-pub(crate) const SIN_COS_APPROX: f64 = 1.2e-3;
-
-/// A slider-crank in closed form, (r + |e|)/l up to 0.5, relative to the sum of the largest magnitudes of the torque's terms: sine and cosine have
-/// errors of 1.1e-7, τ as much, 1/cos ψ 1.5 units of 2⁻²⁴ and, for τ·δτ/(1 − τ²) ≤ ⅔, 7e-8; J′ uses its cube; each coefficient is rounded to 2⁻²⁴.
+/// A slider-crank in closed form, (r + |e|)/l up to 0.5, as a share of the sum of the largest sizes of the torque's terms: sine and
+/// cosine are off by 1.1e-7, τ by as much, 1/cos ψ by 1.5 units of 2⁻²⁴ and, for τ·δτ/(1 − τ²) ≤ ⅔, by 7e-8; J′ takes the cube
+/// of it; each coefficient is rounded to 2⁻²⁴.
 pub(crate) const SLIDER_CRANK: f64 = 1e-6;
 
 /// The same up to the steepest rod, where τ·δτ/(1 − τ²) is ten times δτ.

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use super::link_of;
-use jred::Link;
+use jred::machine::Link;
 use jred::machine::motion::Law;
 use jred::mechanism::cam::{CamError, Program, Segment};
 use jred::mechanism::{DiscCam, Follower, Roller, RollerDimensions, Swing};

@@ -1,10 +1,11 @@
 //! Random slider-cranks with every load that their closed form supports.
 
-use jred::machine::{Action, Load};
+use jred::error::Error;
+use jred::machine::{Action, Load, Machine};
 use jred::mechanism::{Branch, SliderCrank, SliderCrankDimensions};
 use jred::slider_crank::{form, set_in_use};
-use jred::table::{Shape, words_len};
-use jred::{AnyModel, Error, Machine, Set, SliderCrankForm, Table};
+use jred::table::{Shape, Table, words_len};
+use jred::{AnyModel, CurveSet, SliderCrankForm};
 use proptest::prelude::*;
 
 use super::link_of;
@@ -110,14 +111,17 @@ impl Given {
 }
 
 /// Coefficients and set.
-pub(crate) fn words_of(machine: &Machine<SliderCrank>) -> Result<(Vec<f32>, Set), Error> {
+pub(crate) fn words_of(machine: &Machine<SliderCrank>) -> Result<(Vec<f32>, CurveSet), Error> {
     let set = set_in_use(machine)?;
     let mut words = vec![0.0; words_len::<SliderCrankForm>(0, set)];
     form(machine, set, &mut words)?;
     Ok((words, set))
 }
 
-pub(crate) fn model_of(words: &[f32], set: Set) -> Result<AnyModel<'_, SliderCrankForm>, Error> {
+pub(crate) fn model_of(
+    words: &[f32],
+    set: CurveSet,
+) -> Result<AnyModel<'_, SliderCrankForm>, Error> {
     let table = Table::new(words, Shape::slider_crank(set))?;
     Ok(AnyModel::new(table)?)
 }

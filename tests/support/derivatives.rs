@@ -1,6 +1,6 @@
 //! Derivatives against differences: of every link's transfer functions, of J and of U.
 
-use jred::Machine;
+use jred::machine::Machine;
 use jred::machine::Mechanism;
 use std::f64::consts::{PI, TAU};
 

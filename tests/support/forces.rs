@@ -1,6 +1,6 @@
 //! Forces in the joints: against the reduced equation, in equilibrium, against golden tables.
 
-use jred::Machine;
+use jred::machine::Machine;
 use jred::machine::{Body, Forces, Joint, Jointed, Wrench};
 
 use super::golden::Table;

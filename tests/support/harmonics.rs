@@ -3,16 +3,14 @@
 use jred::mechanism::SliderCrankDimensions;
 use std::f64::consts::TAU;
 
-use jred::harmonic::{Circular, Fitted, fit, scratch_len, terms_in_use};
-use jred::machine::{Action, Load};
+use jred::error::Error;
+use jred::harmonic::{Circular, Fit, fit, scratch_len, terms_in_use};
+use jred::machine::{Action, Link, Load, Machine, Reducible, Reduction};
 use jred::mechanism::{Branch, SliderCrank};
 use jred::number::Number;
-use jred::table::{Format, Shape, words_len};
+use jred::table::{Format, Shape, Table, TableError, words_len};
 use jred::tabulate::Request;
-use jred::{
-    Domain, Error, Harmonic, Link, Machine, Model, Phase, Reducible, Reduction, Set, Table,
-    TableError,
-};
+use jred::{CurveSet, Domain, Harmonic, Model, Phase};
 use proptest::prelude::*;
 
 use super::largest;
@@ -119,8 +117,8 @@ pub(crate) const ALPHA: f64 = 400.0;
 
 pub(crate) fn request(torque_error: f64, max_cells: u32) -> Request {
     Request::new(torque_error)
-        .with_omega(OMEGA)
-        .with_alpha(ALPHA)
+        .with_max_speed(OMEGA)
+        .with_max_acceleration(ALPHA)
         .with_max_cells(max_cells)
 }
 
@@ -132,10 +130,10 @@ pub(crate) fn peak(machine: &impl Reducible) -> f64 {
     }))
 }
 
-pub(crate) fn fitted<T, const SET: Set>(
+pub(crate) fn fitted<T, const SET: CurveSet>(
     machine: &impl Reducible,
     request: &Request,
-) -> Result<(Fitted, Vec<T>), Error>
+) -> Result<(Fit, Vec<T>), Error>
 where
     T: Circular + Number,
     Harmonic<T>: Format<Number = T, Word = T, Constants = ()>,
@@ -148,7 +146,7 @@ where
 }
 
 /// The model with as many harmonics as there are words for.
-pub(crate) fn model<T, const SET: Set>(
+pub(crate) fn model<T, const SET: CurveSet>(
     words: &[T],
 ) -> Result<Model<'_, Harmonic<T>, SET>, TableError>
 where
@@ -165,7 +163,7 @@ pub(crate) fn phases(count: u32) -> impl Iterator<Item = Phase> {
     (0..count).map(move |k| Phase::from_bits(k.wrapping_mul((u32::MAX / count) | 1)))
 }
 
-pub(crate) fn terms_of(machine: &impl Reducible, set: Set) -> Result<Set, Error> {
+pub(crate) fn terms_of(machine: &impl Reducible, set: CurveSet) -> Result<CurveSet, Error> {
     terms_in_use(machine, set, 16, &mut vec![0.0; scratch_len(16)])
 }
 

@@ -1,8 +1,8 @@
 //! Images for tests, and an independent CRC.
 
-use jred::image::{ImageCheck, encode, image_len};
+use jred::image::{ImageCheck, Validity, encode, image_len};
 use jred::table::Format;
-use jred::{Domain, Image, ImageError, Q31, Scale, Set, Spline, Validity, curves};
+use jred::{CurveSet, Domain, Image, ImageError, Q31, Scale, Spline, curves};
 
 use super::machines::Wave;
 use super::rows::Rows;
@@ -28,12 +28,17 @@ pub(crate) fn sealed(mut image: Vec<u32>) -> Vec<u32> {
 }
 
 pub(crate) const VALIDITY: Validity = Validity {
-    omega: 10.0,
-    alpha: 100.0,
+    max_speed: 10.0,
+    max_acceleration: 100.0,
     torque_error: 0.01,
 };
 
-pub(crate) fn encoded<F: Format>(machine: &Wave, set: Set, cells: u32, scale: &Scale) -> Vec<u32> {
+pub(crate) fn encoded<F: Format>(
+    machine: &Wave,
+    set: CurveSet,
+    cells: u32,
+    scale: &Scale,
+) -> Vec<u32> {
     let rows = Rows::<F>::of(machine, set, cells, scale).unwrap();
     let mut buffer = vec![0; image_len::<F>(cells, set) + 3];
     encode(&rows.table(), VALIDITY, &mut buffer)
@@ -51,7 +56,7 @@ pub(crate) fn stroke() -> Vec<u32> {
 }
 
 /// Over a stroke, with the curves of this set.
-pub(crate) fn stroke_in<F: Format>(set: Set) -> Vec<u32> {
+pub(crate) fn stroke_in<F: Format>(set: CurveSet) -> Vec<u32> {
     let domain = Domain::stroke(-0.5, 1.5).unwrap();
     let wave = Wave {
         mean: 1.0,

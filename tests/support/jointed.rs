@@ -1,9 +1,9 @@
 //! Properties of every mechanism with joints.
 
-use jred::machine::{Frames, Joint, Jointed, Mechanism, Wrench};
+use jred::Domain;
+use jred::machine::{Frames, Joint, Jointed, Machine, Mechanism, Reducible, Wrench};
 use jred::mechanism::linkage::{Assembly, Linkage, LinkageError, Pair, Pose};
 use jred::number::Transfer;
-use jred::{Domain, Machine, Reducible};
 
 use super::{assert_near, budget, forces, largest};
 
@@ -187,7 +187,7 @@ pub(crate) fn turns(mechanism: &impl Mechanism, steps: u32) {
 pub(crate) fn energy<M: Jointed>(machine: &Machine<M>, phi: f64, omega: f64) {
     let reduced = machine.bare_reduction(phi).unwrap();
     let frames = machine.mechanism().frames(phi).unwrap();
-    let of = |(link, frame): (&jred::Link, &jred::machine::Frame)| {
+    let of = |(link, frame): (&jred::machine::Link, &jred::machine::Frame)| {
         let [x, y] = frame.point(link.com()).map(|c| c.velocity(omega));
         let turn = frame.psi.velocity(omega);
         0.5 * link.mass() * (x * x + y * y) + 0.5 * link.inertia() * turn * turn

@@ -1,7 +1,7 @@
-//! Machines for tests: random slider-cranks, and a machine with sinusoidal curves.
-use jred::machine::{Action, Load, MassProperties};
+//! Machines to test with: random slider-cranks, and a machine whose curves are plain sines.
+use jred::Domain;
+use jred::machine::{Action, Link, Load, Machine, MassProperties, Reducible, Reduction};
 use jred::mechanism::{Branch, SliderCrank, SliderCrankDimensions};
-use jred::{Domain, Link, Machine, Reducible, Reduction};
 use proptest::prelude::*;
 
 use super::golden::Case;

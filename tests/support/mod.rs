@@ -16,9 +16,9 @@ pub(crate) mod machines;
 pub(crate) mod rows;
 pub(crate) mod search;
 
-use jred::machine::MassProperties;
+use jred::machine::{Link, MassProperties};
 use jred::number::{Bases, Number as _, Quantity};
-use jred::{Domain, Link, Phase, Scale};
+use jred::{Domain, Phase, Scale};
 use proptest::strategy::{Strategy, ValueTree};
 use proptest::test_runner::{Config, RngSeed, TestRunner};
 
@@ -56,9 +56,9 @@ pub(crate) fn scale_of(torque: f32, speed: f32, inertia: f32) -> Scale {
 }
 
 /// An error's message with its cure; for a quantity outside its range the message alone, which is complete.
-pub(crate) fn spoken(error: impl Into<jred::Error>) -> String {
+pub(crate) fn spoken(error: impl Into<jred::error::Error>) -> String {
     match error.into() {
-        range @ jred::Error::Range(_) => range.to_string(),
+        range @ jred::error::Error::Range(_) => range.to_string(),
         error => format!("{error}; {}", error.cure()),
     }
 }

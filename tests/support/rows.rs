@@ -1,16 +1,18 @@
 //! A table that owns its memory.
 
+use jred::error::Error;
+use jred::machine::Reducible;
 use jred::number::Role;
-use jred::table::{Constants, Format, Shape, words_len};
+use jred::table::{Constants, Format, Shape, Table, TableError, words_len};
 use jred::tabulate::{fill, scratch_len};
-use jred::{Domain, Error, Model, Reducible, Scale, Set, Table, TableError};
+use jred::{CurveSet, Domain, Model, Scale};
 
 /// Words of a table, and their meaning.
 #[derive(Clone, Debug)]
 pub(crate) struct Rows<F: Format> {
     pub(crate) words: Vec<F::Word>,
     pub(crate) constants: F::Constants,
-    pub(crate) set: Set,
+    pub(crate) set: CurveSet,
     pub(crate) cells: u32,
     pub(crate) domain: Domain,
     pub(crate) scale: Scale,
@@ -20,7 +22,7 @@ impl<F: Format> Rows<F> {
     /// The table with exactly `cells` cells.
     pub(crate) fn of(
         machine: &impl Reducible,
-        set: Set,
+        set: CurveSet,
         cells: u32,
         scale: &Scale,
     ) -> Result<Self, Error> {
@@ -39,7 +41,7 @@ impl<F: Format> Rows<F> {
     }
 
     /// Words as they are, without constants.
-    pub(crate) fn plain(words: Vec<F::Word>, set: Set, cells: u32, domain: Domain) -> Self {
+    pub(crate) fn plain(words: Vec<F::Word>, set: CurveSet, cells: u32, domain: Domain) -> Self {
         Self {
             words,
             constants: F::Constants::default(),
@@ -69,14 +71,14 @@ impl<F: Format> Rows<F> {
         self.try_table().unwrap()
     }
 
-    pub(crate) fn try_model<const SET: Set>(
+    pub(crate) fn try_model<const SET: CurveSet>(
         &self,
         scale: &Scale,
     ) -> Result<Model<'_, F, SET>, TableError> {
         Model::new(self.in_units(scale)?)
     }
 
-    pub(crate) fn model<const SET: Set>(&self, scale: &Scale) -> Model<'_, F, SET> {
+    pub(crate) fn model<const SET: CurveSet>(&self, scale: &Scale) -> Model<'_, F, SET> {
         self.try_model(scale).unwrap()
     }
 }

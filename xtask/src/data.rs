@@ -19,7 +19,7 @@ pub(crate) enum Data {
     /// A table image of the library.
     Jred {
         layout: Layout,
-        set: jred::Set,
+        set: jred::CurveSet,
         cells: u32,
     },
     /// J, ½·J′, G in linear tables, single precision.

@@ -1,11 +1,11 @@
 //! Table images of the example machine, made by the library from its own mechanism.
 
 use anyhow::{Result, anyhow, bail};
-use jred::image::{encode, image_len};
+use jred::image::{Validity, encode, image_len};
 use jred::slider_crank::form;
-use jred::table::{Format, Shape, words_len};
+use jred::table::{Format, Shape, Table, words_len};
 use jred::tabulate::{fill, scratch_len};
-use jred::{Q31, Scale, Set, SliderCrankForm, Table, Validity, curves};
+use jred::{CurveSet, Q31, Scale, SliderCrankForm, curves};
 
 use crate::data::Words;
 use crate::machine::{ALPHA, Example, OMEGA};
@@ -26,18 +26,19 @@ pub(crate) enum Layout {
 }
 
 /// Load, and constant friction of the drive link.
-pub(crate) const FULL: Set = curves::LOAD | curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB;
+pub(crate) const FULL: CurveSet =
+    curves::LOAD | curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB;
 /// Only the inertia.
-pub(crate) const BARE: Set = curves::INERTIA;
+pub(crate) const BARE: CurveSet = curves::INERTIA;
 /// With a seed of 1/J instead of a division.
-pub(crate) const SEED: Set = curves::RECIPROCAL;
+pub(crate) const SEED: CurveSet = curves::RECIPROCAL;
 
 /// The image for a kernel with `number`; floating point in SI units, fixed point in those of `scale`.
 pub(crate) fn image(
     example: &Example,
     number: Number,
     layout: Layout,
-    set: Set,
+    set: CurveSet,
     cells: u32,
     scale: &Scale,
 ) -> Result<Words> {
@@ -62,7 +63,7 @@ pub(crate) fn image(
     make(example, set, cells, scale)
 }
 
-fn make<F: Format>(example: &Example, set: Set, cells: u32, scale: &Scale) -> Result<Words> {
+fn make<F: Format>(example: &Example, set: CurveSet, cells: u32, scale: &Scale) -> Result<Words> {
     let failed = |error| anyhow!("the example machine: {error}");
     let machine = example.mechanism().map_err(failed)?;
     let mut scratch = vec![0.0; scratch_len(cells, set)];
@@ -73,7 +74,7 @@ fn make<F: Format>(example: &Example, set: Set, cells: u32, scale: &Scale) -> Re
 }
 
 /// The closed form: with friction of the drive link as loads of the crank, or only the inertia.
-fn crank(example: &Example, set: Set) -> Result<Words> {
+fn crank(example: &Example, set: CurveSet) -> Result<Words> {
     let failed = |error| anyhow!("the example machine: {error}");
     let machine = example.crank(set != BARE).map_err(failed)?;
     let mut numbers = vec![0.0; words_len::<SliderCrankForm>(0, set)];
@@ -93,7 +94,7 @@ fn encoded<F: Format>(table: &Table<'_, F>) -> Result<Words> {
 
 /// Unused here.
 const VALIDITY: Validity = Validity {
-    omega: OMEGA as f32,
-    alpha: ALPHA as f32,
+    max_speed: OMEGA as f32,
+    max_acceleration: ALPHA as f32,
     torque_error: 1.0,
 };

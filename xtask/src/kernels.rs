@@ -58,7 +58,7 @@ macro_rules! kernels {
 }
 
 /// A table of the library: 64 cells, quadratics 256; none for a slider-crank.
-const fn table(layout: Layout, set: jred::Set) -> Data {
+const fn table(layout: Layout, set: jred::CurveSet) -> Data {
     let cells = match layout {
         SliderCrank => 0,
         Quadratic | Rows16 => 256,

@@ -11,9 +11,9 @@
 use jred::mechanism::SliderCrankDimensions;
 use std::f64::consts::TAU;
 
-use jred::machine::{Action, Load};
+use jred::error::Error;
+use jred::machine::{Action, Link, Load, Machine};
 use jred::mechanism::{Branch, SliderCrank};
-use jred::{Error, Link, Machine};
 
 /// Crank radius r (m).
 pub(crate) const RADIUS: f64 = 0.05;
@@ -170,7 +170,7 @@ pub(crate) fn motions() -> Vec<Motion> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use jred::Reducible as _;
+    use jred::machine::Reducible as _;
 
     #[test]
     fn the_reference_and_the_library_know_the_same_machine() {

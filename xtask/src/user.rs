@@ -89,7 +89,7 @@ const FUNCTIONS: [(&str, &str); 20] = [
         "f32, cubic: torque and status, of an `ImageSlot`",
     ),
     ("period_later", "`Period::later` (lead time), f32"),
-    ("ramp_torque", "f32, cubic: torque with `Ramp`"),
+    ("ramp_torque", "f32, cubic: torque with `FrictionRamp`"),
     ("transmission_motor", "`Transmission::motor`, f32"),
     ("limits_limited", "`TorqueLimits::limited`, f32"),
     ("f32_feasible", "`Limits::feasible`, f32, cubic"),

@@ -3,8 +3,8 @@
 use core::hint::black_box;
 
 use jred::axis::{
-    AxisError, Braking, Direction, Envelope, Feasible, Governed, Governor, Limits, LookAhead,
-    Motion, Period, Stop,
+    AxisError, Braking, Direction, Envelope, FeasibleAccelerations, GovernorOutput, Governor, Limits, LookAhead,
+    MotionState, Period, Stop,
 };
 use jred::table::SpeedOf;
 use jred::{Cubic, Image, Model, Phase, Q31, Quadratic};
@@ -21,7 +21,7 @@ macro_rules! ahead {
             model: &Model<$format, $set>,
             phase: Phase,
             omega: SpeedOf<$format>,
-        ) -> Feasible<$number> {
+        ) -> FeasibleAccelerations<$number> {
             limits.feasible(model, phase, omega)
         }
 
@@ -31,9 +31,9 @@ macro_rules! ahead {
             governor: &Governor<$number, 64>,
             limits: &Limits<$number, 2>,
             model: &Model<$format, $set>,
-            motion: &Motion<$number>,
+            motion: &MotionState<$number>,
             commanded: SpeedOf<$format>,
-        ) -> Governed<$number> {
+        ) -> GovernorOutput<$number> {
             governor.govern(limits, model, motion, commanded)
         }
 
@@ -50,7 +50,7 @@ macro_rules! ahead {
             let Ok(model) = image.model() else {
                 return Ok(());
             };
-            let motion = Motion {
+            let motion = MotionState {
                 phase: Phase::from_bits(read(3)),
                 omega: Word::read(1),
                 alpha: Word::read(2),

@@ -2,7 +2,7 @@
 
 use core::hint::black_box;
 
-use jred::axis::{Counter, Encoder, Period, StrokeEncoder, Tracked, Tracker};
+use jred::axis::{Counter, Encoder, Period, StrokeEncoder, Tracker, TrackerOutput};
 use jred::{Cubic, Model, Outcome, Phase, Q31, Quadratic, Speed};
 
 use crate::port::{Word, read, write};
@@ -34,19 +34,19 @@ fn stroke_phase(encoder: &StrokeEncoder, count: i32) -> Outcome<Phase> {
 
 #[unsafe(no_mangle)]
 #[inline(never)]
-fn tracker_update(tracker: &mut Tracker, phase: Phase) -> Tracked {
+fn tracker_update(tracker: &mut Tracker, phase: Phase) -> TrackerOutput {
     tracker.update(phase)
 }
 
 #[unsafe(no_mangle)]
 #[inline(never)]
-fn omega_f32(period: &Period<f32>, tracked: Tracked) -> Outcome<f32> {
+fn omega_f32(period: &Period<f32>, tracked: TrackerOutput) -> Outcome<f32> {
     period.omega(tracked)
 }
 
 #[unsafe(no_mangle)]
 #[inline(never)]
-fn omega_q31(period: &Period<Q31>, tracked: Tracked) -> Outcome<Speed<Q31>> {
+fn omega_q31(period: &Period<Q31>, tracked: TrackerOutput) -> Outcome<Speed<Q31>> {
     period.omega(tracked)
 }
 
@@ -66,10 +66,10 @@ pub fn run() {
     write(encoder_phase(black_box(&TEN_THOUSAND), count).to_bits());
     write(encoder_phase_wide(black_box(&TEN_THOUSAND), i64::from(count) << 7).to_bits());
     let stroke = jred::Domain::Stroke { from: 0.0, to: 0.5 };
-    let scaled = jred::axis::Scaled {
+    let scaled = jred::axis::StrokeMounting {
         resolution: 1e-6,
-        home: 0,
-        at_home: 0.0,
+        homing_offset: 0,
+        home_position: 0.0,
     };
     if let Ok(stroke) = StrokeEncoder::new(stroke, scaled) {
         let phase = stroke_phase(black_box(&stroke), count);

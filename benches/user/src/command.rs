@@ -3,9 +3,9 @@
 use core::hint::black_box;
 
 use jred::axis::{
-    FeedForward, Gearbox, ImageSlot, Limited, Motion, Period, Ramp, TorqueLimits, Transmission,
+    FeedForward, Gearbox, ImageSlot, LimitedTorque, MotionState, Period, FrictionRamp, TorqueLimits, Transmission,
 };
-use jred::number::Sliding;
+use jred::number::FrictionSign;
 use jred::{Cubic, Image, Model, Phase};
 
 use crate::port::{Word, read, write};
@@ -19,12 +19,12 @@ fn status_torque(
     omega: f32,
     alpha: f32,
 ) -> (f32, bool) {
-    let motion = Motion {
+    let motion = MotionState {
         phase,
         omega,
         alpha,
     };
-    let checked = press.at_reference(motion, Sliding::Against(omega));
+    let checked = press.at_reference(motion, FrictionSign::OfSpeed(omega));
     (checked.torque, checked.status.is_valid())
 }
 
@@ -39,18 +39,18 @@ fn slot_torque(
     let Some(press) = slot.feed_forward() else {
         return (0.0, false);
     };
-    let motion = Motion {
+    let motion = MotionState {
         phase,
         omega,
         alpha,
     };
-    let checked = press.at_reference(motion, Sliding::Against(omega));
+    let checked = press.at_reference(motion, FrictionSign::OfSpeed(omega));
     (checked.torque, checked.status.is_valid())
 }
 
 #[unsafe(no_mangle)]
 #[inline(never)]
-fn period_later(lead: &Period<f32>, motion: Motion<f32>) -> Motion<f32> {
+fn period_later(lead: &Period<f32>, motion: MotionState<f32>) -> MotionState<f32> {
     lead.later(motion).value
 }
 
@@ -58,7 +58,7 @@ fn period_later(lead: &Period<f32>, motion: Motion<f32>) -> Motion<f32> {
 #[inline(never)]
 fn ramp_torque(
     model: &Model<Cubic<f32>, PRESS>,
-    ramp: &Ramp<f32>,
+    ramp: &FrictionRamp<f32>,
     phase: Phase,
     omega: f32,
 ) -> f32 {
@@ -73,7 +73,7 @@ fn transmission_motor(gearbox: &Transmission<f32>, torque: f32, omega: f32, alph
 
 #[unsafe(no_mangle)]
 #[inline(never)]
-fn limits_limited(limits: &TorqueLimits<f32>, torque: f32) -> Limited<f32> {
+fn limits_limited(limits: &TorqueLimits<f32>, torque: f32) -> LimitedTorque<f32> {
     limits.limited(torque)
 }
 
@@ -82,7 +82,7 @@ pub fn run() {
         return;
     };
     let Ok(model) = image.model() else { return };
-    let motion = Motion {
+    let motion = MotionState {
         phase: Phase::from_bits(read(3)),
         omega: f32::read(1),
         alpha: f32::read(2),
@@ -105,7 +105,7 @@ pub fn run() {
     };
     if let (Ok(lead), Ok(ramp), Ok(gearbox), Ok(limits)) = (
         Period::new(1e-4, &model),
-        Ramp::new(0.1, &model),
+        FrictionRamp::new(0.1, &model),
         Transmission::new(gearbox, &model),
         TorqueLimits::new(-5.0, 5.0),
     ) {

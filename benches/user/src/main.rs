@@ -17,18 +17,18 @@ use core::ptr::write_volatile;
 use cortex_m_rt::entry;
 use jred::axis::{Encoder, Mounting};
 use jred::table::Format;
-use jred::{Image, Model, Set, curves, slider_crank};
+use jred::{CurveSet, Image, Model, curves, slider_crank};
 use panic_halt as _;
 
 use port::read;
 
 /// The curves of the press of the examples.
-const PRESS: Set = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
+const PRESS: CurveSet = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
 /// In fixed point, with 1/J instead of a division.
-const FIXED: Set = PRESS | curves::RECIPROCAL;
+const FIXED: CurveSet = PRESS | curves::RECIPROCAL;
 
 /// As a slider-crank in closed form: the weight of its crank has a part in sin φ.
-const CRANK: Set = PRESS | slider_crank::terms::LOAD_SIN;
+const CRANK: CurveSet = PRESS | slider_crank::terms::LOAD_SIN;
 
 const fn encoder(counts_per_turn: u32) -> Encoder {
     match Encoder::new(Mounting::direct(counts_per_turn)) {
@@ -50,7 +50,7 @@ fn words() -> &'static [u32] {
     black_box(image)
 }
 
-fn model<F: Format, const SET: Set>() -> Model<'static, F, SET> {
+fn model<F: Format, const SET: CurveSet>() -> Model<'static, F, SET> {
     match Image::new(words()).and_then(|image| image.model()) {
         Ok(model) => model,
         Err(_) => panic!("the image"),

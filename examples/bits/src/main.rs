@@ -16,27 +16,27 @@
 #[allow(dead_code, reason = "here everything is printed as bits")]
 mod support;
 
-use jred::axis::plan::PlanError;
-use jred::axis::{Follower, Plan, Rate};
+use jred::axis::{Override, Plan, PlanFollower};
 use jred::harmonic::terms;
+use jred::image::Validity;
 use jred::number::{Number, Quantity};
 use jred::table::Format;
 use jred::{
-    Cubic, Domain, Harmonic, Image, Model, Outcome, Phase, Pieces, Q15, Q31, Quadratic, Rows16,
-    Set, SliderCrankForm, Spline, Spline16, Validity, curves, include_image, slider_crank,
+    Cubic, CurveSet, Domain, Harmonic, Image, Model, Outcome, Phase, Pieces, Q15, Q31, Quadratic,
+    Rows16, SliderCrankForm, Spline, Spline16, curves, include_image, slider_crank,
 };
 use support::{Failure, println, program};
 
 /// The curves of the press, as `jred export` prints them.
-const PRESS: Set = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
+const PRESS: CurveSet = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
 /// With a curve of 1/J instead of a division.
-const SEED: Set = PRESS | curves::RECIPROCAL;
+const SEED: CurveSet = PRESS | curves::RECIPROCAL;
 /// The curves of the saw as harmonics.
-const SAW: Set =
+const SAW: CurveSet =
     PRESS | terms::INERTIA_COS | terms::LOAD_COS | terms::LOAD_SIN | terms::COULOMB_SIN;
 
 /// The curves and terms of the feeder as a slider-crank.
-const FEEDER: Set = curves::LOAD
+const FEEDER: CurveSet = curves::LOAD
     | curves::VISCOUS
     | curves::COULOMB
     | curves::CONSTANT_COULOMB
@@ -151,7 +151,7 @@ models! {
     "q15 plan           ": of_plan, Rows16, PRESS, "../data/q15_rows.jred";
 }
 
-fn of_model<F: Format<Number: Word>, const SET: Set>(
+fn of_model<F: Format<Number: Word>, const SET: CurveSet>(
     image: &[u8],
     run: &mut Run,
     until: u32,
@@ -168,22 +168,21 @@ fn of_model<F: Format<Number: Word>, const SET: Set>(
 }
 
 /// The plan of the press, repeated at a rate that changes every few ticks, and at random times.
-fn of_plan<F: Format<Number: Word>, const SET: Set>(
+fn of_plan<F: Format<Number: Word>, const SET: CurveSet>(
     image: &[u8],
     run: &mut Run,
     until: u32,
 ) -> Result<(), Failure> {
-    let wrong = |_: PlanError| "the plan is not one of the press";
     let model: Model<'_, F, SET> = Image::from_bytes(image)?.model()?;
     let plan = include_image!("../../data/press_plan.jred");
-    let plan = Plan::from_bytes(plan, &model).map_err(wrong)?;
-    let follower = Follower::new(plan, 0.000_5, 0.13, &model);
-    let mut follower = follower.and_then(Follower::repeating).map_err(wrong)?;
+    let plan = Plan::from_bytes(plan, &model)?;
+    let follower = PlanFollower::new(plan, 0.000_5, 0.13, &model);
+    let mut follower = follower.and_then(PlanFollower::repeating)?;
     follower.start();
-    let mut rate = Rate::FULL;
+    let mut rate = Override::FULL;
     while run.ticks < until {
         if run.ticks.is_multiple_of(128) {
-            rate = Rate::percent(run.random() % 128);
+            rate = Override::percent(run.random() % 128);
         }
         let planned = follower.next(rate);
         // Up to half a second, slightly longer than the plan.
@@ -206,7 +205,7 @@ fn of_plan<F: Format<Number: Word>, const SET: Set>(
 }
 
 /// The whole turn as one piece that starts at some phase.
-fn of_piece<F: Format<Number: Word>, const SET: Set>(
+fn of_piece<F: Format<Number: Word>, const SET: CurveSet>(
     image: &[u8],
     run: &mut Run,
     until: u32,
@@ -215,8 +214,7 @@ fn of_piece<F: Format<Number: Word>, const SET: Set>(
     let turn: Pieces<'_, F, SET, 1> = Pieces::new(
         Domain::Turn,
         [(Phase::from_bits(0x1234_5679), image.model()?)],
-    )
-    .map_err(|_| "a turn is a piece")?;
+    )?;
     ticks::<F::Number>(
         run,
         until,
@@ -241,10 +239,10 @@ fn ticks<N: Word>(
         let standstill = run.ticks.is_multiple_of(16);
         let omega = match run.random() {
             _ if standstill => N::default(),
-            bits => N::random(bits, validity.omega),
+            bits => N::random(bits, validity.max_speed),
         };
         let omega = Quantity::of(omega);
-        let alpha = Quantity::of(N::random(run.random(), validity.alpha));
+        let alpha = Quantity::of(N::random(run.random(), validity.max_acceleration));
         let needed = torque(phase, omega, alpha);
         let drive = Quantity::of(N::random(run.random(), MOST_TORQUE));
         let gained = acceleration(phase, omega, drive);

@@ -22,10 +22,10 @@ mod target {
     use cortex_m_semihosting::debug;
     use defmt_semihosting as _;
     use jred::machine::motion::{Law, Move};
-    use jred::{Image, ImageError, Model, Q31, Set, Spline, curves, include_image};
+    use jred::{CurveSet, Image, ImageError, Model, Q31, Spline, curves, include_image};
 
     /// The curves of the press, as `jred export` prints them.
-    const PRESS: Set = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
+    const PRESS: CurveSet = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
 
     fn run() -> Result<(), ImageError> {
         let bytes = include_image!("../../data/press_f32.jred");

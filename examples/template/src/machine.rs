@@ -2,12 +2,12 @@
 
 use jred::axis::{Counting, Encoder, Gearbox, Mounting};
 use jred::table::{Format, MotorTorqueOf};
-use jred::{Image, Phase, Set, curves, include_image};
+use jred::{CurveSet, Image, Phase, curves, include_image};
 
 /// The identifier of the machine, as `jred export` prints it: an image of another machine is refused.
 pub const MACHINE: u32 = 0x3d4c_7e82;
 /// The curves of the table, as `jred export` prints them.
-pub const CURVES: Set = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
+pub const CURVES: CurveSet = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
 
 /// Layout and numbers of the tables: single precision where the core has it (`--type f32`), otherwise fixed point (`--type i32`).
 #[cfg(not(fixed_point))]
@@ -45,7 +45,7 @@ pub const ENCODER: Encoder = match Encoder::new(Mounting {
     counts_per_turn: COUNTS_PER_TURN,
     gear: GEAR,
     counting: COUNTING,
-    home: HOME,
+    homing_offset: HOME,
 }) {
     Ok(encoder) => encoder,
     Err(_) => panic!("the encoder's figures"), // at compile time

@@ -23,12 +23,13 @@ mod tick;
 
 use cortex_m::Peripherals;
 use cortex_m_rt::{entry, exception};
+use jred::FirmwareError;
 
 use board::{Board, CLOCK, RATE, TRANSFERS, say};
 use exchange::{START, exchange, status};
 use link::Transfer;
 use machine::{TABLE, WORDS};
-use table::{Refused, Table};
+use table::Table;
 use tick::{Tick, With};
 
 /// Words added to the CRC in one step of the background.
@@ -102,11 +103,9 @@ fn SysTick() {
 }
 
 /// Receives an image and checks it, in the background: the tick interrupts every step.
-fn load(table: &mut Table, transfer: &Transfer) -> Result<(), Refused> {
+fn load(table: &mut Table, transfer: &Transfer) -> Result<(), FirmwareError> {
     table.clear();
-    transfer
-        .pieces(|piece| table.slot.receive(piece))
-        .map_err(Refused::Image)?;
+    transfer.pieces(|piece| table.slot.receive(piece))?;
     loop {
         if let Some(verdict) = table.check(SLICE) {
             return verdict;

@@ -1,9 +1,7 @@
 //! A table and the values computed from its machine units, exchanged together.
 
-use core::fmt;
-
-use jred::axis::{AxisError, ImageSlot, Period, Ramp, TorqueLimits, Transmission};
-use jred::{ImageError, Phase};
+use jred::axis::{AxisError, FrictionRamp, ImageSlot, Period, TorqueLimits, Transmission};
+use jred::{FirmwareError, Phase};
 
 use crate::board::RATE;
 use crate::machine::{
@@ -23,26 +21,9 @@ pub struct Units {
     /// The largest step of the crank per tick, at the greatest speed of the table's validity.
     pub step: Phase,
     pub lead: Period<Number>,
-    pub ramp: Ramp<Number>,
+    pub ramp: FrictionRamp<Number>,
     pub gearbox: Transmission<Number>,
     pub limits: TorqueLimits<MotorTorque>,
-}
-
-/// Why a table is not used.
-pub enum Refused {
-    /// The image.
-    Image(ImageError),
-    /// A figure of the drive that does not fit its machine units.
-    Drive(AxisError),
-}
-
-impl fmt::Display for Refused {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Image(error) => error.fmt(f),
-            Self::Drive(error) => error.fmt(f),
-        }
-    }
 }
 
 impl Table {
@@ -59,9 +40,9 @@ impl Table {
     }
 
     /// Checks `words` more words; returns the verdict at the end.
-    pub fn check(&mut self, words: usize) -> Option<Result<(), Refused>> {
-        let verdict = self.slot.check(words)?.map_err(Refused::Image);
-        Some(verdict.and_then(|()| self.convert().map_err(Refused::Drive)))
+    pub fn check(&mut self, words: usize) -> Option<Result<(), FirmwareError>> {
+        let verdict = self.slot.check(words)?.map_err(FirmwareError::from);
+        Some(verdict.and_then(|()| Ok(self.convert()?)))
     }
 
     fn convert(&mut self) -> Result<(), AxisError> {
@@ -75,9 +56,9 @@ impl Table {
             [-MOST_TORQUE, MOST_TORQUE].map(|torque| gearbox.to_torque(torque).value);
         self.units = Some(Units {
             tick,
-            step: tick.moved(feed_forward.range().omega()),
+            step: tick.moved(feed_forward.range().max_speed()),
             lead: Period::new(LEAD, press)?,
-            ramp: Ramp::new(FRICTION_RAMP, press)?,
+            ramp: FrictionRamp::new(FRICTION_RAMP, press)?,
             gearbox,
             limits: TorqueLimits::new(least, most)?,
         });

@@ -5,7 +5,7 @@ use core::cell::Cell;
 use cortex_m::peripheral::SYST;
 use cortex_m::peripheral::syst::SystClkSource;
 use critical_section::CriticalSection;
-use jred::axis::{Counter, Motion, Tracker};
+use jred::axis::{Counter, MotionState, Tracker};
 
 use crate::board::{Board, CLOCK, RATE};
 use crate::exchange::{OFFERED, RETURNED, STATUS};
@@ -164,14 +164,14 @@ impl Tick {
             return passes; // cannot occur: the tick only gets checked tables
         };
         let alpha = units.tick.alpha(wanted);
-        let reference = Motion {
+        let reference = MotionState {
             phase: wanted.phase,
             omega: units.tick.omega(wanted).value,
             alpha: alpha.value,
         };
         // Position of the machine when the torque acts; friction by the sign of the set-point.
         let omega = units.tick.omega(measured);
-        let later = units.lead.later(Motion {
+        let later = units.lead.later(MotionState {
             phase: measured.phase,
             omega: omega.value,
             alpha: reference.alpha,

@@ -6,7 +6,7 @@ use std::process::{Command, Stdio};
 
 use core::mem::{MaybeUninit, offset_of};
 use jred::Domain;
-use jred::axis::{Counter, Counting, Encoder, Mounting, Scaled, StrokeEncoder};
+use jred::axis::{Counter, Counting, Encoder, Mounting, StrokeEncoder, StrokeMounting};
 
 use crate::encoder::{CMounting, jred_encoder_make, jred_stroke_encoder_make};
 use crate::status::Status;
@@ -57,7 +57,7 @@ impl Numbers {
                     [any(self), any(self)]
                 },
                 counts_down: self.below(2) as u8,
-                home: self.count(),
+                homing_offset: self.count(),
             };
             if Encoder::new(mounting.into()).is_ok() {
                 return mounting;
@@ -146,10 +146,10 @@ fn the_header_computes_the_bits_of_rust() {
         let counts = 2f64.powf(4.0 + 49.0 * numbers.part());
         let span = 0.01 + numbers.part();
         let sign = if numbers.below(2) == 0 { 1.0 } else { -1.0 };
-        let scaled = Scaled {
+        let scaled = StrokeMounting {
             resolution: sign * span / counts,
-            home: numbers.long() >> 2,
-            at_home: 3.0 * numbers.part() - 1.0,
+            homing_offset: numbers.long() >> 2,
+            home_position: 3.0 * numbers.part() - 1.0,
         };
         let stroke = Domain::Stroke {
             from: 0.0_f32,
@@ -208,9 +208,9 @@ fn the_header_computes_the_bits_of_rust() {
 fn an_encoder_is_that_of_the_header() {
     assert_eq!(size_of::<Encoder>(), 24);
     assert_eq!(size_of::<StrokeEncoder>(), 48);
-    assert_eq!(size_of::<Scaled>(), 24);
+    assert_eq!(size_of::<StrokeMounting>(), 24);
     assert_eq!(
-        (size_of::<CMounting>(), offset_of!(CMounting, home)),
+        (size_of::<CMounting>(), offset_of!(CMounting, homing_offset)),
         (24, 16)
     );
     assert_eq!(offset_of!(CMounting, counts_down), 12);
@@ -234,7 +234,7 @@ fn an_encoder_that_cannot_be_has_the_phase_0_or_limits_every_count() {
         counts_per_turn: 10_000,
         gear: [17, 2],
         counts_down: 1,
-        home: 1234,
+        homing_offset: 1234,
     };
     for wrong in [
         CMounting {
@@ -272,10 +272,10 @@ fn an_encoder_that_cannot_be_has_the_phase_0_or_limits_every_count() {
         jred_encoder_make(Some(&mut MaybeUninit::uninit()), None),
         Status::Null
     );
-    let good = Scaled {
+    let good = StrokeMounting {
         resolution: 1e-6,
-        home: 0,
-        at_home: 0.0,
+        homing_offset: 0,
+        home_position: 0.0,
     };
     let nan = f64::NAN;
     for (from, to, wrong) in [
@@ -286,7 +286,7 @@ fn an_encoder_that_cannot_be_has_the_phase_0_or_limits_every_count() {
         (
             0.0,
             0.5,
-            Scaled {
+            StrokeMounting {
                 resolution: nan,
                 ..good
             },
@@ -294,7 +294,7 @@ fn an_encoder_that_cannot_be_has_the_phase_0_or_limits_every_count() {
         (
             0.0,
             0.5,
-            Scaled {
+            StrokeMounting {
                 resolution: 0.0,
                 ..good
             },
@@ -302,16 +302,16 @@ fn an_encoder_that_cannot_be_has_the_phase_0_or_limits_every_count() {
         (
             0.0,
             0.5,
-            Scaled {
-                at_home: nan,
+            StrokeMounting {
+                home_position: nan,
                 ..good
             },
         ),
         (
             0.0,
             0.5,
-            Scaled {
-                home: i64::MAX,
+            StrokeMounting {
+                homing_offset: i64::MAX,
                 ..good
             },
         ),

@@ -4,11 +4,11 @@ use core::mem::{MaybeUninit, zeroed};
 use core::ptr::null;
 
 use jred::axis::plan::{Errors, Knot, encode, image_len};
-use jred::axis::{Follower, Plan, Rate};
-use jred::{Domain, Image, Q15, Q31, Rows16, Set, Spline, include_image};
+use jred::axis::{Override, Plan, PlanFollower};
+use jred::{CurveSet, Domain, Image, Q15, Q31, Rows16, Spline, include_image};
 
 use super::{PRESS, Press, jred_spline_f32_load, jred_spline_q31_load, press, words};
-use crate::follower::{CPlan, CPlanned, CStage, Follow};
+use crate::follower::{CPlan, CPlanState, CSetPoint, Follow};
 use crate::memory::Memory;
 use crate::status::Status;
 
@@ -19,7 +19,7 @@ use crate::status::Status;
 unsafe extern "C" {
     fn jred_rows_q15_load(
         memory: *mut Memory<Rows16>,
-        set: Set,
+        set: CurveSet,
         words: *const u32,
         length: usize,
     ) -> i32;
@@ -47,27 +47,27 @@ unsafe extern "C" {
         period: f32,
         ramp: f32,
     ) -> i32;
-    fn jred_f32_follower_start(follow: *mut Follow<f32>);
-    fn jred_f32_follower_reset(follow: *mut Follow<f32>);
-    fn jred_f32_follower_repeat(follow: *mut Follow<f32>) -> i32;
-    fn jred_f32_follower_next(
+    fn jred_f32_plan_follower_start(follow: *mut Follow<f32>);
+    fn jred_f32_plan_follower_reset(follow: *mut Follow<f32>);
+    fn jred_f32_plan_follower_repeat(follow: *mut Follow<f32>) -> i32;
+    fn jred_f32_plan_follower_next(
         follow: *mut Follow<f32>,
         percent: u32,
-        planned: *mut CPlanned<f32>,
-    ) -> CStage;
-    fn jred_f32_follower_plan(follow: *mut Follow<f32>, plan: *mut MaybeUninit<CPlan>) -> i32;
-    fn jred_q31_follower_start(follow: *mut Follow<Q31>);
-    fn jred_q31_follower_next(
+        planned: *mut CSetPoint<f32>,
+    ) -> CPlanState;
+    fn jred_f32_plan_follower_plan(follow: *mut Follow<f32>, plan: *mut MaybeUninit<CPlan>) -> i32;
+    fn jred_q31_plan_follower_start(follow: *mut Follow<Q31>);
+    fn jred_q31_plan_follower_next(
         follow: *mut Follow<Q31>,
         percent: u32,
-        planned: *mut CPlanned<i32>,
-    ) -> CStage;
-    fn jred_q15_follower_start(follow: *mut Follow<Q15>);
-    fn jred_q15_follower_next(
+        planned: *mut CSetPoint<i32>,
+    ) -> CPlanState;
+    fn jred_q15_plan_follower_start(follow: *mut Follow<Q15>);
+    fn jred_q15_plan_follower_next(
         follow: *mut Follow<Q15>,
         percent: u32,
-        planned: *mut CPlanned<i16>,
-    ) -> CStage;
+        planned: *mut CSetPoint<i16>,
+    ) -> CPlanState;
 }
 
 /// The plan of the press.
@@ -91,7 +91,7 @@ macro_rules! same_bits {
             let (words, plan) = (words(include_image!($image)), plan());
             let model = Image::new(&words).unwrap().any_model::<$format>().unwrap();
             let read = Plan::new(&plan, &model).unwrap();
-            let mut rust = Follower::new(read, 5e-4, 0.13, &model).unwrap();
+            let mut rust = PlanFollower::new(read, 5e-4, 0.13, &model).unwrap();
             rust.start();
             // SAFETY: zeros are no model and no follower; the words outlive both.
             unsafe {
@@ -116,11 +116,11 @@ macro_rules! same_bits {
                 $start(&raw mut follow);
                 let mut ended = 0;
                 for tick in 0..2000 {
-                    let mut found = CPlanned::<$c>::default();
-                    let stage = $next(&raw mut follow, commanded(tick), &raw mut found);
-                    let expected = rust.next(Rate::percent(commanded(tick)));
-                    assert_eq!(stage, expected.stage.into(), "{tick}");
-                    let expected = CPlanned {
+                    let mut found = CSetPoint::<$c>::default();
+                    let state = $next(&raw mut follow, commanded(tick), &raw mut found);
+                    let expected = rust.next(Override::percent(commanded(tick)));
+                    assert_eq!(state, expected.state.into(), "{tick}");
+                    let expected = CSetPoint {
                         phase: expected.motion.phase.to_bits(),
                         turns: expected.turns,
                         omega: crate::number::to_c(expected.motion.omega),
@@ -128,7 +128,7 @@ macro_rules! same_bits {
                         limited: expected.limited,
                     };
                     assert_eq!(found, expected, "{tick}");
-                    ended += u32::from(stage == CStage::Done);
+                    ended += u32::from(state == CPlanState::Done);
                 }
                 assert!(ended > 100, "{ended}");
             }
@@ -144,8 +144,8 @@ same_bits!(
     "../../../examples/data/press_f32.jred",
     jred_spline_f32_load,
     jred_spline_f32_follow,
-    jred_f32_follower_start,
-    jred_f32_follower_next
+    jred_f32_plan_follower_start,
+    jred_f32_plan_follower_next
 );
 same_bits!(
     a_follower_in_q31_has_the_bits_of_rust,
@@ -155,8 +155,8 @@ same_bits!(
     "../../../examples/data/press_q31.jred",
     jred_spline_q31_load,
     jred_spline_q31_follow,
-    jred_q31_follower_start,
-    jred_q31_follower_next
+    jred_q31_plan_follower_start,
+    jred_q31_plan_follower_next
 );
 same_bits!(
     a_follower_in_q15_has_the_bits_of_rust,
@@ -166,8 +166,8 @@ same_bits!(
     "../../../examples/bits/data/q15_rows.jred",
     jred_rows_q15_load,
     jred_rows_q15_follow,
-    jred_q15_follower_start,
-    jred_q15_follower_next
+    jred_q15_plan_follower_start,
+    jred_q15_plan_follower_next
 );
 
 #[test]
@@ -259,40 +259,43 @@ fn a_follower_is_none_before_it_is_made() {
             status(Status::Length)
         );
         // After a failed creation there is no follower.
-        let mut found = CPlanned::default();
+        let mut found = CSetPoint::default();
         assert_eq!(
-            jred_f32_follower_next(follow, 100, &raw mut found),
-            CStage::NoFollower
+            jred_f32_plan_follower_next(follow, 100, &raw mut found),
+            CPlanState::NoFollower
         );
-        assert_eq!(found, CPlanned::default());
-        assert_eq!(jred_f32_follower_repeat(follow), status(Status::NotLoaded));
-        let mut figures = MaybeUninit::uninit();
+        assert_eq!(found, CSetPoint::default());
         assert_eq!(
-            jred_f32_follower_plan(follow, &raw mut figures),
+            jred_f32_plan_follower_repeat(follow),
             status(Status::NotLoaded)
         );
-        jred_f32_follower_start(follow);
+        let mut figures = MaybeUninit::uninit();
+        assert_eq!(
+            jred_f32_plan_follower_plan(follow, &raw mut figures),
+            status(Status::NotLoaded)
+        );
+        jred_f32_plan_follower_start(follow);
 
         assert_eq!(refused(&plan, length, 1e-3, 0.1), 0);
         // The stroke of the press and a rest end a turn later, at rest.
-        jred_f32_follower_start(follow);
+        jred_f32_plan_follower_start(follow);
         assert_eq!(
-            jred_f32_follower_next(follow, 100, &raw mut found),
-            CStage::Running
+            jred_f32_plan_follower_next(follow, 100, &raw mut found),
+            CPlanState::Running
         );
-        jred_f32_follower_reset(follow);
+        jred_f32_plan_follower_reset(follow);
         assert_eq!(
-            jred_f32_follower_next(follow, 100, &raw mut found),
-            CStage::Waiting
+            jred_f32_plan_follower_next(follow, 100, &raw mut found),
+            CPlanState::Waiting
         );
         let read = Image::new(&image)
             .unwrap()
             .any_model::<Spline<f32>>()
             .unwrap();
         let read = Plan::new(&plan, &read).unwrap();
-        assert_eq!(jred_f32_follower_plan(follow, &raw mut figures), 0);
+        assert_eq!(jred_f32_plan_follower_plan(follow, &raw mut figures), 0);
         assert_eq!(figures.assume_init(), CPlan::of(&read));
-        assert_eq!(jred_f32_follower_repeat(follow), 0);
+        assert_eq!(jred_f32_plan_follower_repeat(follow), 0);
         let open = [(0.0, 0.0), (1.0, 1.0)].map(|(t, position)| Knot {
             t,
             position,
@@ -301,16 +304,16 @@ fn a_follower_is_none_before_it_is_made() {
         let mut words = vec![0; image_len(2)];
         encode(&open, Domain::Turn, 0, Errors::default(), &mut words).unwrap();
         assert_eq!(refused(&words, words.len(), 1e-3, 0.1), 0);
-        assert_eq!(jred_f32_follower_repeat(follow), status(Status::Open));
+        assert_eq!(jred_f32_plan_follower_repeat(follow), status(Status::Open));
         // Without a follower and without memory.
         assert_eq!(
-            jred_f32_follower_next(core::ptr::null_mut(), 100, core::ptr::null_mut()),
-            CStage::NoFollower
+            jred_f32_plan_follower_next(core::ptr::null_mut(), 100, core::ptr::null_mut()),
+            CPlanState::NoFollower
         );
         assert_eq!(
-            jred_f32_follower_repeat(core::ptr::null_mut()),
+            jred_f32_plan_follower_repeat(core::ptr::null_mut()),
             status(Status::Null)
         );
-        jred_f32_follower_start(core::ptr::null_mut());
+        jred_f32_plan_follower_start(core::ptr::null_mut());
     }
 }

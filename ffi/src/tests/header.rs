@@ -3,11 +3,11 @@
 use core::ffi::{CStr, c_char};
 use core::mem::MaybeUninit;
 
-use jred::axis::{Encoder, Scaled, StrokeEncoder};
+use jred::axis::{Encoder, StrokeEncoder, StrokeMounting};
 
 use crate::encoder::{CMounting, jred_encoder_make, jred_stroke_encoder_make};
 
-use crate::follower::{CPlan, CStage, WORDS};
+use crate::follower::{CPlan, CPlanState, WORDS};
 use crate::image::{Info, jred_image_info};
 use crate::memory::{ANY, POINTERS};
 use crate::number::{jred_q15_from_si, jred_q15_to_si, jred_q31_from_si, jred_q31_to_si};
@@ -30,7 +30,7 @@ c! {
     *const u32: "const uint32_t *", *const c_char: "const char *",
     Option<&mut i32>: "int32_t *", Option<&mut i16>: "int16_t *", Option<&mut MaybeUninit<Info>>: "jred_info *",
     Option<&mut MaybeUninit<Encoder>>: "jred_encoder *", Option<&CMounting>: "const jred_mounting *",
-    Option<&mut MaybeUninit<StrokeEncoder>>: "jred_stroke_encoder *", Option<&Scaled>: "const jred_scaled *",
+    Option<&mut MaybeUninit<StrokeEncoder>>: "jred_stroke_encoder *", Option<&StrokeMounting>: "const jred_stroke_mounting *",
 }
 
 /// Whether the header declares a function with these types, whatever the names of its arguments.
@@ -58,7 +58,7 @@ fn the_header_declares_what_is_exported() {
             Number<MaybeUninit<StrokeEncoder>>,
             f32,
             f32,
-            Option<&Scaled>,
+            Option<&StrokeMounting>,
         ) -> Status
     );
     declared!(jred_phase_from_radians(f32) -> u32);
@@ -99,14 +99,14 @@ fn the_header_has_every_status() {
 /// Also those of a follower: C would read another one otherwise.
 #[test]
 fn the_header_has_every_stage() {
-    for (name, stage) in [
-        ("NO_FOLLOWER", CStage::NoFollower),
-        ("WAITING", CStage::Waiting),
-        ("RUNNING", CStage::Running),
-        ("HELD", CStage::Held),
-        ("DONE", CStage::Done),
+    for (name, state) in [
+        ("NO_FOLLOWER", CPlanState::NoFollower),
+        ("WAITING", CPlanState::Waiting),
+        ("RUNNING", CPlanState::Running),
+        ("HELD", CPlanState::Held),
+        ("DONE", CPlanState::Done),
     ] {
-        let value = format!("    JRED_{name} = {}", stage as i32);
+        let value = format!("    JRED_{name} = {}", state as i32);
         assert!(HEADER.contains(&value), "{value}");
     }
 }
@@ -116,7 +116,7 @@ fn the_header_has_the_constants() {
     for (name, value) in [
         ("JRED_MEMORY_POINTERS", POINTERS.to_string()),
         ("JRED_ANY", format!("{ANY:#x}")),
-        ("JRED_FOLLOWER_WORDS", WORDS.to_string()),
+        ("JRED_PLAN_FOLLOWER_WORDS", WORDS.to_string()),
     ] {
         assert!(
             HEADER.contains(&format!("#define {name} {value}\n")),

@@ -85,7 +85,8 @@ fn the_range_of_motion_is_that_of_an_image_and_nothing_else() {
     let found: CMotionRange<f32> = unsafe { range.assume_init() };
     // 29.4524 rad/s and 226.725 rad/s², plus one hundredth.
     assert!(
-        (found.omega - 1.01 * 29.4524).abs() < 1e-3 && (found.alpha - 1.01 * 226.725).abs() < 1e-2
+        (found.max_speed - 1.01 * 29.4524).abs() < 1e-3
+            && (found.max_acceleration - 1.01 * 226.725).abs() < 1e-2
     );
     // Invalid bases, and null pointers: only rest.
     assert_eq!(

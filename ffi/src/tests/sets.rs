@@ -5,11 +5,11 @@ use std::collections::BTreeSet;
 use jred::harmonic::terms;
 use jred::table::Format;
 use jred::{
-    Cubic, Harmonic, Q31, Quadratic, Rows16, Set, SliderCrankForm, Spline, Spline16, curves,
+    Cubic, CurveSet, Harmonic, Q31, Quadratic, Rows16, SliderCrankForm, Spline, Spline16, curves,
 };
 
 /// The sets in a list of `families.rs`, which begins after the first `start`.
-fn listed(start: &str) -> BTreeSet<Set> {
+fn listed(start: &str) -> BTreeSet<CurveSet> {
     let (_, rest) = include_str!("../families.rs").split_once(start).unwrap();
     let list = rest.split_once("not(few_sets)").unwrap().1;
     let list = list.split_once('[').unwrap().1.split_once(']').unwrap().0;
@@ -19,8 +19,8 @@ fn listed(start: &str) -> BTreeSet<Set> {
         .collect()
 }
 
-fn accepted<F: Format>(sets: core::ops::Range<u32>) -> BTreeSet<Set> {
-    sets.map(|set| set as Set)
+fn accepted<F: Format>(sets: core::ops::Range<u32>) -> BTreeSet<CurveSet> {
+    sets.map(|set| set as CurveSet)
         .filter(|set| F::accepts(*set))
         .collect()
 }
@@ -52,7 +52,7 @@ fn every_set_of_polynomials_has_a_family() {
 #[test]
 fn harmonics_with_constant_friction_have_a_family() {
     let families = listed("// Of harmonics");
-    let has = |set: Set, bits: Set| set & bits != 0;
+    let has = |set: CurveSet, bits: CurveSet| set & bits != 0;
     let meant = accepted::<Harmonic<f32>>(0..1 << 16)
         .into_iter()
         .filter(|set| {

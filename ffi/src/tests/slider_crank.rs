@@ -3,9 +3,9 @@
 use core::mem::zeroed;
 use core::ptr::{null, null_mut};
 
-use jred::image::{encode, image_len};
-use jred::table::Shape;
-use jred::{Image, Model, Set, SliderCrankForm, Table, Validity, curves};
+use jred::image::{Validity, encode, image_len};
+use jred::table::{Shape, Table};
+use jred::{CurveSet, Image, Model, SliderCrankForm, curves};
 
 use super::ticks::same_bits;
 use super::{PRESS, Press, jred_spline_f32_load, press};
@@ -18,7 +18,7 @@ type Crank = Memory<SliderCrankForm>;
 unsafe extern "C" {
     fn jred_slider_crank_f32_load(
         memory: *mut Crank,
-        set: Set,
+        set: CurveSet,
         words: *const u32,
         length: usize,
     ) -> i32;
@@ -44,14 +44,14 @@ unsafe extern "C" {
 
 /// An image of a slider-crank in closed form with a constant load and constant frictions; `change` may replace its numbers.
 fn crank(change: impl FnOnce(&mut [f32])) -> Vec<u32> {
-    const SET: Set = curves::LOAD | curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB;
+    const SET: CurveSet = curves::LOAD | curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB;
     let mut words = [0.25, -0.1, 0.02, 0.03, -0.004, 5.0, 0.5, 2.0];
     assert_eq!(SET, 49);
     change(&mut words);
     let table = Table::new(&words, Shape::slider_crank(SET)).unwrap();
     let validity = Validity {
-        omega: 30.0,
-        alpha: 200.0,
+        max_speed: 30.0,
+        max_acceleration: 200.0,
         torque_error: 0.01,
     };
     let mut buffer = vec![0; image_len::<SliderCrankForm>(0, SET)];

@@ -3,9 +3,9 @@
 use core::mem::zeroed;
 use core::ptr::{null, null_mut};
 
-use jred::number::Sliding;
+use jred::number::FrictionSign;
 use jred::table::Format;
-use jred::{Cubic, Image, Model, Phase, Set, Spline, curves};
+use jred::{Cubic, CurveSet, Image, Model, Phase, Spline, curves};
 
 use super::{PRESS, Press, jred_spline_f32_load, jred_spline_q31_load, press};
 use crate::image::jred_image_info;
@@ -16,7 +16,7 @@ use crate::status::Status;
 unsafe extern "C" {
     fn jred_cubic_f32_load(
         memory: *mut Memory<Cubic<f32>>,
-        set: Set,
+        set: CurveSet,
         words: *const u32,
         length: usize,
     ) -> i32;
@@ -42,7 +42,7 @@ unsafe extern "C" {
 type Tick<'t> = &'t dyn Fn(u32, f32, f32) -> f32;
 
 /// A thousand ticks: torques and acceleration of C have the bits of Rust; the acceleration is computed from the torque.
-pub(super) fn same_bits<F: Format<Number = f32>, const SET: Set>(
+pub(super) fn same_bits<F: Format<Number = f32>, const SET: CurveSet>(
     model: &Model<'_, F, SET>,
     torques: [Tick<'_>; 2],
     acceleration: Tick<'_>,
@@ -100,12 +100,12 @@ fn friction_of_a_set_point_has_the_bits_of_rust() {
         let (omega, alpha) = (k as f32 * 0.03 - 15.0, 200.0 - k as f32 * 0.41);
         let (against, share) = (15.3 - k as f32 * 0.03, k as f32 * 0.002 - 1.0);
         for (number, is_share) in [(against, false), (share, true), (0.0, false), (0.0, true)] {
-            let sliding = if is_share {
-                Sliding::Share(number)
+            let friction = if is_share {
+                FrictionSign::Scaled(number)
             } else {
-                Sliding::Against(number)
+                FrictionSign::OfSpeed(number)
             };
-            let of_rust = model.torque_with(Phase::from_bits(phase), omega, alpha, sliding);
+            let of_rust = model.torque_with(Phase::from_bits(phase), omega, alpha, friction);
             // SAFETY: the model was loaded.
             let of_c = unsafe {
                 jred_spline_f32_s21_torque_with(
@@ -117,7 +117,7 @@ fn friction_of_a_set_point_has_the_bits_of_rust() {
                     is_share,
                 )
             };
-            assert_eq!(of_c.to_bits(), of_rust.to_bits(), "{k} {sliding:?}");
+            assert_eq!(of_c.to_bits(), of_rust.to_bits(), "{k} {friction:?}");
         }
     }
 }

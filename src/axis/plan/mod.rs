@@ -15,12 +15,13 @@ pub use encode::{Knot, encode, image_len, with_ramp};
 pub use error::PlanError;
 pub use image::{HEADER_WORDS, VERSION};
 
-use super::{AxisError, Motion};
+use super::{AxisError, MotionState};
 use crate::number::{Factor, Number, Quantity as _, Real as _};
-use crate::{Domain, MachineUnits, Outcome, Phase};
+use crate::tick::MachineUnits;
+use crate::{Domain, Outcome, Phase};
 use image::Header;
 pub(super) use row::shifted;
-use row::{Row, State, TIME_BITS, Words};
+use row::{Row, RowState, TIME_BITS, Words};
 
 /// Tolerance of a rounded position or speed, in units.
 const NEAR: u64 = 16;
@@ -49,28 +50,28 @@ const UNIT: f32 = 1.0 / 4_294_967_296.0;
 /// `a_plan_keeps_the_proven_bounds`), and one unit of position or speed for each shift. The factors to machine units have single precision.
 ///
 /// ```
-/// use jred::axis::{FeedForward, Follower, Plan, Rate, Stage};
-/// use jred::number::Sliding;
-/// use jred::{Image, Model, Set, Spline, curves, include_image};
+/// use jred::axis::{FeedForward, Override, Plan, PlanFollower, PlanState};
+/// use jred::number::FrictionSign;
+/// use jred::{CurveSet, Image, Model, Spline, curves, include_image};
 ///
-/// const PRESS: Set = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
+/// const PRESS: CurveSet = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
 ///
-/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// # fn main() -> Result<(), jred::FirmwareError> {
 /// // Once.
 /// let image = Image::from_bytes(include_image!("../../../examples/data/press_f32.jred"))?;
 /// let press: Model<'_, Spline<f32>, PRESS> = image.model()?;
 /// let feed_forward = FeedForward::new(press, image.validity());
 /// let plan = Plan::from_bytes(include_image!("../../../examples/data/press_plan.jred"), &press)?;
-/// let mut follower = Follower::new(plan, 0.001, 0.1, &press)?; // a tick and a change of the rate from 0 to 100 % (s)
+/// let mut follower = PlanFollower::new(plan, 0.001, 0.1, &press)?; // a tick and a change of the rate from 0 to 100 % (s)
 /// follower.start();
 ///
 /// // Every tick.
 /// let mut ticks = 0;
 /// loop {
-///     let planned = follower.next(Rate::FULL);
-///     let needed = feed_forward.at_reference(planned.motion, Sliding::Against(planned.motion.omega));
+///     let planned = follower.next(Override::FULL);
+///     let needed = feed_forward.at_reference(planned.motion, FrictionSign::OfSpeed(planned.motion.omega));
 ///     assert!(needed.status.is_valid());
-///     if planned.stage == Stage::Done {
+///     if planned.state == PlanState::Done {
 ///         break;
 ///     }
 ///     ticks += 1;
@@ -104,9 +105,9 @@ pub struct Errors {
 /// The state of a plan at a time, in machine units, and whole turns since φ = 0.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Place<N: Number> {
+pub struct PlanPoint<N: Number> {
     /// Position, speed and acceleration.
-    pub motion: Motion<N>,
+    pub motion: MotionState<N>,
     /// Whole turns; 0 on a stroke. Counted within the plan: each repeat of a plan that advances by whole turns starts with the same turns again.
     pub turns: i32,
 }
@@ -206,11 +207,19 @@ impl<'a, N: Number> Plan<'a, N> {
         self.header.errors
     }
 
-    /// Greatest magnitudes of its speed (rad/s, or m/s) and acceleration (rad/s², or m/s²): those of its polynomials, to single precision (test
+    /// Greatest magnitude of its speed (rad/s, or m/s): of its polynomials, to single precision (test
     /// `the_greatest_rates_are_those_of_the_polynomials`).
     #[must_use]
-    pub const fn most(&self) -> [f32; 2] {
-        self.header.most
+    pub const fn max_speed(&self) -> f32 {
+        let [speed, _] = self.header.most;
+        speed
+    }
+
+    /// Greatest magnitude of its acceleration (rad/s², or m/s²), likewise.
+    #[must_use]
+    pub const fn max_acceleration(&self) -> f32 {
+        let [_, acceleration] = self.header.most;
+        acceleration
     }
 
     /// Number of rows, including the end.
@@ -251,10 +260,10 @@ impl<'a, N: Number> Plan<'a, N> {
     /// Position, speed and acceleration at a time after the start (units of 2⁻⁴⁰ s); after the end, position and speed of the end, with
     /// acceleration 0. Flagged if in fixed point a number was limited.
     ///
-    /// For a program's own time, such as the position of a line shaft; [`Follower`](super::Follower) counts ticks.
+    /// For a program's own time, such as the position of a line shaft; [`PlanFollower`](super::PlanFollower) counts ticks.
     #[inline]
     #[must_use]
-    pub fn at(&self, time: u64) -> Outcome<Place<N>> {
+    pub fn at(&self, time: u64) -> Outcome<PlanPoint<N>> {
         let state = self.state(time);
         let alpha = N::of_count(state.acceleration, &self.acceleration);
         self.place(state, alpha)
@@ -262,7 +271,7 @@ impl<'a, N: Number> Plan<'a, N> {
 
     /// The same in units of the plan.
     #[inline]
-    pub(super) fn state(&self, time: u64) -> State {
+    pub(super) fn state(&self, time: u64) -> RowState {
         let units = self.header.units;
         let whole = time >> (TIME_BITS.saturating_sub(units.time) & 63);
         let whole = u32::try_from(whole).unwrap_or(u32::MAX);
@@ -279,12 +288,12 @@ impl<'a, N: Number> Plan<'a, N> {
             step /= 2;
         }
         let Some(words) = self.rows.get(k) else {
-            return State::default();
+            return RowState::default();
         };
         let row = Row::read(words);
         match self.rows.get(k + 1) {
             Some([next, ..]) => row.at(time, next.wrapping_sub(row.start), units),
-            None => State {
+            None => RowState {
                 position: row.position,
                 speed: row.speed,
                 acceleration: 0,
@@ -305,7 +314,7 @@ impl<'a, N: Number> Plan<'a, N> {
 
     /// A state in machine units, with this acceleration.
     #[inline]
-    pub(super) fn place(&self, state: State, alpha: Outcome<N>) -> Outcome<Place<N>> {
+    pub(super) fn place(&self, state: RowState, alpha: Outcome<N>) -> Outcome<PlanPoint<N>> {
         let omega = N::of_count(state.speed, &self.speed);
         let (phase, turns) = match self.header.domain {
             Domain::Turn => (state.position as u32, (state.position >> 32) as i32),
@@ -314,8 +323,8 @@ impl<'a, N: Number> Plan<'a, N> {
             Domain::Stroke { .. } => (u32::try_from(state.position).unwrap_or(u32::MAX), 0),
         };
         Outcome {
-            value: Place {
-                motion: Motion {
+            value: PlanPoint {
+                motion: MotionState {
                     phase: Phase::from_bits(phase),
                     omega: N::Speed::of(omega.value),
                     alpha: N::Acceleration::of(alpha.value),

@@ -24,7 +24,7 @@ pub(super) struct Units {
 
 /// The state of a plan at a time, in its units.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(crate) struct State {
+pub(crate) struct RowState {
     /// 2⁻³² of the range, and whole turns.
     pub(crate) position: i64,
     pub(crate) speed: i32,
@@ -97,7 +97,7 @@ impl Row {
 
     /// The state at a time (2⁻⁴⁰ s) within the row, which is `length` units long.
     #[inline(always)]
-    pub(super) fn at(&self, time: u64, length: u32, units: Units) -> State {
+    pub(super) fn at(&self, time: u64, length: u32, units: Units) -> RowState {
         let window = Window::of(length, units);
         let start = u64::from(self.start) << (TIME_BITS.saturating_sub(units.time) & 63);
         let since = time.wrapping_sub(start).cast_signed();
@@ -140,7 +140,7 @@ impl Window {
 
     /// The state at a share u of the window, in units of 2⁻³².
     #[inline(always)]
-    fn state(self, row: &Row, u: u32, units: Units) -> State {
+    fn state(self, row: &Row, u: u32, units: Units) -> RowState {
         let [c2, c3, c4, c5] = row.coefficients;
         // The check of the row ensures that no sum exceeds 32 bits.
         let sum = |[a, b, c, d]: [i32; 4]| {
@@ -155,7 +155,7 @@ impl Window {
         let way = times(times(sum([1, 1, 1, 1]), u), u);
         let gained = times(sum([2, 3, 4, 5]), u);
         let even = i64::from(row.speed).wrapping_mul(u.into());
-        State {
+        RowState {
             position: row
                 .position
                 .wrapping_add(shifted(even, moved))

@@ -39,13 +39,13 @@ pub use slider_crank::{
     Coefficient as CrankCoefficient, STEEPEST, SliderCrankForm, terms as crank_terms,
 };
 
-use super::curves::Set;
+use super::curves::CurveSet;
 use super::samples::{Sample, Samples};
 use super::table::{CellCurves, CurveValues, Table};
 use super::{MAX_CELLS, TableError, Usage};
 use crate::number::error::RangeError;
 use crate::number::spline::MIN_CELLS;
-use crate::number::{Number, Sliding};
+use crate::number::{FrictionSign, Number};
 use crate::{Outcome, Phase, Scale};
 
 /// Words of the image's header for the constants of a table.
@@ -78,7 +78,7 @@ pub(crate) const CONSTANTS: usize = 11;
 /// ```
 ///
 /// ```compile_fail,E0277
-/// # use jred::{Outcome, Phase, Scale, Set, table::{CurveValues, Format, Table, TableError, Usage}};
+/// # use jred::{CurveSet, Outcome, Phase, Scale, table::{CurveValues, Format, Table, TableError, Usage}};
 /// #[derive(Clone, Copy, Debug, PartialEq)]
 /// struct Mine;
 /// impl Format for Mine {}
@@ -115,7 +115,7 @@ pub trait Format: crate::sealed::Sealed + Copy + core::fmt::Debug + PartialEq + 
     const TICK_ROUNDING: f64 = 0.0;
 
     /// Whether a table of this format can have this set of [`curves`](crate::curves).
-    fn accepts(set: Set) -> bool;
+    fn accepts(set: CurveSet) -> bool;
     /// Checks the words, once, when the table is created.
     #[doc(hidden)]
     fn check(table: &Table<'_, Self>) -> Result<(), TableError>;
@@ -160,16 +160,16 @@ pub trait Format: crate::sealed::Sealed + Copy + core::fmt::Debug + PartialEq + 
     ) -> Result<Self::Constants, E>;
     /// The base to enlarge when this curve of a row does not fit.
     #[doc(hidden)]
-    fn base(curve: u8, set: Set) -> &'static str;
+    fn base(curve: u8, set: CurveSet) -> &'static str;
 
     /// The constants as words of the image's header, and the inverse.
     #[doc(hidden)]
-    fn header(constants: &Self::Constants, set: Set) -> [u32; CONSTANTS];
+    fn header(constants: &Self::Constants, set: CurveSet) -> [u32; CONSTANTS];
     #[doc(hidden)]
     fn from_header(header: &[u32; CONSTANTS]) -> Self::Constants;
     /// The set of a table, from the lower bits, which the header of every format has.
     #[doc(hidden)]
-    fn set(_: &[u32; CONSTANTS], set: Set) -> Set {
+    fn set(_: &[u32; CONSTANTS], set: CurveSet) -> CurveSet {
         set
     }
 
@@ -184,36 +184,38 @@ pub trait Format: crate::sealed::Sealed + Copy + core::fmt::Debug + PartialEq + 
     fn prepare<'a>(table: &Table<'a, Self>) -> Result<Self::Tick<'a>, TableError>;
     /// The same for the same table, whose words were moved or borrowed again; its set is `set`.
     #[doc(hidden)]
-    fn moved<'a>(tick: &Self::Tick<'_>, table: &Table<'a, Self>, set: Set) -> Self::Tick<'a>;
+    fn moved<'a>(tick: &Self::Tick<'_>, table: &Table<'a, Self>, set: CurveSet) -> Self::Tick<'a>;
     /// Inverse dynamics for a table whose set is `set`, which a model knows at compile time.
     #[doc(hidden)]
     fn torque(
         table: &Table<'_, Self>,
         tick: &Self::Tick<'_>,
-        set: Set,
+        set: CurveSet,
         phase: Phase,
-        motion: [Self::Number; 2],
-        sliding: Sliding<Self::Number>,
+        omega: Self::Number,
+        alpha: Self::Number,
+        friction: FrictionSign<Self::Number>,
     ) -> Self::Number;
     /// J·α, ½·J′·ω², −load, b·ω and c·sgn ω: the terms of [`torque`](Self::torque).
     #[doc(hidden)]
-    fn contributions(
+    fn torque_terms(
         table: &Table<'_, Self>,
         tick: &Self::Tick<'_>,
-        set: Set,
+        set: CurveSet,
         phase: Phase,
-        motion: [Self::Number; 2],
-        sliding: Sliding<Self::Number>,
+        omega: Self::Number,
+        alpha: Self::Number,
+        friction: FrictionSign<Self::Number>,
     ) -> [Self::Number; 5];
     /// Forward dynamics for two torques, as [`torque`](Self::torque).
     #[doc(hidden)]
     fn accelerations(
         table: &Table<'_, Self>,
         tick: &Self::Tick<'_>,
-        set: Set,
+        set: CurveSet,
         phase: Phase,
         omega: Self::Number,
-        sliding: Sliding<Self::Number>,
+        friction: FrictionSign<Self::Number>,
         torques: [Self::Number; 2],
     ) -> [Outcome<Self::Number>; 2];
 }

@@ -1,7 +1,7 @@
 //! Number of words of a table, and its rows.
 
 use super::harmonic::{means, row};
-use crate::curve::curves::{Set, width};
+use crate::curve::curves::{CurveSet, width};
 
 /// The words of a table.
 #[derive(Clone, Copy, Debug)]
@@ -18,7 +18,7 @@ pub enum Size {
 impl Size {
     /// Words of a whole table.
     #[inline]
-    pub(crate) const fn words(&self, cells: usize, set: Set) -> usize {
+    pub(crate) const fn words(&self, cells: usize, set: CurveSet) -> usize {
         match self {
             Self::Rows(row) => (cells + row.more) * row.pitch(set),
             Self::Harmonics => means(set) + cells * row(set),
@@ -44,7 +44,7 @@ pub struct Row {
 impl Row {
     /// Words from one row to the next: never 0.
     #[inline]
-    pub(crate) const fn pitch(&self, set: Set) -> usize {
+    pub(crate) const fn pitch(&self, set: CurveSet) -> usize {
         let words = self.head + (width(set) * self.halves).div_ceil(2);
         // By a mask: a division would need a check for zero.
         if self.padded { (words + 3) & !3 } else { words }

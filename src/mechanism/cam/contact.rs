@@ -15,9 +15,9 @@ use core::fmt;
 use super::extreme::smallest;
 use super::program::{Piece, within_turn};
 use crate::machine::reduction::MAX_LOADS;
-use crate::machine::{Joint, Jointed};
+use crate::machine::{Joint, Jointed, Machine};
+use crate::math;
 use crate::number::error::finite;
-use crate::{Machine, math};
 
 /// Limit of plausible speeds (rad/s); contact lost beyond it, by rounding, does not count as lost.
 const FASTEST: f64 = 1e6;

@@ -21,11 +21,11 @@ const CLOSED: f64 = 1e-9;
 /// [`acceleration_jumps`](Self::acceleration_jumps).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Program {
-    segments: heapless::Vec<Placed, MAX_SEGMENTS>,
+    segments: heapless::Vec<ProgramSegment, MAX_SEGMENTS>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Placed {
+struct ProgramSegment {
     segment: Segment,
     /// φ and s at its start.
     from: f64,
@@ -102,7 +102,7 @@ impl Program {
             if Some(index) == last_move {
                 segment.rise -= gap;
             }
-            let next = Placed {
+            let next = ProgramSegment {
                 segment,
                 from,
                 height,

@@ -21,13 +21,13 @@ use crate::machine::error::PoseError;
 use crate::machine::link::{Frame, Link};
 use crate::mechanism::dyad;
 use crate::mechanism::error::BuildError;
-use crate::mechanism::{Misfit, Side};
+use crate::mechanism::{DimensionError, Side};
 use crate::number::transfer::Transfer;
 use crate::{Domain, math};
 
 /// The branch of a linkage that passes change points.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Kept {
+pub(super) struct FlatBranch {
     /// a + d = b + c: flat at θ = π, coupler and rocker stretched.
     stretched: bool,
     /// |a − d| = |b − c|: flat at θ = 0, coupler and rocker folded.
@@ -36,7 +36,7 @@ pub(super) struct Kept {
     sign: f64,
 }
 
-impl Kept {
+impl FlatBranch {
     /// Sign of q at θ.
     fn side(&self, theta: f64) -> f64 {
         let (sin, cos) = math::sin_cos(0.5 * theta);
@@ -90,7 +90,7 @@ impl FourBar {
             let sum = a + b + c + d;
             let ends = a.max(b).max(c).max(d) + a.min(b).min(c).min(d);
             let others = sum - ends;
-            return Err(Misfit::NeverFlat { ends, others }.into());
+            return Err(DimensionError::NeverFlat { ends, others }.into());
         }
         let [from, to] = match bare.domain {
             Domain::Turn => [0.0, TAU],
@@ -134,10 +134,10 @@ impl FourBar {
             }
         }
         if bare.domain == Domain::Turn && !(stretched && folded) {
-            return Err(Misfit::TwoTurns.into());
+            return Err(DimensionError::TwoTurns.into());
         }
         if stretched && folded && same(a, b) && side == Side::Right {
-            return Err(Misfit::RockerStands.into());
+            return Err(DimensionError::RockerStands.into());
         }
         // The first half turn from the start on with the crank to the left of OC.
         let start = from - bare.ground_angle();
@@ -147,14 +147,14 @@ impl FourBar {
             } else {
                 TAU - beyond(start)
             };
-        let kept = Kept {
+        let kept = FlatBranch {
             stretched,
             folded,
             sign: 1.0,
         };
         let middle = first - beyond(first) + 0.5 * PI;
         let sign = kept.side(middle) * side.sign();
-        bare.kept = Some(Kept { sign, ..kept });
+        bare.kept = Some(FlatBranch { sign, ..kept });
         bare.with_angles_from(from)
     }
 
@@ -187,7 +187,7 @@ impl FourBar {
     #[inline(never)]
     pub(super) fn along(
         &self,
-        kept: &Kept,
+        kept: &FlatBranch,
         phi: Transfer,
         [a, c]: [[Transfer; 2]; 2],
     ) -> Option<[(Frame, f64); 2]> {

@@ -24,13 +24,13 @@ use core::f64::consts::{PI, TAU};
 
 use super::dyad;
 use super::grashof::NAMES;
-use super::{Blocked, Grashof, Side};
+use super::{Grashof, RotationError, Side};
 use crate::machine::joint::{Joint, Joints, Marker};
 use crate::machine::link::{Frame, Link};
 use crate::number::error::{finite, positive};
 use crate::number::transfer::Transfer;
 use crate::{Domain, math};
-use change_point::Kept;
+use change_point::FlatBranch;
 
 /// Margin to a dead point, as a share of b + c, so that rounding does not make a position within the range fail.
 const HAIR: f64 = 1e-12;
@@ -63,7 +63,7 @@ pub struct FourBar {
     side: Side,
     domain: Domain,
     /// Its branch, if it is kept on one through change points.
-    kept: Option<Kept>,
+    kept: Option<FlatBranch>,
     /// Added to the angles of coupler and rocker.
     turns: [f64; 2],
     links: [Link; 3],
@@ -92,7 +92,7 @@ impl FourBar {
         let [folded, stretched] = bare.reach();
         let (a, d) = (bare.dimensions.crank, bare.ground);
         if a + d >= stretched || math::abs(a - d) <= folded {
-            return Err(Blocked::FourBar {
+            return Err(RotationError::FourBar {
                 lengths: bare.lengths(),
                 reach: bare.crank_range(),
             }
@@ -157,7 +157,7 @@ impl FourBar {
         for (link, length) in NAMES.into_iter().zip(lengths) {
             let others = sum - length;
             if length >= others {
-                return Err(Blocked::Apart {
+                return Err(RotationError::Apart {
                     link,
                     length,
                     others,

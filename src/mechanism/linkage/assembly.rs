@@ -12,7 +12,7 @@ use crate::number::transfer::Transfer;
 use crate::{Domain, math};
 
 use super::crossing::{Crossing, PassError};
-use super::solver::Solved;
+use super::solver::Solution;
 use super::walk::{Gait, TRUSTED};
 use super::{Linkage, Pair, Pose};
 
@@ -264,7 +264,7 @@ impl<
     }
 
     /// Puts the links at `phi` into `frames`, without the whole turns, which are returned.
-    fn solved(&self, phi: f64, frames: &mut Frames) -> Result<(Solved, f64), PoseError> {
+    fn solved(&self, phi: f64, frames: &mut Frames) -> Result<(Solution, f64), PoseError> {
         let (turns, phi) = self.within(finite("drive position", phi)?);
         if let Some(window) = self.crossings.iter().find(|window| window.holds(phi)) {
             let solved = window.place(phi, self.linkage.links.len(), frames);

@@ -17,7 +17,7 @@ use crate::math;
 use crate::number::transfer::Transfer;
 
 use super::Linkage;
-use super::solver::Solved;
+use super::solver::Solution;
 use super::walk::{Gait, Place, TRUSTED, predicted};
 
 /// Half the first window, which finds the branch on the far side (rad, or relative to the linkage's size).
@@ -37,7 +37,7 @@ pub(super) struct Crossing<const LINKS: usize> {
     pub(super) phi: f64,
     /// Ends of the window.
     ends: [f64; 2],
-    solved: [Solved; 2],
+    solved: [Solution; 2],
     /// x, y and ψ of each link at both ends.
     coordinates: [[[Transfer; 3]; LINKS]; 2],
 }
@@ -93,7 +93,7 @@ impl<const LINKS: usize> Crossing<LINKS> {
     }
 
     /// Puts `count` links at a position in the window into `frames`.
-    pub(super) fn place(&self, phi: f64, count: usize, frames: &mut Frames) -> Solved {
+    pub(super) fn place(&self, phi: f64, count: usize, frames: &mut Frames) -> Solution {
         let [from, to] = self.ends;
         let width = to - from;
         let u = Transfer {
@@ -111,7 +111,7 @@ impl<const LINKS: usize> Crossing<LINKS> {
         let [below, above] = &self.solved;
         let near = if phi < self.phi { below } else { above };
         let part = math::abs(phi - self.phi) / self.half();
-        Solved {
+        Solution {
             quality: part.min(1.0) * near.quality,
             ..*near
         }

@@ -22,7 +22,7 @@ const DEAD: f64 = 1e-9;
 
 /// Quality of a solution.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Solved {
+pub(super) struct Solution {
     /// The smallest |det A|/Π‖column‖ of a group's Jacobian A: 0 at a dead point, at most 1.
     pub(super) quality: f64,
     /// The pair with the smallest quality.
@@ -38,7 +38,7 @@ pub(super) type Determinants = [f64; 3 * MAX_LINKS];
 
 /// Why there is no solution near the start.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Unsolved {
+pub(super) struct SolveError {
     /// The pair with the largest gap, or the pair that locks.
     pub(super) pair: usize,
     /// Its gap (m, or rad); zero where it locks.
@@ -87,7 +87,7 @@ impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, P
     }
 
     /// Positions and transfer functions at `phi`, starting from nearby links.
-    pub(super) fn solve(&self, phi: f64, frames: &mut [Frame]) -> Result<Solved, Unsolved> {
+    pub(super) fn solve(&self, phi: f64, frames: &mut [Frame]) -> Result<Solution, SolveError> {
         self.solve_noting(phi, frames, &mut [])
     }
 
@@ -97,7 +97,7 @@ impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, P
         phi: f64,
         frames: &mut [Frame],
         determinants: &mut [f64],
-    ) -> Result<Solved, Unsolved> {
+    ) -> Result<Solution, SolveError> {
         let mut pivots = [[0; 3]; LINKS];
         let pivots = pivots.as_flattened_mut();
         // Small groups, as almost always; otherwise one group of all coordinates, with memory that takes longer to clear than small groups to solve.
@@ -116,7 +116,7 @@ impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, P
         phi: f64,
         frames: &mut [Frame],
         determinants: &mut [f64],
-    ) -> Result<Solved, Unsolved> {
+    ) -> Result<Solution, SolveError> {
         let mut matrices = [[[[0.0; 3]; 3]; LINKS]; LINKS];
         let matrices = matrices.as_flattened_mut().as_flattened_mut();
         let matrices = matrices.as_flattened_mut();
@@ -129,10 +129,10 @@ impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, P
         phi: f64,
         frames: &mut [Frame],
         determinants: &mut [f64],
-    ) -> Result<Solved, Unsolved> {
+    ) -> Result<Solution, SolveError> {
         let mut matrices = &mut *factors.matrices;
         let mut pivots = &mut *factors.pivots;
-        let mut solved = Solved {
+        let mut solved = Solution {
             quality: 1.0,
             weakest: self.drive,
             signs: 0,
@@ -179,15 +179,15 @@ impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, P
         matrix: &mut [f64],
         pivots: &mut [usize],
         step: &mut [f64],
-    ) -> Result<Placed, Unsolved> {
+    ) -> Result<GroupSolution, SolveError> {
         let equations = self.structure.equations(group);
         let coordinates = self.structure.coordinates(group);
         let contents = self.structure.contents(group);
         let size = equations.len();
         let phi = Transfer::constant(phi);
-        let mut placed = Placed::default();
+        let mut placed = GroupSolution::default();
         let mut last = false;
-        let mut widest = Unsolved {
+        let mut widest = SolveError {
             pair: self.pair_of(group),
             gap: 0.0,
         };
@@ -214,7 +214,7 @@ impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, P
             placed.negative = determinant < 0.0;
             placed.determinant = crate::math::abs(determinant);
             if placed.quality.is_nan() || placed.quality < DEAD {
-                return Err(Unsolved { gap: 0.0, ..widest });
+                return Err(SolveError { gap: 0.0, ..widest });
             }
             if last {
                 return Ok(placed);
@@ -223,7 +223,7 @@ impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, P
             for (value, equation) in step.iter_mut().zip(equations) {
                 *value = -self.order::<0>(*equation, frames, phi);
                 if crate::math::abs(*value) > widest.gap {
-                    widest = Unsolved {
+                    widest = SolveError {
                         pair: equation.pair.into(),
                         gap: crate::math::abs(*value),
                     };
@@ -337,7 +337,7 @@ impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, P
 
 /// Result of placing a group.
 #[derive(Clone, Copy, Debug, Default)]
-struct Placed {
+struct GroupSolution {
     quality: f64,
     negative: bool,
     determinant: f64,

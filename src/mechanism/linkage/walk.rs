@@ -7,7 +7,7 @@ use crate::machine::link::Frame;
 use crate::math;
 use crate::number::transfer::Transfer;
 
-use super::solver::{Determinants, Solved, Unsolved};
+use super::solver::{Determinants, Solution, SolveError};
 use super::{Linkage, Pair};
 
 /// Limit of a link's movement by the corrector (rad, or relative to the linkage's size): beyond it the predictor cannot be trusted.
@@ -50,7 +50,7 @@ impl Gait {
 #[derive(Clone, Debug)]
 pub(super) struct Place {
     pub(super) phi: f64,
-    pub(super) solved: Solved,
+    pub(super) solved: Solution,
     pub(super) frames: Frames,
     pub(super) determinants: Determinants,
     /// Their largest values on the way here.
@@ -61,7 +61,7 @@ impl Place {
     /// The start of a walk.
     pub(super) const fn new(
         phi: f64,
-        solved: Solved,
+        solved: Solution,
         frames: Frames,
         determinants: &Determinants,
     ) -> Self {
@@ -126,7 +126,7 @@ impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, P
     }
 
     /// The links solved at a position, from a nearby start.
-    pub(super) fn placed(&self, phi: f64, mut frames: Frames) -> Result<Place, Unsolved> {
+    pub(super) fn placed(&self, phi: f64, mut frames: Frames) -> Result<Place, SolveError> {
         let mut determinants = [1.0; _];
         let solved = self.solve_noting(phi, &mut frames, &mut determinants)?;
         Ok(Place::new(phi, solved, frames, &determinants))
@@ -159,7 +159,7 @@ impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, P
     }
 }
 
-impl Unsolved {
+impl SolveError {
     pub(super) fn at(self, phi: f64) -> PoseError {
         let Self { pair: joint, gap } = self;
         if gap > 0.0 {

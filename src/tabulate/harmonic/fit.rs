@@ -13,17 +13,20 @@ use crate::curve::{
     Circular, Coefficient, Curve, Format, Harmonic, Kind, MAX_HARMONICS, Shape, Table, in_use,
     words_len,
 };
+use crate::error::Error;
 use crate::machine::reducible::Reducible;
 use crate::number::Number;
 use crate::number::error::{RangeError, positive};
 use crate::tabulate::{Request, edge_places, torque_between};
-use crate::{AnyModel, Domain, Error, Phase, Set, math};
+use crate::{AnyModel, CurveSet, Domain, Phase, math};
 
 /// Largest torque of one unit of the k-th harmonic of a curve.
 fn weight(request: &Request, curve: Curve, k: usize) -> f64 {
     match curve {
-        Curve::Inertia => request.alpha + 0.5 * k as f64 * request.omega * request.omega,
-        Curve::Viscous => request.omega,
+        Curve::Inertia => {
+            request.max_acceleration + 0.5 * k as f64 * request.max_speed * request.max_speed
+        }
+        Curve::Viscous => request.max_speed,
         Curve::Load | Curve::Coulomb | Curve::Constant => 1.0,
     }
 }
@@ -32,7 +35,7 @@ fn weight(request: &Request, curve: Curve, k: usize) -> f64 {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
-pub struct Fitted {
+pub struct Fit {
     /// Number of harmonics.
     pub harmonics: u32,
     /// Number of coefficients.
@@ -63,10 +66,10 @@ pub const fn scratch_len(max_harmonics: u32) -> usize {
 /// The machine's errors; [`HarmonicError::Stroke`]; a buffer too short.
 pub fn terms_in_use(
     machine: &impl Reducible,
-    set: Set,
+    set: CurveSet,
     max_harmonics: u32,
     scratch: &mut [f64],
-) -> Result<Set, Error> {
+) -> Result<CurveSet, Error> {
     const ROUNDING: f64 = 1e-12;
     let mut spectrum = spectrum(machine, set, max_harmonics, scratch)?;
     while spectrum.can_grow() {
@@ -77,7 +80,7 @@ pub fn terms_in_use(
         let limit = ROUNDING * spectrum.size(curve);
         for k in 1..=spectrum.samples() / 2 {
             let [a, b] = spectrum.coefficient(curve, k).map(|x| math::abs(x) > limit);
-            terms |= (Set::from(a) | Set::from(b) << 1) << bit;
+            terms |= (CurveSet::from(a) | CurveSet::from(b) << 1) << bit;
         }
     }
     Ok(in_use(set & 0xff | terms))
@@ -86,7 +89,7 @@ pub fn terms_in_use(
 /// The curves of a machine that turns, not yet sampled.
 fn spectrum<'s>(
     machine: &impl Reducible,
-    set: Set,
+    set: CurveSet,
     max_harmonics: u32,
     scratch: &'s mut [f64],
 ) -> Result<Spectrum<'s>, Error> {
@@ -120,22 +123,22 @@ fn spectrum<'s>(
 /// slider-crank on a host (`docs/harmonics.md`).
 ///
 /// # Errors
-/// [`HarmonicError::Stroke`]; [`HarmonicError::NotConverged`], in particular for a curve with a kink; [`TableError`](crate::TableError) if J cannot
-/// be proven positive between the samples; [`PoseError::NoInertia`](crate::machine::PoseError::NoInertia) if it is not positive at one; buffers too
-/// short; the machine's errors.
+/// [`HarmonicError::Stroke`]; [`HarmonicError::NotConverged`], in particular for a curve with a kink; [`TableError`](crate::table::TableError) if J
+/// cannot be proven positive between the samples; [`PoseError::NoInertia`](crate::machine::PoseError::NoInertia) if it is not positive at one;
+/// buffers too short; the machine's errors.
 pub fn fit<T: Circular + Number>(
     machine: &impl Reducible,
-    set: Set,
+    set: CurveSet,
     request: &Request,
     scratch: &mut [f64],
     words: &mut [T],
-) -> Result<Fitted, Error>
+) -> Result<Fit, Error>
 where
     Harmonic<T>: Format<Number = T, Word = T, Constants = ()>,
 {
     positive("torque error", request.torque_error)?;
-    positive("largest speed", request.omega)?;
-    positive("largest acceleration", request.alpha)?;
+    positive("largest speed", request.max_speed)?;
+    positive("largest acceleration", request.max_acceleration)?;
     let max = request.max_cells;
     let mut spectrum = spectrum(machine, set, max, scratch)?;
     let (needed, given) = (words_len::<Harmonic<T>>(max, set), words.len());
@@ -167,7 +170,7 @@ where
             }
             if torque_error <= request.torque_error && bound <= request.torque_error {
                 AnyModel::new(table).map_err(Error::Table)?;
-                return Ok(Fitted {
+                return Ok(Fit {
                     bound: bound.max(torque_error),
                     harmonics,
                     words: count,
@@ -224,7 +227,7 @@ fn amplitude([a, b]: [f64; 2]) -> f64 {
 fn left_out<T: Circular>(
     spectrum: &Spectrum<'_>,
     request: &Request,
-    set: Set,
+    set: CurveSet,
     harmonics: usize,
 ) -> f64 {
     let rounding = |x: f64| x - T::from_f64(x).to_f64();
@@ -275,7 +278,7 @@ fn unseen(spectrum: &Spectrum<'_>, request: &Request) -> Option<f64> {
 }
 
 /// The coefficients, in the order of [`Coefficient::of_word`].
-fn fill<T: Circular>(spectrum: &Spectrum<'_>, set: Set, words: &mut [T]) {
+fn fill<T: Circular>(spectrum: &Spectrum<'_>, set: CurveSet, words: &mut [T]) {
     for (word, slot) in words.iter_mut().enumerate() {
         if let Some(Coefficient { curve, kind }) = Coefficient::of_word(word, set) {
             *slot = T::from_f64(match kind {

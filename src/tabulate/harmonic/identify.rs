@@ -13,12 +13,13 @@
 //! not on its square as with normal equations (Å. Björck, *Numerical Methods for Least Squares Problems*, SIAM 1996, 2.4 and 3.2).
 
 use super::HarmonicError;
-use crate::Set;
+use crate::CurveSet;
 use crate::curve::{
     Circular, Coefficient, Curve, Harmonic, Kind, MAX_HARMONICS, TableError, words_len,
 };
+use crate::error::Error;
 use crate::number::error::finite;
-use crate::{Error, Phase, math};
+use crate::{Phase, math};
 
 /// A coefficient counts as excited if more than this share of its effect in the samples is independent of the others. Measurement errors are
 /// amplified by 1/share.
@@ -61,7 +62,7 @@ pub struct Identified<const WORDS: usize> {
 ///
 /// **Cost** of a sample: 3·WORDS² multiplications in `f64`; 8·WORDS² bytes.
 #[derive(Clone, Debug)]
-pub struct Identification<const WORDS: usize, const SET: Set> {
+pub struct Identification<const WORDS: usize, const SET: CurveSet> {
     /// R, row by row.
     triangle: [[f64; WORDS]; WORDS],
     right: [f64; WORDS],
@@ -69,7 +70,7 @@ pub struct Identification<const WORDS: usize, const SET: Set> {
     samples: u32,
 }
 
-impl<const WORDS: usize, const SET: Set> Identification<WORDS, SET> {
+impl<const WORDS: usize, const SET: CurveSet> Identification<WORDS, SET> {
     /// An identification without samples.
     ///
     /// # Errors
@@ -246,15 +247,16 @@ fn norm(values: impl IntoIterator<Item = f64>) -> f64 {
 /// The coefficients of a machine from samples of its motion: [`Identification`] in one call.
 ///
 /// ```
+/// use jred::error::Error;
 /// use jred::harmonic::{Sample, identify, terms};
-/// use jred::table::Shape;
-/// use jred::{Error, Harmonic, Model, Phase, Set, Table, curves};
+/// use jred::table::{Shape, Table};
+/// use jred::{CurveSet, Harmonic, Model, Phase, curves};
 ///
 /// // J = 0.5 − 0.2·cos 2φ kg·m², 3 N·m of Coulomb friction.
-/// const SET: Set = curves::COULOMB | terms::INERTIA_COS;
+/// const SET: CurveSet = curves::COULOMB | terms::INERTIA_COS;
 /// let made = [0.5, 3.0, 0.0, -0.2];
-/// let table = Table::new(&made, Shape::harmonics(2, SET)).map_err(Error::Table)?;
-/// let machine = Model::<Harmonic<f64>, SET>::new(table).map_err(Error::Table)?;
+/// let table = Table::new(&made, Shape::harmonics(2, SET))?;
+/// let machine = Model::<Harmonic<f64>, SET>::new(table)?;
 /// let samples = core::array::from_fn::<_, 50, _>(|k| {
 ///     let time = k as f64 * 0.1;
 ///     let (phase, omega, alpha) = (Phase::from_radians(time + time.sin()), 1.0 + 2.0 * time.cos(), -2.0 * time.sin());
@@ -262,12 +264,12 @@ fn norm(values: impl IntoIterator<Item = f64>) -> f64 {
 /// });
 /// let found = identify::<4, SET>(&samples)?;
 /// assert!(found.words.iter().zip(made).all(|(found, made)| (found - made).abs() < 1e-12));
-/// # Ok::<(), jred::Error>(())
+/// # Ok::<(), jred::error::Error>(())
 /// ```
 ///
 /// # Errors
 /// As [`Identification::new`], [`add`](Identification::add) and [`solve`](Identification::solve).
-pub fn identify<const WORDS: usize, const SET: Set>(
+pub fn identify<const WORDS: usize, const SET: CurveSet>(
     samples: &[Sample],
 ) -> Result<Identified<WORDS>, Error> {
     let mut identification = Identification::<WORDS, SET>::new()?;

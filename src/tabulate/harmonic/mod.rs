@@ -21,5 +21,5 @@ mod identify;
 mod spectrum;
 
 pub use error::HarmonicError;
-pub use fit::{Fitted, fit, measure, scratch_len, terms_in_use};
+pub use fit::{Fit, fit, measure, scratch_len, terms_in_use};
 pub use identify::{EXCITED, Identification, Identified, Sample, identify};

@@ -8,16 +8,17 @@
 //! (L. N. Trefethen, J. A. C. Weideman, *SIAM Review* 56, 2014). The sums are direct: N is some tens, and no available transform works in `f64`
 //! without an allocator.
 
-use crate::Set;
+use crate::CurveSet;
 use crate::machine::error::PoseError;
 use crate::number::error::RangeError;
 use core::f64::consts::TAU;
 
 use crate::curve::Curve;
 use crate::curve::unfold;
+use crate::error::Error;
 use crate::machine::reducible::Reducible;
+use crate::math;
 use crate::number::error::finite;
-use crate::{Error, math};
 
 /// Initial number of samples; also the least memory for them.
 pub(super) const FIRST: usize = 32;
@@ -50,7 +51,11 @@ impl<'s> Spectrum<'s> {
     }
 
     /// An empty spectrum for a machine with this set of curves.
-    pub(super) fn new(scratch: &'s mut [f64], harmonics: u32, set: Set) -> Result<Self, Error> {
+    pub(super) fn new(
+        scratch: &'s mut [f64],
+        harmonics: u32,
+        set: CurveSet,
+    ) -> Result<Self, Error> {
         let (needed, given) = (Self::scratch_len(harmonics), scratch.len());
         let most = most_samples(harmonics);
         let scratch = scratch.get_mut(..needed);

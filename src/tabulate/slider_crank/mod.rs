@@ -17,12 +17,13 @@ mod error;
 
 pub use error::SliderCrankError;
 
-use crate::curve::curves::Set;
-use crate::curve::{COEFFICIENTS, CrankCoefficient as C, SliderCrankForm, words_len};
-use crate::machine::{Action, Load, Mechanism as _};
+use crate::curve::curves::CurveSet;
+use crate::curve::{COEFFICIENTS, CrankCoefficient as C, SliderCrankForm, TableError, words_len};
+use crate::error::Error;
+use crate::machine::{Action, Load, Machine, Mechanism as _};
 use crate::mechanism::{Branch, SliderCrank};
 use crate::number::error::RangeError;
-use crate::{Domain, Error, Machine, TableError, math};
+use crate::{Domain, math};
 
 /// A coefficient below this share of the largest of its curve counts as rounding of a rotated drawing.
 const NOTHING: f64 = 1e-9;
@@ -182,7 +183,7 @@ impl Sums {
     }
 
     /// The set of significant coefficients.
-    fn set(&self) -> Set {
+    fn set(&self) -> CurveSet {
         let size = |part: C| {
             self.of
                 .get(part as usize)
@@ -210,7 +211,7 @@ impl Sums {
 ///
 /// # Errors
 /// As [`SliderCrankError`] lists.
-pub fn set_in_use(machine: &Machine<SliderCrank>) -> Result<Set, SliderCrankError> {
+pub fn set_in_use(machine: &Machine<SliderCrank>) -> Result<CurveSet, SliderCrankError> {
     Ok(Sums::new(machine)?.set())
 }
 
@@ -222,7 +223,11 @@ pub fn set_in_use(machine: &Machine<SliderCrank>) -> Result<Set, SliderCrankErro
 ///
 /// # Errors
 /// As [`SliderCrankError`] lists; [`TableError::Curves`] with the machine's set, if `set` lacks a part of it; a buffer too short.
-pub fn form(machine: &Machine<SliderCrank>, set: Set, words: &mut [f32]) -> Result<usize, Error> {
+pub fn form(
+    machine: &Machine<SliderCrank>,
+    set: CurveSet,
+    words: &mut [f32],
+) -> Result<usize, Error> {
     let sums = Sums::new(machine)?;
     let in_use = sums.set();
     if in_use & !set != 0 {

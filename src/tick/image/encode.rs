@@ -4,7 +4,7 @@ use super::check::Progress;
 use super::error::ImageError;
 use super::{HEADER_WORDS, Image, MACHINE, MAGIC, STROKE, TURN, VERSION, Validity};
 use crate::Domain;
-use crate::curve::{CONSTANTS, Format, Set, Table, words_len};
+use crate::curve::{CONSTANTS, CurveSet, Format, Table, words_len};
 use crate::number::Number;
 
 /// Two half-words in one word.
@@ -14,7 +14,7 @@ const fn word_of(low: u16, high: u16) -> u32 {
 
 /// Words of the image of a table of `cells` cells.
 #[must_use]
-pub const fn image_len<F: Format>(cells: u32, set: Set) -> usize {
+pub const fn image_len<F: Format>(cells: u32, set: CurveSet) -> usize {
     HEADER_WORDS + (words_len::<F>(cells, set) * size_of::<F::Word>()).div_ceil(4) + 1
 }
 
@@ -49,8 +49,8 @@ pub fn encode<'b, F: Format>(
         scale.torque().to_bits(),
         scale.speed().to_bits(),
         scale.inertia().to_bits(),
-        validity.omega.to_bits(),
-        validity.alpha.to_bits(),
+        validity.max_speed.to_bits(),
+        validity.max_acceleration.to_bits(),
         validity.torque_error.to_bits(),
     ];
     let constants = F::header(table.constants(), table.set());

@@ -1,7 +1,7 @@
 //! Format and set of an image, checked at compile time.
 
 use super::{Image, MAGIC, VERSION};
-use crate::curve::{Format, Set};
+use crate::curve::{CurveSet, Format};
 
 /// Word of the header with the terms of harmonics, after those of every table.
 const FIRST_CONSTANT: usize = 13;
@@ -19,7 +19,7 @@ impl Image<'_> {
     /// const _: () = assert!(Image::is_of::<Spline<Q31>, { curves::LOAD }>(&TABLE));
     /// ```
     #[must_use]
-    pub const fn is_of<F: Format, const SET: Set>(words: &[u32]) -> bool {
+    pub const fn is_of<F: Format, const SET: CurveSet>(words: &[u32]) -> bool {
         let [
             magic,
             version,
@@ -46,15 +46,15 @@ impl Image<'_> {
     /// As [`is_of`](Self::is_of), for the bytes of a file.
     ///
     /// ```
-    /// use jred::{Image, Q31, Set, Spline, curves};
+    /// use jred::{CurveSet, Image, Q31, Spline, curves};
     ///
-    /// const PRESS: Set = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
+    /// const PRESS: CurveSet = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
     /// const BYTES: &[u8] = include_bytes!("../../../examples/data/press_f32.jred");
     /// const _: () = assert!(Image::bytes_are_of::<Spline<f32>, PRESS>(BYTES));
     /// assert!(!Image::bytes_are_of::<Spline<Q31>, PRESS>(BYTES));
     /// ```
     #[must_use]
-    pub const fn bytes_are_of<F: Format, const SET: Set>(bytes: &[u8]) -> bool {
+    pub const fn bytes_are_of<F: Format, const SET: CurveSet>(bytes: &[u8]) -> bool {
         let mut words = [0; FIRST_CONSTANT + 1];
         let mut rest = bytes;
         let mut left: &mut [u32] = &mut words;
@@ -70,15 +70,19 @@ impl Image<'_> {
 }
 
 /// Whether magic, version, kind and first constant of a header match a format and set.
-const fn same_kind<F: Format>([magic, version, kind, constant]: [u32; 4], set: Set) -> bool {
+const fn same_kind<F: Format>([magic, version, kind, constant]: [u32; 4], set: CurveSet) -> bool {
     let Some([code, layout]) = F::CODES else {
         return false;
     };
     let [found_code, found_set, found_layout, _] = kind.to_le_bytes();
-    let terms = if F::TERMS { (constant as Set) << 8 } else { 0 };
+    let terms = if F::TERMS {
+        (constant as CurveSet) << 8
+    } else {
+        0
+    };
     magic == MAGIC
         && version as u16 == VERSION
         && found_code == code
         && found_layout == layout
-        && found_set as Set | terms == set
+        && found_set as CurveSet | terms == set
 }

@@ -15,7 +15,7 @@ pub(crate) use encode::seal;
 pub use encode::{encode, identify, image_len};
 pub use error::ImageError;
 
-use crate::curve::{CONSTANTS, Format, Set, Shape, Table};
+use crate::curve::{CONSTANTS, CurveSet, Format, Shape, Table};
 use crate::{AnyModel, Domain, Model, Scale};
 
 /// "JRED" in the file's first four bytes.
@@ -39,9 +39,9 @@ const STROKE: u8 = 1;
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Validity {
     /// Largest speed (rad/s, or m/s).
-    pub omega: f32,
+    pub max_speed: f32,
     /// Largest acceleration (rad/s², or m/s²).
-    pub alpha: f32,
+    pub max_acceleration: f32,
     /// Largest error of the drive torque within these limits (N·m, or N).
     pub torque_error: f32,
 }
@@ -51,7 +51,7 @@ pub struct Validity {
 pub struct Image<'a> {
     rows: &'a [u32],
     code: u8,
-    set: Set,
+    set: CurveSet,
     layout: u8,
     constants: [u32; CONSTANTS],
     cells: u32,
@@ -114,7 +114,7 @@ impl<'a> Image<'a> {
             STROKE => return Err(ImageError::Header(5)),
             _ => return Err(ImageError::Header(3)),
         };
-        let set = Set::from(set);
+        let set = CurveSet::from(set);
         if set >= 1 << KNOWN {
             return Err(ImageError::Header(3));
         }
@@ -126,11 +126,15 @@ impl<'a> Image<'a> {
             return Err(ImageError::Header(7));
         }
         let validity = Validity {
-            omega: f32::from_bits(omega),
-            alpha: f32::from_bits(alpha),
+            max_speed: f32::from_bits(omega),
+            max_acceleration: f32::from_bits(alpha),
             torque_error: f32::from_bits(torque_error),
         };
-        let limits = [validity.omega, validity.alpha, validity.torque_error];
+        let limits = [
+            validity.max_speed,
+            validity.max_acceleration,
+            validity.torque_error,
+        ];
         if !limits.iter().all(|x| x.is_finite() && *x >= 0.0) {
             return Err(ImageError::Header(10));
         }
@@ -186,7 +190,7 @@ impl<'a> Image<'a> {
     ///
     /// # Errors
     /// Another number type, format or set of curves than the image has, or an invalid table.
-    pub fn model<F: Format, const SET: Set>(&self) -> Result<Model<'a, F, SET>, ImageError> {
+    pub fn model<F: Format, const SET: CurveSet>(&self) -> Result<Model<'a, F, SET>, ImageError> {
         Ok(Model::new(self.table()?)?)
     }
 
@@ -274,7 +278,7 @@ impl<'a> Image<'a> {
     }
 
     /// The set of [`curves`](crate::curves) in addition to the inertia.
-    pub const fn set(&self) -> Set {
+    pub const fn set(&self) -> CurveSet {
         self.set
     }
 

@@ -1,9 +1,9 @@
 //! Plans: accepted plans are followed.
 
-use jred::axis::{Follower, Motion, Plan, Rate, Stage};
+use jred::axis::{MachineUnits, MotionState, Override, Plan, PlanFollower, PlanState};
 use jred::number::{Bases, Number, Quantity as _};
-use jred::table::{Format, Shape};
-use jred::{Domain, MachineUnits, Model, Q31, Scale, Spline, Table, curves};
+use jred::table::{Format, Shape, Table};
+use jred::{Domain, Model, Q31, Scale, Spline, curves};
 
 use crate::harness::with_crc;
 
@@ -82,18 +82,18 @@ fn followed<N: Number>(
 ) -> bool {
     let period = (plan.duration() / TICKS as f32).clamp(1e-6, 0.24);
     let changing = |tick: u32| match tick / 100 % 4 {
-        0 => Rate::FULL,
-        1 => Rate::STILL,
-        _ => Rate::percent(tick % 101),
+        0 => Override::FULL,
+        1 => Override::STILL,
+        _ => Override::percent(tick % 101),
     };
-    let slower = |_| Rate::percent(37);
-    let rates: [(f32, &dyn Fn(u32) -> Rate); 3] = [
-        (0.0, &|_| Rate::FULL),
+    let slower = |_| Override::percent(37);
+    let rates: [(f32, &dyn Fn(u32) -> Override); 3] = [
+        (0.0, &|_| Override::FULL),
         (100.0 * period, &slower),
         (3.3 * period, &changing),
     ];
     for (k, (ramp, rate)) in rates.into_iter().enumerate() {
-        let Ok(once) = Follower::new(plan, period, ramp, model) else {
+        let Ok(once) = PlanFollower::new(plan, period, ramp, model) else {
             return false;
         };
         for mut follower in [Some(once), once.repeating().ok()].into_iter().flatten() {
@@ -103,9 +103,12 @@ fn followed<N: Number>(
             for tick in 0..2 * TICKS {
                 let planned = follower.next(rate(tick));
                 sound(&planned.motion, planned.turns, on_stroke);
-                // It stays at its end.
-                assert!(!done || planned.stage == Stage::Done, "{tick}: {planned:?}");
-                done = planned.stage == Stage::Done;
+                // At its end it stays.
+                assert!(
+                    !done || planned.state == PlanState::Done,
+                    "{tick}: {planned:?}"
+                );
+                done = planned.state == PlanState::Done;
             }
             assert!(!(done && repeats), "it ends: {plan:?}");
             let in_time = plan.duration() < 1.5 * TICKS as f32 * period;
@@ -119,7 +122,7 @@ fn followed<N: Number>(
 }
 
 /// Checks that numbers are finite, and that a stroke has no turns.
-fn sound<N: Number>(motion: &Motion<N>, turns: i32, on_stroke: bool) {
+fn sound<N: Number>(motion: &MotionState<N>, turns: i32, on_stroke: bool) {
     let rates = [motion.omega.number(), motion.alpha.number()].map(Number::to_f64);
     assert!(rates.iter().all(|rate| rate.is_finite()), "{motion:?}");
     assert!(!on_stroke || turns == 0, "{motion:?}: {turns}");

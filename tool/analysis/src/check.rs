@@ -2,7 +2,9 @@
 
 use std::f64::consts::TAU;
 
-use jred::{Domain, Error, Reducible};
+use jred::Domain;
+use jred::error::Error;
+use jred::machine::Reducible;
 
 use jred_file::model::axis::Axis;
 use jred_file::model::coordinate::Coordinate;

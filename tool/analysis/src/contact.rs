@@ -7,9 +7,9 @@ pub use over_motion::{Lost, lost};
 
 use std::f64::consts::TAU;
 
-use jred::machine::Mechanism as _;
+use jred::error::Error;
+use jred::machine::{Machine, Mechanism as _};
 use jred::mechanism::cam::{contact_force, lift_off};
-use jred::{Error, Machine};
 
 use jred_file::model::coordinate::{Coordinate, positions};
 use jred_file::model::mechanism::AnyMechanism;

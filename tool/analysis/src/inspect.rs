@@ -6,9 +6,10 @@
 //! an index of 0.643. Below 0.3, an angle of 17.5°, forces and play are more than three times those at 90°: the mechanism is
 //! near a dead point, and the check fails.
 
+use jred::Domain;
+use jred::error::Error;
 use jred::machine::{Body, Frame, Frames, Joint, Jointed as _, Joints, Mechanism as _};
 use jred::mechanism::cam::lift_off;
-use jred::{Domain, Error};
 use serde::Serialize;
 
 use crate::warnings::warnings;

@@ -1,9 +1,10 @@
 //! `jred reduce`: the reduced link over a turn or a stroke, the motion of every point and link, the force in every joint,
 //! and the drive torque of the motion.
 
+use jred::Domain;
+use jred::error::Error;
 use jred::machine::motion::State;
-use jred::machine::{Frames, Mechanism as _};
-use jred::{Domain, Error, Machine, Reducible as _};
+use jred::machine::{Frames, Machine, Mechanism as _, Reducible as _};
 
 use jred_file::model::coordinate::{Coordinate, positions};
 use jred_file::model::machine::{MachineFile, Machines};

@@ -18,7 +18,8 @@ pub use figures::{Energies, Figures, MotorPower, MotorTorque};
 pub use flywheel::{Classical, Flywheel, Place, Wheel};
 pub use start::Start;
 
-use jred::{Domain, Reducible as _};
+use jred::Domain;
+use jred::machine::Reducible as _;
 use schemars::JsonSchema;
 use serde::Serialize;
 

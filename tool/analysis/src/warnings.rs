@@ -1,6 +1,6 @@
 //! Possible mistakes in a machine file that can still be computed.
 
-use jred::Error;
+use jred::error::Error;
 
 use jred_file::model::machine::MachineFile;
 

@@ -2,8 +2,8 @@
 
 use crate::reader;
 use crate::support::{budget, press_file};
-use jred::Reducible as _;
 use jred::duty::{Curve, Figures, Limits, Meter, Verdict, Window};
+use jred::machine::Reducible as _;
 use jred::mechanism::TrainOutput;
 use jred_analysis::duty::{Duty, STEPS};
 use jred_file::model::machine::MachineFile;

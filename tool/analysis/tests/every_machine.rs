@@ -1,8 +1,8 @@
 //! What must hold for every machine file in `machines/`, whatever its mechanism.
 
 use crate::reading::machines;
-use jred::machine::{Jointed, Mechanism};
-use jred::{Domain, Reducible};
+use jred::Domain;
+use jred::machine::{Jointed, Mechanism, Reducible};
 use jred_file::number::numerics::integral;
 
 /// Places over the drive link's range, none of them special.
@@ -71,7 +71,7 @@ fn energy_balances_over_a_cycle() {
             let r = machine.bare_reduction(phi).unwrap();
             drive(phi) + r.process - r.viscous * OMEGA - r.coulomb
         };
-        let unbalanced = |phi: f64| Ok::<f64, jred::Error>(unbalanced(phi));
+        let unbalanced = |phi: f64| Ok::<f64, jred::error::Error>(unbalanced(phi));
         let work = integral(unbalanced, [from, to], 48, 1e-11 * size).unwrap();
         let gap = work - kinetic - potential;
         println!(

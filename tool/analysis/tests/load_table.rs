@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 use std::fmt::Write;
 
-use jred::Reducible;
+use jred::machine::Reducible;
 use jred_analysis::duty::Duty;
 use jred_analysis::inspect::Findings;
 use jred_file::model::machine::MachineFile;
@@ -110,7 +110,7 @@ fn a_varying_payload_keeps_the_energy() {
     for [from, to] in [[0.3, 0.8], [0.75, 0.85], [2.5, 3.4], [0.0, TAU]] {
         let work = |phi: f64| {
             let r = with.machine.reduction(phi)?;
-            Ok::<f64, jred::Error>(0.5 * r.inertia_slope * omega * omega)
+            Ok::<f64, jred::error::Error>(0.5 * r.inertia_slope * omega * omega)
         };
         let work = integral(work, [from, to], 72, 1e-12).unwrap();
         let gained = 0.5 * omega * omega * (inertia(to) - inertia(from));

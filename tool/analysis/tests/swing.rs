@@ -4,8 +4,8 @@ use std::f64::consts::TAU;
 use std::path::Path;
 
 use crate::reader;
-use jred::machine::Mechanism;
-use jred::{Domain, Reducible};
+use jred::Domain;
+use jred::machine::{Mechanism, Reducible};
 use jred_analysis::duty::Duty;
 use jred_analysis::reduce::{At, Over, Request, Sets, reduce_at};
 use jred_file::argument;

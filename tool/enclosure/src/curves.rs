@@ -1,8 +1,8 @@
-//! The reduction of a machine on a stretch, with the equations of `jred::Reduction` in Taylor forms.
+//! The reduction of a machine on a stretch, with the equations of `jred::machine::Reduction` in Taylor forms.
 
 use std::f64::consts::TAU;
 
-use jred::Link;
+use jred::machine::Link;
 use jred::machine::{Action, Element, ElementLaw, Load, Window};
 
 use crate::fault::Unproven;

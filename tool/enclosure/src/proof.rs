@@ -1,7 +1,7 @@
 //! The largest error of a table, bounded over all positions by bisection of stretches and of parts of cells.
 
 use jred::Domain;
-use jred::Table;
+use jred::table::Table;
 use jred::table::{CellCurves, Format};
 
 use crate::curves::Curves;

@@ -1,10 +1,9 @@
 //! Enclosures of J, J′ and the load, compared with 50-digit references (`tests/data` of the library).
 
-use jred::machine::{Action, Jointed, Load, MassProperties};
+use jred::machine::{Action, Jointed, Link, Load, Machine, MassProperties};
 use jred::mechanism::{
     Branch, FourBar, FourBarDimensions, Side, SliderCrank, SliderCrankDimensions,
 };
-use jred::{Link, Machine};
 use jred_enclosure::Interval;
 use serde_json::Value;
 

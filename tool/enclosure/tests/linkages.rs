@@ -1,16 +1,15 @@
 //! Proofs of tables of linkages, compared with searches for the largest error; and proofs that must fail.
 
-use jred::machine::{Action, Element, Jointed, Load, Marker, MassProperties, Window};
+use jred::machine::{
+    Action, Element, Jointed, Link, Load, Machine, Marker, MassProperties, Reducible, Window,
+};
 use jred::mechanism::{
     Branch, FourBar, FourBarDimensions, ScotchYoke, ScotchYokeDimensions, Side, SliderCrank,
     SliderCrankDimensions,
 };
-use jred::table::Format;
+use jred::table::{Format, Table};
 use jred::tabulate::{Request, measure};
-use jred::{
-    Cubic, Domain, Link, Machine, Q31, Quadratic, Reducible, Rows16, Scale, Spline, Spline16,
-    Table, curves,
-};
+use jred::{Cubic, Domain, Q31, Quadratic, Rows16, Scale, Spline, Spline16, curves};
 use jred_enclosure::{Closure, Unproven};
 
 use crate::mechanics::{EVERY, Enclosed, Made, Silent, made, proof, read, searched};
@@ -180,7 +179,9 @@ fn a_peak_between_the_places_is_proven_and_not_estimated() {
     let set = curves::LOAD | curves::VISCOUS;
     let made: Made<Spline<f32>> = made(&silent, set, cells, Scale::SI);
     let table = Table::new(&made.words, made.shape).unwrap();
-    let request = Request::new(1.0).with_omega(RANGE[0]).with_alpha(RANGE[1]);
+    let request = Request::new(1.0)
+        .with_max_speed(RANGE[0])
+        .with_max_acceleration(RANGE[1]);
     let estimated = measure(&silent, &table, &request).unwrap();
     let enclosed = Enclosed::new(&machine);
     let proof = proof(&silent, &made, RANGE, &|stretch| enclosed.curves(stretch)).unwrap();

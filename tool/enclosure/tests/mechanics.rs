@@ -1,9 +1,9 @@
 //! A machine of the core with closed loops, as curves for a proof; and a search for the error of a table.
 
-use jred::machine::Jointed;
-use jred::table::{CurveValues, Format, words_len};
+use jred::machine::{Jointed, Machine, Reducible, Reduction};
+use jred::table::{CurveValues, Format, Table, words_len};
 use jred::tabulate::{Request, fill, measure, scratch_len, torque_between};
-use jred::{Machine, Phase, Reducible, Reduction, Scale, Set, Table, curves};
+use jred::{CurveSet, Phase, Scale, curves};
 use jred_enclosure::{Closure, Curves, Goal, Parts, Proof, Unproven, prove};
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt as _, SeedableRng as _};
@@ -45,7 +45,7 @@ pub(crate) struct Made<F: Format> {
 
 pub(crate) fn made<F: Format>(
     machine: &impl Reducible,
-    set: Set,
+    set: CurveSet,
     cells: u32,
     scale: Scale,
 ) -> Made<F> {
@@ -61,7 +61,9 @@ pub(crate) fn made<F: Format>(
 
 /// The request for a range of speed and acceleration.
 fn request([omega, alpha]: [f64; 2]) -> Request {
-    Request::new(1.0).with_omega(omega).with_alpha(alpha)
+    Request::new(1.0)
+        .with_max_speed(omega)
+        .with_max_acceleration(alpha)
 }
 
 /// Proves a table of a turn.
@@ -157,4 +159,4 @@ impl<M: Jointed> Reducible for Silent<'_, M> {
 }
 
 /// Load and both frictions, where a machine has them.
-pub(crate) const EVERY: Set = curves::LOAD | curves::VISCOUS | curves::COULOMB;
+pub(crate) const EVERY: CurveSet = curves::LOAD | curves::VISCOUS | curves::COULOMB;

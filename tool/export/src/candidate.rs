@@ -1,8 +1,9 @@
 //! Results of a search: the table of one range, and the tables of a machine, one for each of its pieces.
 
+use jred::error::Error;
 use jred::table::Usage;
-use jred::tabulate::Tabulated;
-use jred::{Error, Scale, Set};
+use jred::tabulate::TableFigures;
+use jred::{CurveSet, Scale};
 
 use crate::choice::{LayoutName, Number};
 use crate::proven::Proven;
@@ -14,9 +15,9 @@ pub struct Made {
     /// Start and end of its range (rad, or m).
     pub range: [f64; 2],
     /// Set of [`curves`](jred::curves).
-    pub curves: Set,
+    pub curves: CurveSet,
     /// Accuracy of its curves.
-    pub found: Tabulated,
+    pub found: TableFigures,
     /// The largest error of the drive torque (N·m, or N): of the curves and of the ticks.
     pub error: f64,
     /// Its torque error at the places of the search only (N·m, or N).
@@ -98,7 +99,7 @@ impl Candidate {
     }
 
     /// Set of [`curves`](jred::curves), common to all tables.
-    pub fn curves(&self) -> Set {
+    pub fn curves(&self) -> CurveSet {
         self.tables.first().map_or(0, |table| table.curves)
     }
 

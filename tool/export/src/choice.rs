@@ -1,11 +1,10 @@
 //! Number types and layouts that a table can have, by name.
 
-use jred::machine::PoseError;
+use jred::machine::{PoseError, Reducible};
 use jred::number::Number as _;
 use jred::table::Format as _;
 use jred::{
-    Cubic, Harmonic, Q15, Q31, Quadratic, Reducible, Rows16, Scale, SliderCrankForm, Spline,
-    Spline16,
+    Cubic, Harmonic, Q15, Q31, Quadratic, Rows16, Scale, SliderCrankForm, Spline, Spline16,
 };
 
 /// Places at which a machine is sampled for its scale and its set of curves.

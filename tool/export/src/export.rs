@@ -2,7 +2,8 @@
 
 use crc::{CRC_32_ISO_HDLC, Crc};
 use jred::image::identify;
-use jred::{Domain, Phase, Reducible as _};
+use jred::machine::Reducible as _;
+use jred::{Domain, Phase};
 
 use crate::candidate::{Answer, Candidate, Made};
 use crate::choice::{LayoutChoice, LayoutName, Number};

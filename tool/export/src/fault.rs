@@ -2,9 +2,10 @@
 
 use std::fmt::Write as _;
 
+use jred::error::Error;
 use jred::number::RangeError;
-use jred::table::MAX_CELLS;
-use jred::{Cubic, Error, Quadratic, Spline, TableError};
+use jred::table::{MAX_CELLS, TableError};
+use jred::{Cubic, Quadratic, Spline};
 
 use crate::candidate::{Answer, Candidate, Made};
 use crate::choice::{LayoutName, Number};

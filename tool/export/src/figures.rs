@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use jred::harmonic::terms;
 use jred::slider_crank::terms as crank;
-use jred::{Set, curves};
+use jred::{CurveSet, curves};
 
 use crate::candidate::Candidate;
 use crate::choice::{LayoutChoice, LayoutName, Number};
@@ -13,7 +13,7 @@ use jred_file::model::coordinate::Coordinate;
 use jred_file::number::rounding::{rounded, short};
 
 /// Bit of the set, its word for a reader, its name in Rust.
-const CURVES: [(Set, &str, &str); 6] = [
+const CURVES: [(CurveSet, &str, &str); 6] = [
     (curves::LOAD, "load", "LOAD"),
     (curves::VISCOUS, "viscous", "VISCOUS"),
     (curves::COULOMB, "coulomb", "COULOMB"),
@@ -31,7 +31,7 @@ const CURVES: [(Set, &str, &str); 6] = [
 ];
 
 /// Bit of a term of harmonics, its name in Rust.
-const TERMS: [(Set, &str); 8] = [
+const TERMS: [(CurveSet, &str); 8] = [
     (terms::INERTIA_COS, "INERTIA_COS"),
     (terms::INERTIA_SIN, "INERTIA_SIN"),
     (terms::LOAD_COS, "LOAD_COS"),
@@ -43,7 +43,7 @@ const TERMS: [(Set, &str); 8] = [
 ];
 
 /// Bit of a term of a slider-crank, its name in Rust.
-const CRANK_TERMS: [(Set, &str); 8] = [
+const CRANK_TERMS: [(CurveSet, &str); 8] = [
     (crank::INERTIA_COS, "INERTIA_COS"),
     (crank::LOAD_SIN, "LOAD_SIN"),
     (crank::LOAD_COS, "LOAD_COS"),
@@ -55,7 +55,7 @@ const CRANK_TERMS: [(Set, &str); 8] = [
 ];
 
 /// The set as a constant expression in Rust.
-fn rust_set(layout: LayoutName, set: Set) -> String {
+fn rust_set(layout: LayoutName, set: CurveSet) -> String {
     let names = CURVES.iter().filter(|(bit, _, _)| set & bit != 0);
     let mut names: Vec<String> = names
         .map(|(_, _, name)| format!("curves::{name}"))

@@ -1,11 +1,13 @@
 //! The fewest harmonics that meet a torque error, or the most accurate ones for their bytes.
 
+use jred::error::Error;
 use jred::harmonic::{self, MAX_HARMONICS, fit, scratch_len, terms_in_use};
-use jred::image::{encode, image_len};
+use jred::image::{Validity, encode, image_len};
+use jred::machine::Reducible as _;
 use jred::number::RangeError;
-use jred::table::{Shape, Usage, words_len};
-use jred::tabulate::{Request, Tabulated};
-use jred::{Error, Harmonic, Image, Reducible as _, Scale, Set, Table, Validity};
+use jred::table::{Shape, Table, Usage, words_len};
+use jred::tabulate::{Request, TableFigures};
+use jred::{CurveSet, Harmonic, Image, Scale};
 
 use crate::candidate::{Answer, Made};
 use crate::search::Search;
@@ -78,11 +80,11 @@ impl Search<'_> {
     }
 
     /// The fewest harmonics whose coefficients meet this error, and the accuracy of their ticks.
-    fn fitted(&self, set: Set, most: u32, torque_error: f64) -> Result<Made, Error> {
+    fn fitted(&self, set: CurveSet, most: u32, torque_error: f64) -> Result<Made, Error> {
         let [omega, alpha] = self.goal.range;
         let request = Request::new(torque_error)
-            .with_omega(omega)
-            .with_alpha(alpha)
+            .with_max_speed(omega)
+            .with_max_acceleration(alpha)
             .with_max_cells(most);
         let mut scratch = vec![0.0; scratch_len(most)];
         let mut words = vec![0.0; words_len::<F>(most, set)];
@@ -99,8 +101,8 @@ impl Search<'_> {
         let mut image = vec![0; image_len::<F>(fitted.harmonics, set)];
         let mut written = |error: f64| {
             let validity = Validity {
-                omega: omega as f32,
-                alpha: alpha as f32,
+                max_speed: omega as f32,
+                max_acceleration: alpha as f32,
                 torque_error: rounded_up(error),
             };
             encode(&table, validity, &mut image).map(<[u32]>::to_vec)
@@ -110,7 +112,7 @@ impl Search<'_> {
         let made = Image::new(&made).map_err(ticks::refusal)?;
         let ticks = ticks::measure::<F>(&made, &self.reference, self.goal.range)?;
         let error = bound.max(looked).max(ticks.torque);
-        let mut found = Tabulated::default();
+        let mut found = TableFigures::default();
         found.cells = fitted.harmonics;
         (found.torque_error, found.bound, found.worst) = (measured, bound, worst);
         Ok(Made {

@@ -3,13 +3,12 @@
 use std::f64::consts::TAU;
 use std::ops::RangeInclusive;
 
+use jred::error::Error;
+use jred::machine::{Machine, Reducible as _};
 use jred::mechanism::SliderCrank;
-use jred::table::Format;
+use jred::table::{Format, TableError};
 use jred::tabulate::{self, Part};
-use jred::{
-    Cubic, Domain, Error, Machine, Q31, Quadratic, Reducible as _, Rows16, Set, Spline, Spline16,
-    TableError, curves,
-};
+use jred::{Cubic, CurveSet, Domain, Q31, Quadratic, Rows16, Spline, Spline16, curves};
 
 use crate::candidate::Answer;
 use crate::choice::{LayoutName, Number, PLACES};
@@ -60,7 +59,7 @@ pub(crate) struct Searches<'m> {
     /// The same machine in closed form, if it has one.
     pub(crate) crank: Option<Machine<SliderCrank>>,
     pub(crate) goal: Goal,
-    set: Set,
+    set: CurveSet,
     pub(crate) ranges: Vec<Search<'m>>,
 }
 

@@ -3,8 +3,9 @@
 
 use std::f64::consts::TAU;
 
-use jred::machine::Mechanism as _;
-use jred::{Domain, Error, Reducible, Reduction};
+use jred::Domain;
+use jred::error::Error;
+use jred::machine::{Mechanism as _, Reducible, Reduction};
 
 use jred_file::model::coordinate::Coordinate;
 use jred_file::model::machine::MachineFile;

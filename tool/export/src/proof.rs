@@ -1,10 +1,10 @@
 //! The error of an exported table, proven over every position.
 
-use jred::image::{encode, identify};
+use jred::error::Error;
+use jred::image::{Validity, encode, identify};
+use jred::machine::Reducible as _;
 use jred::table::Format;
-use jred::{
-    Cubic, Domain, Error, Image, Q31, Quadratic, Reducible as _, Rows16, Spline, Spline16, Validity,
-};
+use jred::{Cubic, Domain, Image, Q31, Quadratic, Rows16, Spline, Spline16};
 use jred_enclosure::{Goal, Proof, Unproven, prove};
 
 use crate::candidate::{Answer, Made};

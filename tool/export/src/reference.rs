@@ -4,10 +4,11 @@ use std::cell::{OnceCell, RefCell};
 use std::collections::HashMap;
 use std::f64::consts::TAU;
 
-use jred::machine::PoseError;
+use jred::error::Error;
+use jred::machine::{PoseError, Reducible, Reduction};
 use jred::table::CurveValues;
 use jred::tabulate::{Part, Request, edge_places, torque_between};
-use jred::{Domain, Error, Phase, Reducible, Reduction};
+use jred::{Domain, Phase};
 
 use crate::ways::BothWays;
 
@@ -162,7 +163,9 @@ impl Reference {
         [omega, alpha]: [f64; 2],
         (start, limit): (usize, f64),
     ) -> (f64, usize) {
-        let request = Request::new(limit).with_omega(omega).with_alpha(alpha);
+        let request = Request::new(limit)
+            .with_max_speed(omega)
+            .with_max_acceleration(alpha);
         let mut worst = (0.0, start);
         let order = (start..self.places.len()).chain(0..start);
         for (index, place) in order.filter_map(|k| Some((k, self.places.get(k)?))) {

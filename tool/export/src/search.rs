@@ -5,11 +5,12 @@
 
 use std::collections::HashMap;
 
-use jred::machine::PoseError;
+use jred::error::Error;
+use jred::machine::{PoseError, Reducible as _};
 use jred::number::RangeError;
-use jred::table::{Format, MAX_CELLS, MIN_CELLS};
+use jred::table::{Format, MAX_CELLS, MIN_CELLS, TableError};
 use jred::tabulate::{self, Request};
-use jred::{Domain, Error, Reducible as _, Scale, Set, TableError};
+use jred::{CurveSet, Domain, Scale};
 
 use crate::candidate::{Answer, Made};
 use crate::reference::{Range, Reference, Remembered};
@@ -44,14 +45,14 @@ pub(crate) struct Search<'m> {
     pub(crate) domain: Domain,
     pub(crate) reference: Reference,
     pub(crate) goal: Goal,
-    pub(crate) set: Set,
+    pub(crate) set: CurveSet,
 }
 
 impl<'m> Search<'m> {
     /// A search over a range of a machine with known curves in use, with a cache of at most this many knots.
     pub(crate) fn new(
         machine: Range<'m>,
-        set: Set,
+        set: CurveSet,
         goal: Goal,
         most_knots: usize,
     ) -> Result<Self, Error> {
@@ -72,7 +73,7 @@ impl<'m> Search<'m> {
     /// Errors of the machine.
     pub(crate) fn run<F: Format>(
         &self,
-        set: Set,
+        set: CurveSet,
         scale: Scale,
         shared: Option<u32>,
     ) -> Result<Answer<Made>, Error> {
@@ -103,7 +104,7 @@ impl<'m> Search<'m> {
 
 struct Attempt<'s, F: Format> {
     search: &'s Search<'s>,
-    set: Set,
+    set: CurveSet,
     scale: Scale,
     /// Common divisor of all numbers of cells, if the machine units are shared.
     shared: Option<u32>,
@@ -250,8 +251,8 @@ impl<'s, F: Format> Attempt<'s, F> {
         };
         let [omega, alpha] = self.search.goal.range;
         let request = Request::new(limit)
-            .with_omega(omega)
-            .with_alpha(alpha)
+            .with_max_speed(omega)
+            .with_max_acceleration(alpha)
             .with_max_cells(cells);
         let size = self.size(cells);
         match size.make(&mut self.buffers, &request, looked) {

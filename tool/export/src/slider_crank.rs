@@ -1,15 +1,14 @@
 //! A slider-crank in closed form, if the machine is one.
 
+use jred::error::Error;
 use jred::harmonic::measure;
-use jred::image::{encode, image_len};
-use jred::machine::Mechanism as _;
+use jred::image::{Validity, encode, image_len};
+use jred::machine::{Machine, Mechanism as _, Reducible as _};
 use jred::mechanism::SliderCrank;
 use jred::slider_crank::{SliderCrankError, form, set_in_use};
-use jred::table::{Shape, Usage, words_len};
-use jred::tabulate::{Request, Tabulated};
-use jred::{
-    Domain, Error, Image, Machine, Reducible as _, Scale, SliderCrankForm, Table, Validity,
-};
+use jred::table::{Shape, Table, Usage, words_len};
+use jred::tabulate::{Request, TableFigures};
+use jred::{Domain, Image, Scale, SliderCrankForm};
 
 use crate::candidate::{Answer, Made};
 use crate::search::Search;
@@ -139,8 +138,8 @@ impl Search<'_> {
         };
         let [omega, alpha] = self.goal.range;
         let request = Request::new(self.goal.torque_error.unwrap_or(f64::INFINITY))
-            .with_omega(omega)
-            .with_alpha(alpha);
+            .with_max_speed(omega)
+            .with_max_acceleration(alpha);
         let (measured, worst) = measure(machine, &table, &request, PLACES)?;
         let domain = self.machine.domain();
         let all = (0, f64::INFINITY);
@@ -149,8 +148,8 @@ impl Search<'_> {
         let mut image = vec![0; image_len::<F>(0, set)];
         let mut written = |error: f64| {
             let validity = Validity {
-                omega: omega as f32,
-                alpha: alpha as f32,
+                max_speed: omega as f32,
+                max_acceleration: alpha as f32,
                 torque_error: rounded_up(error),
             };
             encode(&table, validity, &mut image).map(<[u32]>::to_vec)
@@ -159,7 +158,7 @@ impl Search<'_> {
         let made = Image::new(&made).map_err(ticks::refusal)?;
         let ticks = ticks::measure::<F>(&made, &self.reference, self.goal.range)?;
         let error = measured.max(looked).max(ticks.torque);
-        let mut found = Tabulated::default();
+        let mut found = TableFigures::default();
         found.cells = words.len() as u32;
         (found.torque_error, found.bound, found.worst) = (measured, measured.max(looked), worst);
         let made = Box::new(Made {

@@ -1,6 +1,7 @@
 //! The request, and why it is rejected.
 
-use jred::{Error, Machine};
+use jred::error::Error;
+use jred::machine::Machine;
 
 use crate::choice::{LayoutChoice, Number};
 use crate::cost::Core;

@@ -1,8 +1,9 @@
 //! An image ticked like firmware does, against the exact machine.
 
+use jred::error::Error;
 use jred::number::{Number as _, Quantity};
 use jred::table::{AccelerationOf, Format, SpeedOf, TorqueOf};
-use jred::{Error, Image, ImageError};
+use jred::{Image, ImageError};
 
 use crate::reference::{Place, Reference};
 

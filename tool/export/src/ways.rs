@@ -10,8 +10,9 @@
 //! So a friction of 2 N·m forwards and 3 N·m backwards is a friction of 2.5 N·m and a load of 0.5 N·m forwards: the result of a tick is exact in both
 //! directions. At rest, where friction may be anything between r₋ and r₊, it is their mean.
 
-use jred::machine::PoseError;
-use jred::{Domain, Error, Machine, Reducible, Reduction};
+use jred::Domain;
+use jred::error::Error;
+use jred::machine::{Machine, PoseError, Reducible, Reduction};
 
 use crate::task::{Failure, Task};
 use jred_file::model::machine::{MachineFile, Machines};
@@ -150,7 +151,7 @@ impl Reducible for BothWays {
 #[cfg(test)]
 mod tests {
     use super::combined;
-    use jred::Reduction;
+    use jred::machine::Reduction;
 
     /// c − load is the resistance forwards, −c − load the resistance backwards, also with springs and process torques.
     #[test]

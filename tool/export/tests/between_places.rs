@@ -1,9 +1,10 @@
-//! How far a table errs beyond what `Tabulated::bound` says, which rests on places at equal distances: a search by hill climbing
+//! How far a table errs beyond what `TableFigures::bound` says, which rests on places at equal distances: a search by hill climbing
 //! between them, for every machine file in `machines/`.
 
-use jred::table::{Format, words_len};
+use jred::machine::Reducible;
+use jred::table::{Format, Table, words_len};
 use jred::tabulate::{Request, curves_in_use, fill, measure, scratch_len, torque_between};
-use jred::{Cubic, Phase, Quadratic, Reducible, Scale, Set, Spline, Table, curves};
+use jred::{Cubic, CurveSet, Phase, Quadratic, Scale, Spline, curves};
 
 use crate::reading::machines;
 
@@ -46,8 +47,10 @@ fn searched(worst: f64, machine: &impl Reducible, cells: u32, error: impl Fn(u32
 
 /// The largest error found over the largest at the places, and over the bound; of the smallest of some sizes that is a table.
 fn beyond<F: Format>(machine: &impl Reducible) -> Option<[f64; 2]> {
-    let set: Set = curves_in_use(machine, 256).unwrap();
-    let request = Request::new(1.0).with_omega(OMEGA).with_alpha(ALPHA);
+    let set: CurveSet = curves_in_use(machine, 256).unwrap();
+    let request = Request::new(1.0)
+        .with_max_speed(OMEGA)
+        .with_max_acceleration(ALPHA);
     let cells = [24, 96, 384]
         .into_iter()
         .find(|cells| table::<F, _>(machine, set, *cells, |_| ()).is_some())?;
@@ -72,7 +75,7 @@ fn beyond<F: Format>(machine: &impl Reducible) -> Option<[f64; 2]> {
 
 fn table<F: Format, T>(
     machine: &impl Reducible,
-    set: Set,
+    set: CurveSet,
     cells: u32,
     with: impl Fn(&Table<'_, F>) -> T,
 ) -> Option<T> {

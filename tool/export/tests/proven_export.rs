@@ -1,9 +1,10 @@
 //! The proven error of exported tables, for every machine file in `machines/`, against random places.
 
 use jred::image::HEADER_WORDS;
+use jred::machine::{Machine, Reducible};
 use jred::table::Format;
 use jred::tabulate::{Request, torque_between};
-use jred::{Cubic, Image, Machine, Phase, Q31, Reducible, Rows16, Spline};
+use jred::{Cubic, Image, Phase, Q31, Rows16, Spline};
 use jred_export::{Export, LayoutChoice, Number, Proven, Task};
 use jred_file::model::machine::MachineFile;
 use jred_file::model::mechanism::AnyMechanism;
@@ -57,7 +58,9 @@ type Searched = fn(&Machine<AnyMechanism>, &[u32]) -> [f64; 2];
 fn searched<F: Format>(machine: &Machine<AnyMechanism>, words: &[u32]) -> [f64; 2] {
     let image = Image::new(words).unwrap();
     let (table, model) = (image.table::<F>().unwrap(), image.any_model::<F>().unwrap());
-    let request = Request::new(1.0).with_omega(OMEGA).with_alpha(ALPHA);
+    let request = Request::new(1.0)
+        .with_max_speed(OMEGA)
+        .with_max_acceleration(ALPHA);
     let domain = machine.domain();
     let mut random = ChaCha8Rng::seed_from_u64(11);
     let mut most = [0.0_f64; 2];

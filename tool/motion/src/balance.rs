@@ -11,8 +11,8 @@
 //! The bounds of a real body and a real spring are convex, and so is the RMS or the peak of T. The result is therefore the global optimum, with a
 //! stated gap. T is the torque at the drive link, with the inertia of the drive train but without its losses.
 
-use jred::machine::{Element, Mechanism as _};
-use jred::{Error, Reducible as _};
+use jred::error::Error;
+use jred::machine::{Element, Mechanism as _, Reducible as _};
 use jred_analysis::contact::{OneWay, Parted};
 use jred_analysis::duty::{self, Duty};
 use jred_file::model::coordinate::positions;

@@ -3,7 +3,7 @@
 //! No limit of a fastest motion covers them. The force of a contact is linear in the acceleration, so place and speed give the largest acceleration
 //! that keeps it.
 
-use jred::Error;
+use jred::error::Error;
 use jred_analysis::contact::{Lost, OneWay, lost};
 use jred_file::model::machine::MachineFile;
 use jred_file::model::motion::Motion;

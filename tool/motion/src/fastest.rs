@@ -35,7 +35,8 @@ pub mod winding;
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-use jred::{Domain, Reducible as _};
+use jred::Domain;
+use jred::machine::Reducible as _;
 use jred_file::model::machine::MachineFile;
 
 use crate::trace::Trace;

@@ -19,7 +19,7 @@
 
 use std::rc::Rc;
 
-use jred::Error;
+use jred::error::Error;
 use jred_file::model::motion::Phase;
 
 use self::outcome::Waits;

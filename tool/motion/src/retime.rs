@@ -1,6 +1,6 @@
 //! The gentlest moves of a machine file, each in its own time, compared with the motion laws.
 
-use jred::Error;
+use jred::error::Error;
 use jred::machine::motion::Law;
 use jred_analysis::duty;
 use jred_file::model::machine::MachineFile;

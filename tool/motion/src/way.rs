@@ -12,9 +12,10 @@
 
 mod flows;
 
+use jred::error::Error;
+use jred::machine::Reduction;
 use jred::machine::motion::State;
 use jred::mechanism::TrainOutput;
-use jred::{Error, Reduction};
 use jred_file::model::coordinate::Coordinate;
 use jred_file::model::machine::MachineFile;
 use jred_file::model::schedule::Now;

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use jred::Reducible as _;
+use jred::machine::Reducible as _;
 use jred_analysis::checked;
 use jred_analysis::duty::Duty;
 use jred_file::model::coordinate::positions;

@@ -6,7 +6,7 @@
 
 use std::fmt::Write as _;
 
-use jred::Error;
+use jred::error::Error;
 use jred::machine::Mechanism as _;
 
 use crate::plot::PALETTE;

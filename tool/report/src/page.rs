@@ -4,7 +4,7 @@
 //! (`templates/vendor/uplot`, MIT licence), with zoom and readout.
 
 use askama::Template;
-use jred::Error;
+use jred::error::Error;
 
 use crate::list;
 use crate::list::listing::{self, Explanation};

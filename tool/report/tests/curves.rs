@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use jred::Reducible as _;
+use jred::machine::Reducible as _;
 use jred_analysis::checked;
 use jred_analysis::reduce::{Over, Request, Sets, reduce};
 use jred_report::table::output;

@@ -2,9 +2,11 @@
 use std::path::Path;
 
 use crate::support::{budget, near};
-use jred::machine::{Frame, Frames, Joint, Jointed, Joints, Marker, MassProperties, Mechanism};
+use jred::Domain;
+use jred::machine::{
+    Frame, Frames, Joint, Jointed, Joints, Link, Machine, Marker, MassProperties, Mechanism,
+};
 use jred::number::Transfer;
-use jred::{Domain, Link, Machine};
 use jred_analysis::inspect::Findings;
 use jred_analysis::reduce::{Over, Request, Sets, reduce};
 use jred_file::model::coordinate::Coordinate;

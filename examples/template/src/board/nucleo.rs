@@ -5,7 +5,7 @@
 //! and RM0444 (RCC, GPIO, TIM2 encoder mode, DAC), data sheets DS10693 and DS12232 (alternate functions).
 
 use jred::Phase;
-use jred::axis::Tracked;
+use jred::axis::TrackerOutput;
 use panic_halt as _;
 use stm32_metapac::gpio::vals::Moder;
 use stm32_metapac::timer::vals::{CcmrInputCcs, Sms};
@@ -60,7 +60,7 @@ impl Board {
     }
 
     /// The set-point of this tick. Here the machine is to rest at φ = 0: replace it by your planned motion, in rad, rad/s and rad/s².
-    pub fn wanted(&mut self) -> Tracked {
+    pub fn wanted(&mut self) -> TrackerOutput {
         set_point(Phase::from_radians_f32(0.0), 0.0, 0.0)
     }
 
@@ -72,10 +72,10 @@ impl Board {
 }
 
 /// A set-point in SI units (rad/s, rad/s²), converted to the tick's units. NaN is marked as a jump, so that its tick is flagged.
-fn set_point(phase: Phase, omega: f32, alpha: f32) -> Tracked {
+fn set_point(phase: Phase, omega: f32, alpha: f32) -> TrackerOutput {
     const SPEED: f32 = 4_294_967_296.0 / core::f32::consts::TAU / RATE as f32;
     const ACCELERATION: f32 = SPEED * 256.0 / RATE as f32;
-    Tracked {
+    TrackerOutput {
         phase,
         speed: (omega * SPEED) as i32,
         acceleration: (alpha * ACCELERATION) as i32,

@@ -6,7 +6,7 @@
 use cortex_m_semihosting::debug;
 pub use cortex_m_semihosting::hprintln as say;
 use jred::Phase;
-use jred::axis::{Counting, Tracked};
+use jred::axis::{Counting, TrackerOutput};
 use panic_semihosting as _;
 
 use crate::link::Transfer;
@@ -103,13 +103,13 @@ impl Board {
     }
 
     /// The set-point of this tick, with the tick as unit of time.
-    pub fn wanted(&mut self) -> Tracked {
+    pub fn wanted(&mut self) -> TrackerOutput {
         let acceleration = ACCELERATION.min(SPEED - self.speed);
-        let now = Tracked {
+        let now = TrackerOutput {
             phase: Phase::from_bits((self.place >> 8) as u32),
             speed: (self.speed >> 8) as i32,
             acceleration: acceleration as i32,
-            ..Tracked::default()
+            ..TrackerOutput::default()
         };
         // The machine at the next tick.
         self.tick += 1;

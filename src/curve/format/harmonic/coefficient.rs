@@ -1,6 +1,6 @@
 //! The coefficients and their order.
 
-use crate::Set;
+use crate::CurveSet;
 use core::fmt;
 
 use crate::curve::curves;
@@ -11,34 +11,34 @@ use crate::curve::curves;
 /// mass on the links' lines and weight along the guide) has even J and odd load: half the coefficients.
 /// [`terms_in_use`](crate::harmonic::terms_in_use) finds the set.
 pub mod terms {
-    use crate::Set;
+    use crate::CurveSet;
 
     /// Cosines of J.
-    pub const INERTIA_COS: Set = 1 << 8;
+    pub const INERTIA_COS: CurveSet = 1 << 8;
     /// Sines of J.
-    pub const INERTIA_SIN: Set = 1 << 9;
+    pub const INERTIA_SIN: CurveSet = 1 << 9;
     /// Cosines of the load.
-    pub const LOAD_COS: Set = 1 << 10;
+    pub const LOAD_COS: CurveSet = 1 << 10;
     /// Sines of the load.
-    pub const LOAD_SIN: Set = 1 << 11;
+    pub const LOAD_SIN: CurveSet = 1 << 11;
     /// Cosines of the viscous coefficient.
-    pub const VISCOUS_COS: Set = 1 << 12;
+    pub const VISCOUS_COS: CurveSet = 1 << 12;
     /// Sines of the viscous coefficient.
-    pub const VISCOUS_SIN: Set = 1 << 13;
+    pub const VISCOUS_SIN: CurveSet = 1 << 13;
     /// Cosines of the Coulomb friction.
-    pub const COULOMB_COS: Set = 1 << 14;
+    pub const COULOMB_COS: CurveSet = 1 << 14;
     /// Sines of the Coulomb friction.
-    pub const COULOMB_SIN: Set = 1 << 15;
+    pub const COULOMB_SIN: CurveSet = 1 << 15;
     /// J and load of any machine; constant viscous and Coulomb friction.
-    pub const GENERAL: Set = INERTIA_COS | INERTIA_SIN | LOAD_COS | LOAD_SIN;
+    pub const GENERAL: CurveSet = INERTIA_COS | INERTIA_SIN | LOAD_COS | LOAD_SIN;
     /// J even, load odd; constant viscous and Coulomb friction.
-    pub const SYMMETRIC: Set = INERTIA_COS | LOAD_SIN;
+    pub const SYMMETRIC: CurveSet = INERTIA_COS | LOAD_SIN;
     /// All.
-    pub const ALL: Set = 0xff00;
+    pub const ALL: CurveSet = 0xff00;
 }
 
 /// The terms of existing curves.
-pub(crate) const fn in_use(set: Set) -> Set {
+pub(crate) const fn in_use(set: CurveSet) -> CurveSet {
     let mut used = set & (terms::INERTIA_COS | terms::INERTIA_SIN);
     let mut curve = 1;
     while curve < 4 {
@@ -51,7 +51,7 @@ pub(crate) const fn in_use(set: Set) -> Set {
 }
 
 /// Number of means: J and the curves of the set.
-pub(crate) const fn means(set: Set) -> usize {
+pub(crate) const fn means(set: CurveSet) -> usize {
     let mut means = 0;
     let mut curve = 0;
     while curve < Curve::ALL.len() {
@@ -62,7 +62,7 @@ pub(crate) const fn means(set: Set) -> usize {
 }
 
 /// Number of coefficients of each harmonic.
-pub(crate) const fn row(set: Set) -> usize {
+pub(crate) const fn row(set: CurveSet) -> usize {
     in_use(set).count_ones() as usize
 }
 
@@ -92,7 +92,7 @@ impl Curve {
     ];
 
     /// Whether machines of this set have it. A constant b is the mean of a curve without terms.
-    pub(crate) const fn is_in(self, set: Set) -> bool {
+    pub(crate) const fn is_in(self, set: CurveSet) -> bool {
         let bits = match self {
             Self::Inertia => return true,
             Self::Load => curves::LOAD,
@@ -131,7 +131,7 @@ impl Coefficient {
     /// for each harmonic, as far as the set has them, the cosine and sine of J, of the load, of the viscous coefficient, of the Coulomb friction.
     /// `None` after the last possible one.
     #[must_use]
-    pub fn of_word(word: usize, set: Set) -> Option<Self> {
+    pub fn of_word(word: usize, set: CurveSet) -> Option<Self> {
         let mut present = Curve::ALL.into_iter().filter(|curve| curve.is_in(set));
         let Some(place) = word.checked_sub(means(set)) else {
             let kind = Kind::Mean;

@@ -32,11 +32,11 @@ use series::{Series, Values, pair, size};
 use core::marker::PhantomData;
 
 use super::{CONSTANTS, Format, Size};
-use crate::curve::curves::{self, Set};
+use crate::curve::curves::{self, CurveSet};
 use crate::curve::samples::{Sample, Samples};
 use crate::curve::{CurveValues, Shape, Table, TableError, Usage};
 use crate::number::error::RangeError;
-use crate::number::{Kernel, Number, Sliding};
+use crate::number::{FrictionSign, Kernel, Number};
 use crate::{Domain, Outcome, Phase, Scale};
 
 /// Greatest number of harmonics of a series.
@@ -59,7 +59,7 @@ pub struct Harmonic<T>(PhantomData<T>);
 impl<F: Format> Shape<F> {
     /// The shape of this number of harmonics, in SI units.
     #[must_use]
-    pub fn harmonics(harmonics: u32, set: Set) -> Self {
+    pub fn harmonics(harmonics: u32, set: CurveSet) -> Self {
         Self {
             set,
             cells: harmonics,
@@ -71,7 +71,7 @@ impl<F: Format> Shape<F> {
 }
 
 /// Checks that words are numbers that can be summed.
-fn check<T: Circular>(words: &[T], set: Set) -> Result<(), TableError> {
+fn check<T: Circular>(words: &[T], set: CurveSet) -> Result<(), TableError> {
     let most = T::from_f64(1e30);
     let Some(word) = words.iter().position(|&w| !(w < most && w > -most)) else {
         return Ok(());
@@ -85,7 +85,7 @@ fn check<T: Circular>(words: &[T], set: Set) -> Result<(), TableError> {
 }
 
 /// Largest magnitudes of the curves, as sums of their coefficients' magnitudes.
-fn usage<T: Circular>(series: &Series<'_, T>, set: Set) -> Usage {
+fn usage<T: Circular>(series: &Series<'_, T>, set: CurveSet) -> Usage {
     let [zero, _, one] = T::CONSTANTS;
     let mut sums = series.means.map(size);
     let (mut slope, mut order) = (zero, one);
@@ -118,11 +118,11 @@ fn usage<T: Circular>(series: &Series<'_, T>, set: Set) -> Usage {
 fn with_friction<T: Kernel<Raw = T>>(
     sum: T,
     values: &Values<T>,
-    set: Set,
-    sliding: Sliding<T>,
+    set: CurveSet,
+    friction: FrictionSign<T>,
 ) -> T {
     if Curve::Coulomb.is_in(set) || Curve::Constant.is_in(set) {
-        T::add_sliding(sum, values.coulomb, sliding)
+        T::add_sliding(sum, values.coulomb, friction)
     } else {
         sum
     }
@@ -143,7 +143,7 @@ macro_rules! harmonic {
             const CELLS: [u32; 2] = [0, MAX_HARMONICS];
             const WHOLE_FACTOR: bool = false;
 
-            fn accepts(set: Set) -> bool {
+            fn accepts(set: CurveSet) -> bool {
                 let known = curves::ALL | curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB;
                 set & !(known | terms::ALL) == 0
             }
@@ -185,18 +185,18 @@ macro_rules! harmonic {
                 Err(TableError::Harmonics.into())
             }
 
-            fn base(_: u8, _: Set) -> &'static str {
+            fn base(_: u8, _: CurveSet) -> &'static str {
                 "torque"
             }
 
-            fn header((): &(), set: Set) -> [u32; CONSTANTS] {
+            fn header((): &(), set: CurveSet) -> [u32; CONSTANTS] {
                 [(set >> 8).into(), 0, 0, 0, 0, 0, 0, 0, 0, 0, 0]
             }
 
             fn from_header(_: &[u32; CONSTANTS]) {}
 
-            fn set(&[terms, ..]: &[u32; CONSTANTS], set: Set) -> Set {
-                set | (terms as Set) << 8
+            fn set(&[terms, ..]: &[u32; CONSTANTS], set: CurveSet) -> CurveSet {
+                set | (terms as CurveSet) << 8
             }
 
             fn usage(table: &Table<'_, Self>) -> Result<Usage, TableError> {
@@ -219,7 +219,7 @@ macro_rules! harmonic {
             fn moved<'a>(
                 tick: &Self::Tick<'_>,
                 table: &Table<'a, Self>,
-                set: Set,
+                set: CurveSet,
             ) -> Self::Tick<'a> {
                 tick.moved(table.words(), set)
             }
@@ -228,23 +228,25 @@ macro_rules! harmonic {
             fn torque(
                 _: &Table<'_, Self>,
                 tick: &Self::Tick<'_>,
-                set: Set,
+                set: CurveSet,
                 phase: Phase,
-                [omega, alpha]: [$number; 2],
-                sliding: Sliding<$number>,
+                omega: $number,
+                alpha: $number,
+                friction: FrictionSign<$number>,
             ) -> $number {
                 let values = tick.at(set, phase);
                 values.inertia * alpha
-                    + with_friction(tick.resisting(&values, set, omega), &values, set, sliding)
+                    + with_friction(tick.resisting(&values, set, omega), &values, set, friction)
             }
 
-            fn contributions(
+            fn torque_terms(
                 _: &Table<'_, Self>,
                 tick: &Self::Tick<'_>,
-                set: Set,
+                set: CurveSet,
                 phase: Phase,
-                [omega, alpha]: [$number; 2],
-                sliding: Sliding<$number>,
+                omega: $number,
+                alpha: $number,
+                friction: FrictionSign<$number>,
             ) -> [$number; 5] {
                 let values = tick.at(set, phase);
                 [
@@ -252,7 +254,7 @@ macro_rules! harmonic {
                     tick.velocity(&values, omega),
                     -values.load,
                     values.viscous * omega,
-                    with_friction(0.0, &values, set, sliding),
+                    with_friction(0.0, &values, set, friction),
                 ]
             }
 
@@ -260,15 +262,15 @@ macro_rules! harmonic {
             fn accelerations(
                 _: &Table<'_, Self>,
                 tick: &Self::Tick<'_>,
-                set: Set,
+                set: CurveSet,
                 phase: Phase,
                 omega: $number,
-                sliding: Sliding<$number>,
+                friction: FrictionSign<$number>,
                 torques: [$number; 2],
             ) -> [Outcome<$number>; 2] {
                 let values = tick.at(set, phase);
                 let resisting = tick.resisting(&values, set, omega);
-                let resisting = with_friction(resisting, &values, set, sliding);
+                let resisting = with_friction(resisting, &values, set, friction);
                 // Floating point represents every acceleration.
                 let outcome = |torque| Outcome::exact((torque - resisting) / values.inertia);
                 [outcome(torques[0]), outcome(torques[1])]

@@ -3,7 +3,7 @@
 use super::coefficient::{Curve, in_use, means, row, terms};
 use super::sine::Circular;
 use crate::curve::TableError;
-use crate::curve::curves::{Set, has};
+use crate::curve::curves::{CurveSet, has};
 use crate::{Phase, Scale};
 
 /// Numbers of places in the proof of a positive inertia: at first, and at most.
@@ -29,7 +29,7 @@ pub(super) struct Values<T> {
 }
 
 impl<'a, T: Circular> Series<'a, T> {
-    pub(super) fn new(words: &'a [T], set: Set, scale: &Scale) -> Self {
+    pub(super) fn new(words: &'a [T], set: CurveSet, scale: &Scale) -> Self {
         let [zero, half, _] = T::CONSTANTS;
         let (head, rows) = words.split_at_checked(means(set)).unwrap_or_default();
         let mut given = head.iter().copied();
@@ -46,7 +46,7 @@ impl<'a, T: Circular> Series<'a, T> {
     }
 
     #[inline(always)]
-    pub(super) fn moved<'b>(&self, words: &'b [T], set: Set) -> Series<'b, T> {
+    pub(super) fn moved<'b>(&self, words: &'b [T], set: CurveSet) -> Series<'b, T> {
         Series {
             means: self.means,
             rows: words.get(means(set)..).unwrap_or_default(),
@@ -56,13 +56,13 @@ impl<'a, T: Circular> Series<'a, T> {
 
     /// Coefficients, harmonic after harmonic.
     #[inline(always)]
-    pub(super) fn rows(&self, set: Set) -> core::slice::ChunksExact<'a, T> {
+    pub(super) fn rows(&self, set: CurveSet) -> core::slice::ChunksExact<'a, T> {
         // Without terms there are no coefficients.
         self.rows.chunks_exact(row(set).max(1))
     }
 
     #[inline(always)]
-    pub(super) fn at(&self, set: Set, phase: Phase) -> Values<T> {
+    pub(super) fn at(&self, set: CurveSet, phase: Phase) -> Values<T> {
         let [zero, _, one] = T::CONSTANTS;
         let (sin, cos) = T::sin_cos_of(phase);
         let (mut s, mut c, mut order) = (sin, cos, one);
@@ -110,7 +110,7 @@ impl<'a, T: Circular> Series<'a, T> {
 
     /// ½·J′·ω² − load + b·ω, with the machine's curves.
     #[inline(always)]
-    pub(super) fn resisting(&self, values: &Values<T>, set: Set, omega: T) -> T {
+    pub(super) fn resisting(&self, values: &Values<T>, set: CurveSet, omega: T) -> T {
         let mut sum = self.velocity(values, omega);
         if Curve::Load.is_in(set) {
             sum = sum - values.load;
@@ -123,7 +123,7 @@ impl<'a, T: Circular> Series<'a, T> {
 
     /// Proves that J is positive everywhere: its least value at 64 places must exceed the possible decrease by J″ between two of them, h²/8·Σ
     /// k²·(|aₖ| + |bₖ|), and the rounding. Otherwise the number of places doubles, up to 4096.
-    pub(super) fn check_inertia(&self, set: Set) -> Result<(), TableError> {
+    pub(super) fn check_inertia(&self, set: CurveSet) -> Result<(), TableError> {
         let [zero, half, one] = T::CONSTANTS;
         let [mean, ..] = self.means;
         let (mut rounding, mut curvature, mut order) = (size(mean), zero, one);
@@ -171,7 +171,11 @@ pub(super) fn size<T: Circular>(x: T) -> T {
 
 /// The next coefficients of a curve, [cosine, sine], where present.
 #[inline(always)]
-pub(super) fn pair<T>(words: &mut impl Iterator<Item = T>, set: Set, curve: u8) -> [Option<T>; 2] {
+pub(super) fn pair<T>(
+    words: &mut impl Iterator<Item = T>,
+    set: CurveSet,
+    curve: u8,
+) -> [Option<T>; 2] {
     let used = in_use(set);
     let a = if has(used, terms::INERTIA_COS << (2 * curve)) {
         words.next()

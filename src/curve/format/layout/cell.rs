@@ -2,15 +2,15 @@
 
 use super::{Constants, Fraction, Layout, More, Raw, Word};
 use crate::Phase;
-use crate::curve::curves::{self, Set, has};
+use crate::curve::curves::{self, CurveSet, has};
 use crate::curve::format::bases;
 use crate::curve::{CellCurves, Table};
-use crate::number::{Kernel, Ring, Role, Sliding};
+use crate::number::{FrictionSign, Kernel, Ring, Role};
 
 /// One cell's words and the place in it.
 pub(super) struct Cell<'a, L: Layout> {
     words: &'a [Word<L>],
-    set: Set,
+    set: CurveSet,
     constants: &'a Constants<Word<L>>,
     u: Fraction<L>,
 }
@@ -23,7 +23,7 @@ impl<'a, L: Layout> Cell<'a, L> {
         table: &'a Table<'_, L>,
         rows: &L::Rows<'a>,
         phase: Phase,
-        set: Set,
+        set: CurveSet,
     ) -> Option<Self> {
         let (index, u) = L::locate(phase.to_bits(), L::cells(rows, table, set));
         Some(Self {
@@ -92,11 +92,12 @@ impl<'a, L: Layout> Cell<'a, L> {
 
     /// J·α, ½·J′·ω², −load, b·ω and c·sgn ω.
     #[inline(always)]
-    pub(super) fn contributions(
+    pub(super) fn torque_terms(
         &self,
         factor: <L::Number as Kernel>::Factor,
-        [omega, alpha]: [L::Number; 2],
-        sliding: Sliding<L::Number>,
+        omega: L::Number,
+        alpha: L::Number,
+        friction: FrictionSign<L::Number>,
     ) -> [L::Number; 5] {
         let zero = Raw::<L>::default();
         let (inertia, slope) = self.inertia();
@@ -108,7 +109,7 @@ impl<'a, L: Layout> Cell<'a, L> {
             self.curve(Role::Load).map_or(zero, |load| zero - load),
             self.viscous().map_or(zero, speed),
             self.coulomb()
-                .map_or(zero, |c| L::Number::add_sliding(zero, c, sliding)),
+                .map_or(zero, |c| L::Number::add_sliding(zero, c, friction)),
         ]
         .map(L::Number::torque)
     }
@@ -121,9 +122,9 @@ impl<'a, L: Layout> Cell<'a, L> {
 
     /// sum + |c|·sgn ω, if the machine has friction.
     #[inline(always)]
-    pub(super) fn with_friction(&self, sum: Raw<L>, sliding: Sliding<L::Number>) -> Raw<L> {
+    pub(super) fn with_friction(&self, sum: Raw<L>, friction: FrictionSign<L::Number>) -> Raw<L> {
         let coulomb = self.coulomb();
-        coulomb.map_or(sum, |c| L::Number::add_sliding(sum, c, sliding))
+        coulomb.map_or(sum, |c| L::Number::add_sliding(sum, c, friction))
     }
 }
 
@@ -198,7 +199,7 @@ pub(super) fn curves<L: Layout>(
             unscaled
         })
     };
-    let constant = |of: Set, role, word, base: f64| {
+    let constant = |of: CurveSet, role, word, base: f64| {
         if has(set, of) {
             [exact(role, word) * base, 0.0, 0.0, 0.0]
         } else {

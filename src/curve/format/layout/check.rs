@@ -5,7 +5,7 @@
 use super::Layout;
 use super::cell::{Cell, polynomial, wide};
 use crate::curve::format::Runs;
-use crate::curve::{Set, Table, TableError, Usage, curves};
+use crate::curve::{CurveSet, Table, TableError, Usage, curves};
 use crate::math::Real;
 use crate::number::{Kernel, Number, Role};
 use crate::{Domain, Phase};
@@ -127,19 +127,19 @@ pub(super) fn usage<L: Layout>(table: &Table<'_, L>) -> Result<Usage, TableError
 
 /// Values of a checked table that a model needs.
 #[derive(Clone, Copy, Debug)]
-pub struct Proven<'a, L: Layout> {
+pub struct LayoutTick<'a, L: Layout> {
     pub(super) rows: L::Rows<'a>,
     /// Factor of the velocity torque.
     pub(super) factor: <L::Number as Kernel>::Factor,
     pub(super) reciprocal: <L::Number as Kernel>::Reciprocal,
 }
 
-impl<L: Layout> Proven<'_, L> {
+impl<L: Layout> LayoutTick<'_, L> {
     #[inline(always)]
-    pub(super) fn moved<'a>(&self, table: &Table<'a, L>, set: Set) -> Proven<'a, L> {
+    pub(super) fn moved<'a>(&self, table: &Table<'a, L>, set: CurveSet) -> LayoutTick<'a, L> {
         let row = <L as Layout>::ROW;
         let rows = table.cells() + row.more as u32;
-        Proven {
+        LayoutTick {
             rows: Runs::counted(table.words(), row.pitch(set), rows),
             factor: self.factor,
             reciprocal: self.reciprocal,
@@ -147,7 +147,7 @@ impl<L: Layout> Proven<'_, L> {
     }
 }
 
-pub(super) fn model<'a, L: Layout>(table: &Table<'a, L>) -> Result<Proven<'a, L>, TableError> {
+pub(super) fn model<'a, L: Layout>(table: &Table<'a, L>) -> Result<LayoutTick<'a, L>, TableError> {
     let (span, scale) = (table.domain().span(), table.scale());
     let factor = L::Number::velocity_factor(table.cells(), span, scale, L::STEP)
         .ok_or(TableError::SpeedBase)?;
@@ -157,7 +157,7 @@ pub(super) fn model<'a, L: Layout>(table: &Table<'a, L>) -> Result<Proven<'a, L>
     } else {
         <L::Number as Kernel>::Reciprocal::default()
     };
-    Ok(Proven {
+    Ok(LayoutTick {
         rows: L::rows(table.words(), table.set()),
         factor,
         reciprocal,

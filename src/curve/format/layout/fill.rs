@@ -4,7 +4,7 @@ use super::rounding::Points;
 use super::{Constants, Layout, Word};
 use crate::curve::curves::{self, has};
 use crate::curve::samples::{Sample, Samples};
-use crate::curve::{Set, TableError, unfold};
+use crate::curve::{CurveSet, TableError, unfold};
 use crate::math;
 use crate::number::error::RangeError;
 use crate::number::spline::{
@@ -150,7 +150,7 @@ fn constants<'v, L: Layout, E: From<TableError>>(
         L::Number::word(role, value).ok_or(TableError::Overflow { base, cell: 0 })
     };
     let start = samples.at_cell(0.0)?;
-    let constant = |bit: Set, value: f64| if has(samples.set, bit) { value } else { 0.0 };
+    let constant = |bit: CurveSet, value: f64| if has(samples.set, bit) { value } else { 0.0 };
     // The middle of the range minimises the control points.
     let inertia = if <L as Layout>::ROW.more > 0 {
         let ends = values(0)

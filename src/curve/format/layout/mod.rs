@@ -13,12 +13,12 @@ pub use spline::{Spline, Spline16};
 use cell::Cell;
 
 use super::{CONSTANTS, Format, Row, Rows, Runs, Size, bases};
-use crate::curve::curves::{self, Set};
+use crate::curve::curves::{self, CurveSet};
 use crate::curve::samples::{Sample, Samples};
 use crate::curve::table::{CellCurves, CurveValues, Table};
 use crate::curve::{MAX_CELLS, TableError, Usage};
 use crate::number::error::RangeError;
-use crate::number::{Kernel, Number, Ring, Role, Scalar, Sliding, fence};
+use crate::number::{FrictionSign, Kernel, Number, Ring, Role, Scalar, fence};
 use crate::{Outcome, Phase, Q31};
 
 /// Constants of a table of polynomials, in addition to its rows; in machine units, zero if absent.
@@ -71,12 +71,12 @@ pub trait Layout:
     const HALVES: bool = false;
 
     /// The rows of a table.
-    fn rows(words: &[Word<Self>], set: Set) -> Self::Rows<'_> {
+    fn rows(words: &[Word<Self>], set: CurveSet) -> Self::Rows<'_> {
         Runs::new(words, Self::ROW.pitch(set))
     }
     /// Number of cells. If each row is a cell, its rows are counted: the index is compared with that number anyway.
     #[inline(always)]
-    fn cells(rows: &Self::Rows<'_>, table: &Table<'_, Self>, set: Set) -> u32 {
+    fn cells(rows: &Self::Rows<'_>, table: &Table<'_, Self>, set: CurveSet) -> u32 {
         if Self::ROW.more == 0 {
             rows.count(Self::ROW.pitch(set)) as u32
         } else {
@@ -86,14 +86,14 @@ pub trait Layout:
     }
     /// The words of a cell.
     #[inline(always)]
-    fn cell<'a>(rows: &Self::Rows<'a>, index: usize, set: Set) -> Option<&'a [Word<Self>]> {
+    fn cell<'a>(rows: &Self::Rows<'a>, index: usize, set: CurveSet) -> Option<&'a [Word<Self>]> {
         rows.row(Self::ROW.pitch(set), index)
     }
     /// The coefficients of one curve, computed in R.
     fn coefficients<R: Ring>(
         cell: &[Word<Self>],
         column: usize,
-        set: Set,
+        set: CurveSet,
         more: More<R>,
         read: impl Fn(Word<Self>) -> R,
     ) -> [R; 4];
@@ -141,7 +141,7 @@ macro_rules! format {
             type Number = $number;
             type Word = <$number as Number>::Word;
             type Constants = Constants<<$number as Number>::Word>;
-            type Tick<'a> = check::Proven<'a, Self>;
+            type Tick<'a> = check::LayoutTick<'a, Self>;
 
             const NAME: &'static str = $name;
             const CODES: Option<[u8; 2]> = match <$number as Kernel>::CODE {
@@ -151,7 +151,7 @@ macro_rules! format {
             const SIZE: Size = Size::Rows(<Self as Layout>::ROW);
             const WHOLE_FACTOR: bool = Self::Number::FIXED;
 
-            fn accepts(set: Set) -> bool {
+            fn accepts(set: CurveSet) -> bool {
                 let divides = !curves::has(set, curves::RECIPROCAL);
                 curves::is_known(set) && (divides || Self::Number::FIXED)
             }
@@ -208,13 +208,13 @@ macro_rules! format {
                 fill::fill::<Self, E>(samples, scratch, words)
             }
 
-            fn base(curve: u8, set: Set) -> &'static str {
+            fn base(curve: u8, set: CurveSet) -> &'static str {
                 let mut roles = curves::roles(set);
                 let found = roles.find(|(column, _)| *column == usize::from(curve));
                 found.map_or("torque", |(_, role)| role.base())
             }
 
-            fn header(constants: &Self::Constants, _: Set) -> [u32; CONSTANTS] {
+            fn header(constants: &Self::Constants, _: CurveSet) -> [u32; CONSTANTS] {
                 // Numbers of 64 bits do not fit, and are not stored.
                 let bits = |word: Self::Word| bytemuck::try_cast(word).unwrap_or(0);
                 let [j, load, b, c, reciprocal] = constants.gains.map(u32::from);
@@ -256,7 +256,7 @@ macro_rules! format {
             fn moved<'a>(
                 tick: &Self::Tick<'_>,
                 table: &Table<'a, Self>,
-                set: Set,
+                set: CurveSet,
             ) -> Self::Tick<'a> {
                 tick.moved(table, set)
             }
@@ -265,10 +265,11 @@ macro_rules! format {
             fn torque(
                 table: &Table<'_, Self>,
                 tick: &Self::Tick<'_>,
-                set: Set,
+                set: CurveSet,
                 phase: Phase,
-                [omega, alpha]: [Self::Number; 2],
-                sliding: Sliding<Self::Number>,
+                omega: Self::Number,
+                alpha: Self::Number,
+                friction: FrictionSign<Self::Number>,
             ) -> Self::Number {
                 let Some(cell) = Cell::of(table, &tick.rows, phase, set) else {
                     return beyond();
@@ -282,20 +283,21 @@ macro_rules! format {
                 fence();
                 let sum = cell.with_load(sum);
                 fence();
-                Self::Number::torque(cell.with_friction(sum, sliding))
+                Self::Number::torque(cell.with_friction(sum, friction))
             }
 
-            fn contributions(
+            fn torque_terms(
                 table: &Table<'_, Self>,
                 tick: &Self::Tick<'_>,
-                set: Set,
+                set: CurveSet,
                 phase: Phase,
-                motion: [Self::Number; 2],
-                sliding: Sliding<Self::Number>,
+                omega: Self::Number,
+                alpha: Self::Number,
+                friction: FrictionSign<Self::Number>,
             ) -> [Self::Number; 5] {
                 let cell = Cell::of(table, &tick.rows, phase, set);
                 cell.map_or_else(Default::default, |cell| {
-                    cell.contributions(tick.factor, motion, sliding)
+                    cell.torque_terms(tick.factor, omega, alpha, friction)
                 })
             }
 
@@ -303,10 +305,10 @@ macro_rules! format {
             fn accelerations(
                 table: &Table<'_, Self>,
                 tick: &Self::Tick<'_>,
-                set: Set,
+                set: CurveSet,
                 phase: Phase,
                 omega: Self::Number,
-                sliding: Sliding<Self::Number>,
+                friction: FrictionSign<Self::Number>,
                 torques: [Self::Number; 2],
             ) -> [Outcome<Self::Number>; 2] {
                 let Some(cell) = Cell::of(table, &tick.rows, phase, set) else {
@@ -315,7 +317,7 @@ macro_rules! format {
                 let (inertia, slope) = cell.inertia();
                 let resisting =
                     Self::Number::product(cell.speed_coefficient(slope, tick.factor, omega), omega);
-                let resisting = cell.with_friction(cell.with_load(resisting), sliding);
+                let resisting = cell.with_friction(cell.with_load(resisting), friction);
                 let reciprocal = cell.curve(Role::Reciprocal);
                 // Not by `map`: it may become a loop in a function shared by many models, which does not know the set of curves.
                 let [one, other] = torques;
@@ -343,7 +345,7 @@ fn outcome<L: Layout>(
     resisting: Raw<L>,
     inertia: Raw<L>,
     reciprocal: Option<Raw<L>>,
-    tick: &check::Proven<'_, L>,
+    tick: &check::LayoutTick<'_, L>,
 ) -> Outcome<L::Number> {
     let Some(reciprocal) = reciprocal else {
         return L::Number::quotient(torque, resisting, inertia);

@@ -3,7 +3,7 @@
 use core::marker::PhantomData;
 
 use super::{Fraction, Layout, More, Raw, Row, Rows, Word, about, word};
-use crate::curve::curves::Set;
+use crate::curve::curves::CurveSet;
 use crate::number::spline::cubic;
 use crate::number::{Ring, Scalar};
 
@@ -32,7 +32,7 @@ impl<S: Scalar> Layout for Cubic<S> {
     fn coefficients<R: Ring>(
         cell: &[Word<Self>],
         column: usize,
-        _: Set,
+        _: CurveSet,
         _: More<R>,
         read: impl Fn(Word<Self>) -> R,
     ) -> [R; 4] {
@@ -68,7 +68,7 @@ impl<S: Scalar> Layout for Quadratic<S> {
     fn coefficients<R: Ring>(
         cell: &[Word<Self>],
         column: usize,
-        _: Set,
+        _: CurveSet,
         _: More<R>,
         read: impl Fn(Word<Self>) -> R,
     ) -> [R; 4] {

@@ -4,7 +4,7 @@ use core::marker::PhantomData;
 
 use super::{Fraction, Layout, More, Raw, Row, Rows, Runs, Word, word};
 use crate::Q31;
-use crate::curve::curves::{Set, width};
+use crate::curve::curves::{CurveSet, width};
 use crate::number::spline::cubic;
 use crate::number::{Kernel, Ring, Role, Scalar};
 
@@ -35,14 +35,14 @@ impl<S: Scalar> Layout for Spline<S> {
     const CENTRE: f64 = 0.0;
 
     #[inline(always)]
-    fn cell<'a>(rows: &Self::Rows<'a>, index: usize, set: Set) -> Option<&'a [Word<Self>]> {
+    fn cell<'a>(rows: &Self::Rows<'a>, index: usize, set: CurveSet) -> Option<&'a [Word<Self>]> {
         rows.four(Self::ROW.pitch(set), index)
     }
     #[inline(always)]
     fn coefficients<R: Ring>(
         cell: &[Word<Self>],
         column: usize,
-        set: Set,
+        set: CurveSet,
         more: More<R>,
         read: impl Fn(Word<Self>) -> R,
     ) -> [R; 4] {
@@ -79,14 +79,14 @@ impl Layout for Spline16 {
     const HALVES: bool = true;
 
     #[inline(always)]
-    fn cell<'a>(rows: &Self::Rows<'a>, index: usize, set: Set) -> Option<&'a [Word<Self>]> {
+    fn cell<'a>(rows: &Self::Rows<'a>, index: usize, set: CurveSet) -> Option<&'a [Word<Self>]> {
         rows.four(Self::ROW.pitch(set), index)
     }
     #[inline(always)]
     fn coefficients<R: Ring>(
         cell: &[i32],
         column: usize,
-        set: Set,
+        set: CurveSet,
         more: More<R>,
         read: impl Fn(i32) -> R,
     ) -> [R; 4] {

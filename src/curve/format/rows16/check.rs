@@ -39,7 +39,7 @@ const SIGNED: [i64; 2] = [-32_768, 32_767];
 
 /// The largest size of each quantity in a cell.
 #[derive(Clone, Copy)]
-struct Most {
+struct CellMaxima {
     /// Q16
     inertia: i64,
     /// Q15
@@ -52,7 +52,7 @@ struct Most {
     coulomb: i64,
 }
 
-impl Most {
+impl CellMaxima {
     /// The largest torque, Q31.
     fn torque(&self) -> i64 {
         // (V·ω + b) is rounded to Q16 by adding half a unit and flooring.
@@ -132,7 +132,7 @@ pub(super) fn all(table: &Table<'_, Rows16>) -> Result<(), TableError> {
     const RECIPROCAL: f32 = 0.02;
     let set = table.set();
     for cell in 0..table.cells() {
-        if Most::of(table, cell)?.torque() > i64::from(i32::MAX) {
+        if CellMaxima::of(table, cell)?.torque() > i64::from(i32::MAX) {
             return Err(TableError::TorqueRange { cell });
         }
         if has(set, curves::RECIPROCAL) {
@@ -211,6 +211,6 @@ pub(super) fn velocity(table: &Table<'_, Rows16>) -> Result<(), TableError> {
 pub(super) fn usage(table: &Table<'_, Rows16>) -> Usage {
     // Every cell was checked when the table was created.
     (0..table.cells())
-        .filter_map(|cell| Most::of(table, cell).ok())
+        .filter_map(|cell| CellMaxima::of(table, cell).ok())
         .fold(Usage::default(), |all, most| all.or(most.usage()))
 }

@@ -2,7 +2,7 @@
 
 use super::row::{self, word};
 use super::{RowConstants, fit};
-use crate::curve::curves::{self, Set, has};
+use crate::curve::curves::{self, CurveSet, has};
 use crate::curve::samples::{Sample, Samples};
 use crate::curve::{TableError, unfold};
 use crate::math;
@@ -29,7 +29,7 @@ pub(super) fn fill<E: From<TableError> + From<RangeError>>(
 /// Control points and knots of the curves, in machine units.
 struct Curves<'s> {
     cells: u32,
-    set: Set,
+    set: CurveSet,
     periodic: bool,
     /// Control points of J in halves.
     inertia: &'s mut [f64],
@@ -88,7 +88,7 @@ fn quadratic(control: &[f64], cell: usize) -> [f64; 3] {
 }
 
 impl<'s> Curves<'s> {
-    fn split(scratch: &'s mut [f64], cells: u32, set: Set, periodic: bool) -> Self {
+    fn split(scratch: &'s mut [f64], cells: u32, set: CurveSet, periodic: bool) -> Self {
         let rows = control_points(cells as usize);
         let mut rest = scratch;
         let mut part = |wanted: bool| {
@@ -116,7 +116,7 @@ impl<'s> Curves<'s> {
         let periodic = self.periodic;
         let cells = f64::from(self.cells);
         let start = samples.at_cell(0.0)?;
-        let part = |of: Set, value: f64| if has(self.set, of) { value } else { 0.0 };
+        let part = |of: CurveSet, value: f64| if has(self.set, of) { value } else { 0.0 };
         let parts = Parts {
             viscous: part(curves::CONSTANT_VISCOUS, start.viscous),
             coulomb: part(curves::CONSTANT_COULOMB, start.coulomb),

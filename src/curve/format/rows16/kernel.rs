@@ -9,10 +9,10 @@
 //! | V·ω + b, Q30 | i16·i16, and b | < 2³¹ |
 //! | T − resisting, times 1/J | 17 bits·u15 | 65535·32767 < 2³¹ |
 //!
-//! The product (V·ω + b)·ω and the partial sums may wrap: they are modulo 2³², and only the whole sum matters, which [`Table`](crate::Table) ensures
-//! to fit.
+//! The product (V·ω + b)·ω and the partial sums may wrap: they are modulo 2³², and only the whole sum matters, which [`Table`](crate::table::Table)
+//! ensures to fit.
 
-use crate::number::{Outcome, Sliding, fence};
+use crate::number::{FrictionSign, Outcome, fence};
 use crate::{Phase, Q15};
 
 /// The cell, and the place in it in units of 2⁻¹⁶ of a cell.
@@ -87,23 +87,23 @@ fn add_signed(sum: i32, c: i32, omega: i32) -> i32 {
 
 /// sum + |c|·sgn ω or |c| times the share, in Q31, for c in Q15 with any sign.
 #[inline(always)]
-pub(super) fn add_sliding(sum: i32, c: i32, sliding: Sliding<Q15>) -> i32 {
-    match sliding {
-        Sliding::Against(omega) if cfg!(not(short_multiply)) => {
+pub(super) fn add_sliding(sum: i32, c: i32, friction: FrictionSign<Q15>) -> i32 {
+    match friction {
+        FrictionSign::OfSpeed(omega) if cfg!(not(short_multiply)) => {
             // c with the sign of c·ω, which is 0 only if a factor is 0.
             let product = c.wrapping_mul(i32::from(omega.to_bits()));
             sum.wrapping_add(c.wrapping_mul(sign(product)) << 16)
         }
-        _ => add_constant(sum, c.wrapping_abs() << 16, sliding),
+        _ => add_constant(sum, c.wrapping_abs() << 16, friction),
     }
 }
 
 /// The same for a constant c ≥ 0 in Q31.
 #[inline(always)]
-pub(super) fn add_constant(sum: i32, c: i32, sliding: Sliding<Q15>) -> i32 {
-    match sliding {
-        Sliding::Against(omega) => add_signed(sum, c, i32::from(omega.to_bits())),
-        Sliding::Share(share) => {
+pub(super) fn add_constant(sum: i32, c: i32, friction: FrictionSign<Q15>) -> i32 {
+    match friction {
+        FrictionSign::OfSpeed(omega) => add_signed(sum, c, i32::from(omega.to_bits())),
+        FrictionSign::Scaled(share) => {
             let product = (c >> 16).wrapping_mul(i32::from(share.to_bits())); // Q30
             sum.wrapping_add(product << 1)
         }

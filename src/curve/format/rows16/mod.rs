@@ -22,10 +22,10 @@ mod row;
 mod tick;
 
 use super::{CONSTANTS, Format, Row, Size, bases};
-use crate::curve::curves::{self, Set, has};
+use crate::curve::curves::{self, CurveSet, has};
 use crate::curve::samples::{Sample, Samples};
 use crate::curve::{CellCurves, CurveValues, Table, TableError, Usage};
-use crate::number::Sliding;
+use crate::number::FrictionSign;
 use crate::number::error::RangeError;
 use crate::{Outcome, Phase, Q15};
 
@@ -66,7 +66,7 @@ fn row_of<'a>(table: &Table<'a, Rows16>, cell: u32) -> &'a [u32] {
 }
 
 /// The value of a line of the row at `phase`, if the set has this curve.
-fn line(table: &Table<'_, Rows16>, phase: Phase, curve: Set, index: usize) -> f64 {
+fn line(table: &Table<'_, Rows16>, phase: Phase, curve: CurveSet, index: usize) -> f64 {
     if !has(table.set(), curve) {
         return 0.0;
     }
@@ -94,7 +94,7 @@ impl Format for Rows16 {
     /// Half a unit of the result, and half a unit of 2⁻¹⁶ of V·ω + b (`tests/proofs/q15_rows.g`).
     const TICK_ROUNDING: f64 = 0.75 / 32_768.0;
 
-    fn accepts(set: Set) -> bool {
+    fn accepts(set: CurveSet) -> bool {
         curves::is_known(set)
     }
 
@@ -114,7 +114,7 @@ impl Format for Rows16 {
         } else {
             0.0
         };
-        let constant = |of: Set, number: i32| f64::from(if has(set, of) { number } else { 0 });
+        let constant = |of: CurveSet, number: i32| f64::from(if has(set, of) { number } else { 0 });
         let constants = table.constants();
         let [torque, speed, inertia] = bases(table.scale());
         CurveValues {
@@ -217,7 +217,7 @@ impl Format for Rows16 {
         fill::fill(samples, scratch, words)
     }
 
-    fn base(curve: u8, set: Set) -> &'static str {
+    fn base(curve: u8, set: CurveSet) -> &'static str {
         if usize::from(curve) == row::inertia(set) {
             "inertia"
         } else {
@@ -225,7 +225,7 @@ impl Format for Rows16 {
         }
     }
 
-    fn header(constants: &RowConstants, _: Set) -> [u32; CONSTANTS] {
+    fn header(constants: &RowConstants, _: CurveSet) -> [u32; CONSTANTS] {
         let [viscous, coulomb] = [constants.viscous, constants.coulomb].map(i32::cast_unsigned);
         [constants.shift, viscous, coulomb, 0, 0, 0, 0, 0, 0, 0, 0]
     }
@@ -248,7 +248,7 @@ impl Format for Rows16 {
     }
 
     #[inline(always)]
-    fn moved<'a>(tick: &tick::Tick<'_>, table: &Table<'a, Self>, set: Set) -> tick::Tick<'a> {
+    fn moved<'a>(tick: &tick::Tick<'_>, table: &Table<'a, Self>, set: CurveSet) -> tick::Tick<'a> {
         tick.moved(table, set)
     }
 
@@ -256,36 +256,38 @@ impl Format for Rows16 {
     fn torque(
         _: &Table<'_, Self>,
         tick: &tick::Tick<'_>,
-        set: Set,
+        set: CurveSet,
         phase: Phase,
-        motion: [Q15; 2],
-        sliding: Sliding<Q15>,
+        omega: Q15,
+        alpha: Q15,
+        friction: FrictionSign<Q15>,
     ) -> Q15 {
-        tick.torque(set, phase, motion, sliding)
+        tick.torque(set, phase, omega, alpha, friction)
     }
 
-    fn contributions(
+    fn torque_terms(
         table: &Table<'_, Self>,
         tick: &tick::Tick<'_>,
-        set: Set,
+        set: CurveSet,
         phase: Phase,
-        motion: [Q15; 2],
-        sliding: Sliding<Q15>,
+        omega: Q15,
+        alpha: Q15,
+        friction: FrictionSign<Q15>,
     ) -> [Q15; 5] {
         let (cell, u) = kernel::locate(phase, table.cells());
-        tick.contributions(set, row_of(table, cell as u32), u, motion, sliding)
+        tick.torque_terms(set, row_of(table, cell as u32), u, omega, alpha, friction)
     }
 
     #[inline(always)]
     fn accelerations(
         _: &Table<'_, Self>,
         tick: &tick::Tick<'_>,
-        set: Set,
+        set: CurveSet,
         phase: Phase,
         omega: Q15,
-        sliding: Sliding<Q15>,
+        friction: FrictionSign<Q15>,
         torques: [Q15; 2],
     ) -> [Outcome<Q15>; 2] {
-        tick.accelerations(set, phase, omega, sliding, torques)
+        tick.accelerations(set, phase, omega, friction, torques)
     }
 }

@@ -14,40 +14,40 @@
 //!
 //! u is the place in the cell, 0 to 1. Every lower half, read as an unsigned fraction of a unit, also adds to the upper half of its word.
 
-use crate::curve::curves::{self, Set, has};
+use crate::curve::curves::{self, CurveSet, has};
 
 /// Words of a row.
-pub(super) const fn length(set: Set) -> usize {
+pub(super) const fn length(set: CurveSet) -> usize {
     super::ROW.pitch(set)
 }
 
 /// Index of the line of J.
-pub(super) const fn inertia(set: Set) -> usize {
+pub(super) const fn inertia(set: CurveSet) -> usize {
     has(set, curves::LOAD) as usize
 }
 
 /// Index of the line of V.
-pub(super) const fn velocity(set: Set) -> usize {
+pub(super) const fn velocity(set: CurveSet) -> usize {
     inertia(set) + 1
 }
 
 /// Index of the starts of J and of the load.
-pub(super) const fn start(set: Set) -> usize {
+pub(super) const fn start(set: CurveSet) -> usize {
     inertia(set) + 2
 }
 
 /// Index of the line of b, if the set has it.
-pub(super) const fn viscous(set: Set) -> usize {
+pub(super) const fn viscous(set: CurveSet) -> usize {
     inertia(set) + 3
 }
 
 /// Index of the line of c, if the set has it.
-pub(super) const fn coulomb(set: Set) -> usize {
+pub(super) const fn coulomb(set: CurveSet) -> usize {
     viscous(set) + has(set, curves::VISCOUS) as usize
 }
 
 /// Index of the line of 1/J, if the set has it.
-pub(super) const fn reciprocal(set: Set) -> usize {
+pub(super) const fn reciprocal(set: CurveSet) -> usize {
     coulomb(set) + has(set, curves::COULOMB) as usize
 }
 

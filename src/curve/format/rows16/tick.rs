@@ -2,10 +2,10 @@
 
 use super::kernel;
 use super::row::{self, Rows};
-use crate::curve::curves::{self, Set, has};
+use crate::curve::curves::{self, CurveSet, has};
 use crate::curve::format::Runs;
 use crate::curve::{Table, TableError};
-use crate::number::{Outcome, Sliding, fence};
+use crate::number::{FrictionSign, Outcome, fence};
 use crate::{Phase, Q15};
 
 /// Values that a tick reads from a table.
@@ -28,7 +28,7 @@ pub(super) enum Shift { S0, S1, S2, S3, S4, S5, S6, S7, S8, S9, S10, S11, S12, S
 impl Shift {
     #[rustfmt::skip]
     pub(super) fn new(shift: u32) -> Option<Self> {
-        use Shift::{S0, S1, S2, S3, S4, S5, S6, S7, S8, S9, S10, S11, S12, S13, S14, S15};
+        use Shift::{S0, S1, S10, S11, S12, S13, S14, S15, S2, S3, S4, S5, S6, S7, S8, S9};
         let all = [S0, S1, S2, S3, S4, S5, S6, S7, S8, S9, S10, S11, S12, S13, S14, S15];
         all.get(shift as usize).copied()
     }
@@ -37,7 +37,7 @@ impl Shift {
 impl<'a> Tick<'a> {
     pub(super) fn new(table: &Table<'a, super::Rows16>) -> Result<Self, TableError> {
         let (set, constants) = (table.set(), table.constants());
-        let constant = |of: Set, value: i32| if has(set, of) { value } else { 0 };
+        let constant = |of: CurveSet, value: i32| if has(set, of) { value } else { 0 };
         let shift = if has(set, curves::RECIPROCAL) {
             constants.shift
         } else {
@@ -52,7 +52,7 @@ impl<'a> Tick<'a> {
     }
 
     #[inline(always)]
-    pub(super) fn moved<'b>(&self, table: &Table<'b, super::Rows16>, set: Set) -> Tick<'b> {
+    pub(super) fn moved<'b>(&self, table: &Table<'b, super::Rows16>, set: CurveSet) -> Tick<'b> {
         Tick {
             rows: Rows::counted(table.words(), row::length(set), table.cells()),
             viscous: self.viscous,
@@ -64,18 +64,19 @@ impl<'a> Tick<'a> {
     #[inline(always)]
     pub(super) fn torque(
         &self,
-        set: Set,
+        set: CurveSet,
         phase: Phase,
-        motion: [Q15; 2],
-        sliding: Sliding<Q15>,
+        omega: Q15,
+        alpha: Q15,
+        friction: FrictionSign<Q15>,
     ) -> Q15 {
         let rows = &self.rows;
         match row::length(set) {
-            3 => self.torque_of(rows.a, set, phase, motion, sliding),
-            4 => self.torque_of(rows.b, set, phase, motion, sliding),
-            5 => self.torque_of(rows.c, set, phase, motion, sliding),
-            6 => self.torque_of(rows.d, set, phase, motion, sliding),
-            _ => self.torque_of(rows.e, set, phase, motion, sliding),
+            3 => self.torque_of(rows.a, set, phase, omega, alpha, friction),
+            4 => self.torque_of(rows.b, set, phase, omega, alpha, friction),
+            5 => self.torque_of(rows.c, set, phase, omega, alpha, friction),
+            6 => self.torque_of(rows.d, set, phase, omega, alpha, friction),
+            _ => self.torque_of(rows.e, set, phase, omega, alpha, friction),
         }
     }
 
@@ -83,10 +84,11 @@ impl<'a> Tick<'a> {
     fn torque_of<const W: usize>(
         &self,
         rows: &[[u32; W]],
-        set: Set,
+        set: CurveSet,
         phase: Phase,
-        [omega, alpha]: [Q15; 2],
-        sliding: Sliding<Q15>,
+        omega: Q15,
+        alpha: Q15,
+        friction: FrictionSign<Q15>,
     ) -> Q15 {
         let (index, u) = kernel::locate(phase, rows.len() as u32);
         let Some(row) = rows.get(index) else {
@@ -98,7 +100,7 @@ impl<'a> Tick<'a> {
             sum.wrapping_add(inertia.wrapping_mul(i32::from(alpha.to_bits())))
         };
         let sum = self.of_speed(set, row, u, omega);
-        let sum = self.with_coulomb(set, sum, row, u, sliding);
+        let sum = self.with_coulomb(set, sum, row, u, friction);
         kernel::torque(Self::with_load(set, of_inertia(sum), row, start, u))
     }
 
@@ -106,19 +108,19 @@ impl<'a> Tick<'a> {
     #[inline(always)]
     pub(super) fn accelerations(
         &self,
-        set: Set,
+        set: CurveSet,
         phase: Phase,
         omega: Q15,
-        sliding: Sliding<Q15>,
+        friction: FrictionSign<Q15>,
         torques: [Q15; 2],
     ) -> [Outcome<Q15>; 2] {
         let rows = &self.rows;
         match row::length(set) {
-            3 => self.accelerations_of(rows.a, set, phase, omega, sliding, torques),
-            4 => self.accelerations_of(rows.b, set, phase, omega, sliding, torques),
-            5 => self.accelerations_of(rows.c, set, phase, omega, sliding, torques),
-            6 => self.accelerations_of(rows.d, set, phase, omega, sliding, torques),
-            _ => self.accelerations_of(rows.e, set, phase, omega, sliding, torques),
+            3 => self.accelerations_of(rows.a, set, phase, omega, friction, torques),
+            4 => self.accelerations_of(rows.b, set, phase, omega, friction, torques),
+            5 => self.accelerations_of(rows.c, set, phase, omega, friction, torques),
+            6 => self.accelerations_of(rows.d, set, phase, omega, friction, torques),
+            _ => self.accelerations_of(rows.e, set, phase, omega, friction, torques),
         }
     }
 
@@ -126,10 +128,10 @@ impl<'a> Tick<'a> {
     fn accelerations_of<const W: usize>(
         &self,
         rows: &[[u32; W]],
-        set: Set,
+        set: CurveSet,
         phase: Phase,
         omega: Q15,
-        sliding: Sliding<Q15>,
+        friction: FrictionSign<Q15>,
         torques: [Q15; 2],
     ) -> [Outcome<Q15>; 2] {
         let (index, u) = kernel::locate(phase, rows.len() as u32);
@@ -144,7 +146,7 @@ impl<'a> Tick<'a> {
             kernel::of_speed_alone(velocity, i32::from(omega.to_bits()))
         } else {
             let resisting = self.of_speed(set, row, u, omega);
-            let resisting = self.with_coulomb(set, resisting, row, u, sliding);
+            let resisting = self.with_coulomb(set, resisting, row, u, friction);
             Self::with_load(set, resisting, row, start, u) >> 16
         };
         let inertia = if has(set, curves::RECIPROCAL) {
@@ -159,7 +161,7 @@ impl<'a> Tick<'a> {
 
     /// (torque − resisting)/J, by 1/J or J.
     #[inline(always)]
-    fn outcome(&self, set: Set, torque: Q15, resisting: i32, inertia: i32) -> Outcome<Q15> {
+    fn outcome(&self, set: CurveSet, torque: Q15, resisting: i32, inertia: i32) -> Outcome<Q15> {
         let net = i32::from(torque.to_bits()).wrapping_sub(resisting);
         if has(set, curves::RECIPROCAL) {
             kernel::limited(inertia.wrapping_mul(net) >> (self.shift as u32))
@@ -170,7 +172,7 @@ impl<'a> Tick<'a> {
 
     /// (V·ω + b)·ω in Q31
     #[inline(always)]
-    fn of_speed(&self, set: Set, row: &[u32], u: i32, omega: Q15) -> i32 {
+    fn of_speed(&self, set: CurveSet, row: &[u32], u: i32, omega: Q15) -> i32 {
         let omega = i32::from(omega.to_bits());
         let b = self.viscous(set, row, u);
         let velocity = kernel::line(row::at(row, row::velocity(set)), u);
@@ -178,20 +180,21 @@ impl<'a> Tick<'a> {
     }
 
     /// J·α, ½·J′·ω², −load, b·ω and c·sgn ω, from the row of a cell and the place in it.
-    pub(super) fn contributions(
+    pub(super) fn torque_terms(
         &self,
-        set: Set,
+        set: CurveSet,
         row: &[u32],
         u: i32,
-        [omega, alpha]: [Q15; 2],
-        sliding: Sliding<Q15>,
+        omega: Q15,
+        alpha: Q15,
+        friction: FrictionSign<Q15>,
     ) -> [Q15; 5] {
         let half = 1 << 15;
         let start = row::at(row, row::start(set));
         let inertia = kernel::inertia(row::at(row, row::inertia(set)), start, u);
         let velocity = kernel::line(row::at(row, row::velocity(set)), u);
         let omega = i32::from(omega.to_bits());
-        let coulomb = self.with_coulomb(set, half, row, u, sliding);
+        let coulomb = self.with_coulomb(set, half, row, u, friction);
         [
             inertia
                 .wrapping_mul(i32::from(alpha.to_bits()))
@@ -206,7 +209,7 @@ impl<'a> Tick<'a> {
 
     /// b in Q30, plus half a unit to round (V·ω + b).
     #[inline(always)]
-    fn viscous(&self, set: Set, row: &[u32], u: i32) -> i32 {
+    fn viscous(&self, set: CurveSet, row: &[u32], u: i32) -> i32 {
         if has(set, curves::VISCOUS) {
             let b = kernel::line(row::at(row, row::viscous(set)), u) << 15;
             return self.viscous.wrapping_add(b);
@@ -216,20 +219,27 @@ impl<'a> Tick<'a> {
 
     /// sum + |c|·sgn ω in Q31
     #[inline(always)]
-    fn with_coulomb(&self, set: Set, sum: i32, row: &[u32], u: i32, sliding: Sliding<Q15>) -> i32 {
+    fn with_coulomb(
+        &self,
+        set: CurveSet,
+        sum: i32,
+        row: &[u32],
+        u: i32,
+        friction: FrictionSign<Q15>,
+    ) -> i32 {
         if has(set, curves::COULOMB) {
             let c = kernel::line(row::at(row, row::coulomb(set)), u);
-            return kernel::add_sliding(sum, c, sliding);
+            return kernel::add_sliding(sum, c, friction);
         }
         if has(set, curves::CONSTANT_COULOMB) {
-            return kernel::add_constant(sum, self.coulomb, sliding);
+            return kernel::add_constant(sum, self.coulomb, friction);
         }
         sum
     }
 
     /// sum − load, plus half a unit of the result for rounding, which the table of a load contains.
     #[inline(always)]
-    fn with_load(set: Set, sum: i32, row: &[u32], start: u32, u: i32) -> i32 {
+    fn with_load(set: CurveSet, sum: i32, row: &[u32], start: u32, u: i32) -> i32 {
         if has(set, curves::LOAD) {
             kernel::minus_load(sum, row::at(row, 0), start, u)
         } else {

@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-use crate::Set;
+use crate::CurveSet;
 use crate::curve::curves;
 
 /// Terms of a slider-crank in addition to the curves themselves: the upper bits of a set of curves, one for each coefficient.
@@ -10,26 +10,26 @@ use crate::curve::curves;
 /// The curves are in [`curves`]: `LOAD` adds the coefficient of X, `VISCOUS` of X², `COULOMB` of |X|, and `CONSTANT_VISCOUS`, `CONSTANT_COULOMB`
 /// those independent of φ. [`slider_crank::set_in_use`](crate::slider_crank::set_in_use) finds the set.
 pub mod terms {
-    use crate::Set;
+    use crate::CurveSet;
 
     /// The rod's centre of mass is not on the line through its pins: J has a part in X·cos φ.
-    pub const INERTIA_COS: Set = 1 << 8;
+    pub const INERTIA_COS: CurveSet = 1 << 8;
     /// Weight and forces: the part of the load in sin φ.
-    pub const LOAD_SIN: Set = 1 << 9;
+    pub const LOAD_SIN: CurveSet = 1 << 9;
     /// Weight and forces: the part of the load in cos φ.
-    pub const LOAD_COS: Set = 1 << 10;
+    pub const LOAD_COS: CurveSet = 1 << 10;
     /// A constant moment on the crank.
-    pub const LOAD_CONSTANT: Set = 1 << 11;
+    pub const LOAD_CONSTANT: CurveSet = 1 << 11;
     /// A constant moment on the rod: the part of the load in Ψ.
-    pub const LOAD_ROD: Set = 1 << 12;
+    pub const LOAD_ROD: CurveSet = 1 << 12;
     /// Viscous friction of the rod: the part of b in X·sin φ.
-    pub const VISCOUS_SIN: Set = 1 << 13;
+    pub const VISCOUS_SIN: CurveSet = 1 << 13;
     /// Viscous friction at a point off the rod's line: the part of b in X·cos φ.
-    pub const VISCOUS_COS: Set = 1 << 14;
+    pub const VISCOUS_COS: CurveSet = 1 << 14;
     /// Coulomb friction of the rod's rotation: the part of c in |Ψ|.
-    pub const COULOMB_ROD: Set = 1 << 15;
+    pub const COULOMB_ROD: CurveSet = 1 << 15;
     /// All.
-    pub const ALL: Set = 0xff00;
+    pub const ALL: CurveSet = 0xff00;
 }
 
 /// A coefficient: its function of φ, and its unit.
@@ -102,7 +102,7 @@ impl Coefficient {
     ];
 
     /// The bits of the set that it needs.
-    pub(crate) const fn bits(self) -> Set {
+    pub(crate) const fn bits(self) -> CurveSet {
         match self {
             Self::Ratio | Self::Offset | Self::Inertia | Self::InertiaSquare | Self::InertiaSin => {
                 curves::INERTIA
@@ -124,7 +124,7 @@ impl Coefficient {
     }
 
     /// Whether machines of this set have it.
-    pub(crate) const fn is_in(self, set: Set) -> bool {
+    pub(crate) const fn is_in(self, set: CurveSet) -> bool {
         set & self.bits() == self.bits()
     }
 
@@ -144,7 +144,7 @@ impl Coefficient {
 }
 
 /// Words of a table.
-pub(crate) const fn words(set: Set) -> usize {
+pub(crate) const fn words(set: CurveSet) -> usize {
     let (mut words, mut k) = (0, 0);
     while k < COEFFICIENTS {
         words += Coefficient::ALL[k].is_in(set) as usize;
@@ -154,7 +154,7 @@ pub(crate) const fn words(set: Set) -> usize {
 }
 
 /// Whether every term has its curve.
-pub(crate) const fn is_known(set: Set) -> bool {
+pub(crate) const fn is_known(set: CurveSet) -> bool {
     let curves =
         curves::ALL | curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB | terms::INERTIA_COS;
     let (mut known, mut k) = (curves, 0);

@@ -24,11 +24,11 @@ use coefficient::is_known;
 use tick::Values;
 
 use super::{CONSTANTS, Format, Size};
-use crate::curve::curves::{Set, has};
+use crate::curve::curves::{CurveSet, has};
 use crate::curve::samples::{Sample, Samples};
 use crate::curve::{CurveValues, Shape, Table, TableError, Usage, curves};
 use crate::number::error::RangeError;
-use crate::number::{Kernel as _, Sliding};
+use crate::number::{FrictionSign, Kernel as _};
 use crate::{Domain, Outcome, Phase, Scale};
 
 /// A slider-crank in closed form, `f32`, SI units: no cells, 20 to 72 bytes, with an accuracy of single precision.
@@ -47,7 +47,7 @@ pub struct SliderCrankForm;
 impl Shape<SliderCrankForm> {
     /// The shape of a slider-crank with this set of curves and terms.
     #[must_use]
-    pub const fn slider_crank(set: Set) -> Self {
+    pub const fn slider_crank(set: CurveSet) -> Self {
         Self {
             set,
             cells: 0,
@@ -64,9 +64,9 @@ fn crank(table: &Table<'_, SliderCrankForm>) -> Crank {
 
 /// sum + c·sgn ω, if the machine has friction.
 #[inline(always)]
-fn with_friction(sum: f32, values: &Values, set: Set, sliding: Sliding<f32>) -> f32 {
+fn with_friction(sum: f32, values: &Values, set: CurveSet, friction: FrictionSign<f32>) -> f32 {
     if has(set, curves::COULOMB | curves::CONSTANT_COULOMB) {
-        f32::add_sliding(sum, values.coulomb, sliding)
+        f32::add_sliding(sum, values.coulomb, friction)
     } else {
         sum
     }
@@ -85,7 +85,7 @@ impl Format for SliderCrankForm {
     const CELLS: [u32; 2] = [0, 0];
     const WHOLE_FACTOR: bool = false;
 
-    fn accepts(set: Set) -> bool {
+    fn accepts(set: CurveSet) -> bool {
         is_known(set)
     }
 
@@ -138,18 +138,18 @@ impl Format for SliderCrankForm {
         Err(TableError::SliderCrank.into())
     }
 
-    fn base(_: u8, _: Set) -> &'static str {
+    fn base(_: u8, _: CurveSet) -> &'static str {
         "torque"
     }
 
-    fn header((): &(), set: Set) -> [u32; CONSTANTS] {
+    fn header((): &(), set: CurveSet) -> [u32; CONSTANTS] {
         [(set >> 8).into(), 0, 0, 0, 0, 0, 0, 0, 0, 0, 0]
     }
 
     fn from_header(_: &[u32; CONSTANTS]) {}
 
-    fn set(&[terms, ..]: &[u32; CONSTANTS], set: Set) -> Set {
-        set | (terms as Set) << 8
+    fn set(&[terms, ..]: &[u32; CONSTANTS], set: CurveSet) -> CurveSet {
+        set | (terms as CurveSet) << 8
     }
 
     fn usage(table: &Table<'_, Self>) -> Result<Usage, TableError> {
@@ -171,7 +171,7 @@ impl Format for SliderCrankForm {
     }
 
     #[inline(always)]
-    fn moved(tick: &Crank, _: &Table<'_, Self>, _: Set) -> Crank {
+    fn moved(tick: &Crank, _: &Table<'_, Self>, _: CurveSet) -> Crank {
         *tick
     }
 
@@ -179,23 +179,30 @@ impl Format for SliderCrankForm {
     fn torque(
         _: &Table<'_, Self>,
         tick: &Crank,
-        set: Set,
+        set: CurveSet,
         phase: Phase,
-        [omega, alpha]: [f32; 2],
-        sliding: Sliding<f32>,
+        omega: f32,
+        alpha: f32,
+        friction: FrictionSign<f32>,
     ) -> f32 {
         let values = tick.at(set, phase);
         values.inertia * alpha
-            + with_friction(Crank::resisting(&values, set, omega), &values, set, sliding)
+            + with_friction(
+                Crank::resisting(&values, set, omega),
+                &values,
+                set,
+                friction,
+            )
     }
 
-    fn contributions(
+    fn torque_terms(
         _: &Table<'_, Self>,
         tick: &Crank,
-        set: Set,
+        set: CurveSet,
         phase: Phase,
-        [omega, alpha]: [f32; 2],
-        sliding: Sliding<f32>,
+        omega: f32,
+        alpha: f32,
+        friction: FrictionSign<f32>,
     ) -> [f32; 5] {
         let values = tick.at(set, phase);
         [
@@ -203,7 +210,7 @@ impl Format for SliderCrankForm {
             Crank::velocity(&values, omega),
             -values.load,
             values.viscous * omega,
-            with_friction(0.0, &values, set, sliding),
+            with_friction(0.0, &values, set, friction),
         ]
     }
 
@@ -211,15 +218,15 @@ impl Format for SliderCrankForm {
     fn accelerations(
         _: &Table<'_, Self>,
         tick: &Crank,
-        set: Set,
+        set: CurveSet,
         phase: Phase,
         omega: f32,
-        sliding: Sliding<f32>,
+        friction: FrictionSign<f32>,
         torques: [f32; 2],
     ) -> [Outcome<f32>; 2] {
         let values = tick.at(set, phase);
         let resisting = Crank::resisting(&values, set, omega);
-        let resisting = with_friction(resisting, &values, set, sliding);
+        let resisting = with_friction(resisting, &values, set, friction);
         // Floating point represents every acceleration.
         let outcome = |torque| Outcome::exact((torque - resisting) / values.inertia);
         [outcome(torques[0]), outcome(torques[1])]

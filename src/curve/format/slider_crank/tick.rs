@@ -2,7 +2,7 @@
 
 use super::coefficient::{COEFFICIENTS, Coefficient as C};
 use crate::Phase;
-use crate::curve::curves::{self, Set, has};
+use crate::curve::curves::{self, CurveSet, has};
 use crate::curve::format::harmonic::Circular as _;
 use crate::curve::{TableError, Usage};
 
@@ -45,7 +45,7 @@ const fn size(x: f32) -> f32 {
 }
 
 impl Crank {
-    pub(super) fn new(words: &[f32], set: Set) -> Self {
+    pub(super) fn new(words: &[f32], set: CurveSet) -> Self {
         let mut given = words.iter().copied();
         let of = C::ALL.map(|c| {
             let there = c.is_in(set);
@@ -71,7 +71,7 @@ impl Crank {
     /// J = J₀ + X·y,  y = a·X + s·sin φ + c·cos φ,  J′ = X′·(y + a·X) + X·(s·cos φ − c·sin φ)
     /// ```
     #[inline(always)]
-    pub(super) fn at(&self, set: Set, phase: Phase) -> Values {
+    pub(super) fn at(&self, set: CurveSet, phase: Phase) -> Values {
         let (sin, cos) = f32::sin_cos_of(phase);
         let ratio = self.get(C::Ratio);
         let tau = self.get(C::Offset) - ratio * sin;
@@ -140,7 +140,7 @@ impl Crank {
 
     /// ½·J′·ω² − load + b·ω, with the machine's curves.
     #[inline(always)]
-    pub(super) fn resisting(values: &Values, set: Set, omega: f32) -> f32 {
+    pub(super) fn resisting(values: &Values, set: CurveSet, omega: f32) -> f32 {
         let mut sum = Self::velocity(values, omega);
         if has(set, curves::LOAD) {
             sum -= values.load;
@@ -214,7 +214,7 @@ impl Crank {
 
     /// Proves that J is positive everywhere: its least value at 64 places must exceed the possible decrease by J′ up to the middle between two of
     /// them, and the rounding. Otherwise the number of places doubles, up to 4096.
-    pub(super) fn check_inertia(&self, set: Set) -> Result<(), TableError> {
+    pub(super) fn check_inertia(&self, set: CurveSet) -> Result<(), TableError> {
         let usage = self.usage();
         let rounding = ROUNDINGS * usage.inertia;
         let [first, last] = PLACES;

@@ -2,8 +2,8 @@
 
 use std::cell::Cell;
 
-use jred::machine::Mechanism as _;
-use jred::{Error, Reducible as _};
+use jred::error::Error;
+use jred::machine::{Mechanism as _, Reducible as _};
 
 use super::{OneWay, Parted};
 use crate::duty::smooth_stretches;

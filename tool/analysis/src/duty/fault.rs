@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use jred::Error;
+use jred::error::Error;
 
 use jred_file::number::rounding::short;
 

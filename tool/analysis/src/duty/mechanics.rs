@@ -1,7 +1,7 @@
 //! Data of machine and motion for the mechanical rules, computed once because they do not depend on the drive.
 
-use jred::machine::Mechanism as _;
-use jred::{Domain, Reducible as _};
+use jred::Domain;
+use jred::machine::{Mechanism as _, Reducible as _};
 
 use crate::duty::{Instant, Smooth};
 use jred_file::model::coordinate::Coordinate;

@@ -1,9 +1,9 @@
 //! The machine at an instant of its motion.
 
-use jred::machine::TorqueTerms;
+use jred::error::Error;
 use jred::machine::motion::State;
+use jred::machine::{Reduction, TorqueTerms};
 use jred::mechanism::TrainOutput;
-use jred::{Error, Reduction};
 
 use super::Instant;
 use jred_file::model::drive_train::DriveTrain;

@@ -1,6 +1,6 @@
 //! Instants between the time steps: where the torque bends sharply, and at extremes.
 
-use jred::Error;
+use jred::error::Error;
 
 use super::moving::Moving;
 use super::{Instant, Smooth};

@@ -1,7 +1,8 @@
 //! The smooth stretches of a motion. They are cut where its law bends, where the drive link turns back or comes to rest, where it passes an edge of a
 //! load or a cam, where a load begins or ends in time or with the direction of travel, and where a payload is picked up or set down.
 
-use jred::{Domain, Reducible as _};
+use jred::Domain;
+use jred::machine::Reducible as _;
 
 use super::INSIDE;
 use jred_file::model::machine::MachineFile;

@@ -2,9 +2,9 @@
 
 use std::borrow::Cow;
 
+use jred::error::Error;
 use jred::machine::motion::State;
-use jred::machine::{Jointed as _, Mechanism as _};
-use jred::{Error, Machine, Reducible as _};
+use jred::machine::{Jointed as _, Machine, Mechanism as _, Reducible as _};
 use serde::Serialize;
 
 use crate::duty;
@@ -96,7 +96,7 @@ pub(super) fn inertia(
             .mechanism()
             .links()
             .iter()
-            .map(jred::Link::mass)
+            .map(jred::machine::Link::mass)
             .sum(),
     })
 }

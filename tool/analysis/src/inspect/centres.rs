@@ -1,8 +1,9 @@
 //! Dead centres: positions in which a link that slides or swings on the ground comes to rest while the drive moves on.
 
+use jred::Domain;
+use jred::error::Error;
 use jred::machine::{Body, Joint, Jointed as _, Mechanism as _};
 use jred::number::Transfer;
-use jred::{Domain, Error};
 use serde::Serialize;
 
 use jred_file::model::coordinate::Coordinate;

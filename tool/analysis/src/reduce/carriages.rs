@@ -1,6 +1,6 @@
 //! Carriages as columns: position and motion of each along its guide, and the force that its own axis needs.
 
-use jred::Error;
+use jred::error::Error;
 
 use super::{Place, Set, Source};
 use jred_file::number::columns::{Column, Quantity};

@@ -1,8 +1,8 @@
 //! The reduced link and the motion's drive torque as columns.
 
-use jred::machine::TorqueTerms;
+use jred::error::Error;
+use jred::machine::{Reducible as _, TorqueTerms};
 use jred::mechanism::TrainOutput;
-use jred::{Error, Reducible as _};
 
 use super::{Place, Set, Source};
 use jred_file::model::coordinate::Coordinate;

@@ -3,7 +3,7 @@
 //! The generalised force of a load is its power divided by the speed of the drive link, Q = F·r′ + M·ψ′ (4.1)-(4.7). It is computed from the force
 //! itself and the transfer functions of its point, not from the reduced curves; the sum of all is the reduced torque T_red.
 
-use jred::Error;
+use jred::error::Error;
 use jred::machine::{Body, Frames, Mechanism as _, Wrench};
 
 use super::{Place, Set, Source};

@@ -1,8 +1,9 @@
 //! The largest magnitudes of the forces over the motion, and their positions.
 
-use jred::machine::Mechanism as _;
+use jred::Domain;
+use jred::error::Error;
 use jred::machine::motion::State;
-use jred::{Domain, Error, Reducible as _};
+use jred::machine::{Mechanism as _, Reducible as _};
 use serde::{Serialize, Serializer};
 
 use super::reactions::{self, Reactions};

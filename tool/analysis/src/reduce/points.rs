@@ -1,6 +1,6 @@
 //! Named points, centres of mass and links as columns: positions, transfer functions, velocities and accelerations.
 
-use jred::Error;
+use jred::error::Error;
 use jred::machine::motion::State;
 use jred::machine::{Frames, Mechanism as _};
 use jred::number::Transfer;

@@ -4,7 +4,7 @@
 //! a flywheel: it changes the drive torque but no joint force. The pull of a belt or a pinion on the drive link's bearing is not in the machine file,
 //! and so not in the bearing's force.
 
-use jred::Error;
+use jred::error::Error;
 use jred::machine::{Joint, Jointed as _, Mechanism as _};
 
 use super::{Place, Set, Source};

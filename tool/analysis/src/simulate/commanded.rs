@@ -1,6 +1,6 @@
 //! A machine whose motor has its own state besides φ and ω: the integral of a controller, or the current of a winding.
 
-use jred::Error;
+use jred::error::Error;
 
 use super::SimulationError;
 use super::clock::{Corners, Moment};

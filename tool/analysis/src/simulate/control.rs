@@ -1,7 +1,8 @@
 //! A cascade of controllers, under which the motor follows the motion of the file.
 
+use jred::error::Error;
+use jred::machine::Reducible as _;
 use jred::machine::motion::State as Reference;
-use jred::{Error, Reducible as _};
 
 use super::clock::{Clock, Corners, Moment};
 use super::commanded::{Command, Commander};

@@ -1,6 +1,6 @@
 //! Why a simulation ended early.
 
-use jred::Error;
+use jred::error::Error;
 
 use jred_file::number::numerics::dormand_prince::Stopped;
 

@@ -1,6 +1,6 @@
 //! A machine under a motor without a controller.
 
-use jred::Error;
+use jred::error::Error;
 
 use super::SimulationError;
 use super::clock::{Corners, Moment};

@@ -10,7 +10,8 @@
 
 use std::f64::consts::TAU;
 
-use jred::{Domain, Reducible as _};
+use jred::Domain;
+use jred::machine::Reducible as _;
 
 use super::SimulationError;
 use jred_file::model::coordinate::Coordinate;

@@ -3,7 +3,7 @@
 mod bends;
 mod shown;
 
-use jred::Error;
+use jred::error::Error;
 use jred::mechanism::{TrainInput, TrainOutput};
 
 use super::clock::{Corners, Moment};

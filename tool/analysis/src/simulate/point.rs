@@ -1,7 +1,7 @@
 //! The reduced link of each machine at an instant, including its second axes.
 
-use jred::machine::{Frames, Mechanism as _};
-use jred::{Error, Reduction};
+use jred::error::Error;
+use jred::machine::{Frames, Mechanism as _, Reduction};
 
 use super::clock::Moment;
 use super::geared::Geared;

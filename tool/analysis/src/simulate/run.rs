@@ -17,7 +17,7 @@ pub(crate) use rows::{Row, Terms, Works, cells, heads};
 
 use std::cell::Cell;
 
-use jred::Error;
+use jred::error::Error;
 
 use super::SimulationError;
 use super::clock::{Corners, EDGE};

@@ -1,7 +1,7 @@
 //! A machine with a variator between its motor and its drive train: the angle of the drive link is integrated from its own speed, not derived from
 //! the motor's.
 
-use jred::Error;
+use jred::error::Error;
 use jred::friction::{Contact, CreepContact, OperatingPoint, Ratios, Stage};
 use jred::mechanism::TrainOutput;
 use jred::number::RangeError;

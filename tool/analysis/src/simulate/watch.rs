@@ -2,8 +2,10 @@
 
 use std::borrow::Cow;
 
+use jred::Domain;
+use jred::error::Error;
 use jred::machine::motion::{End, Polynomial};
-use jred::{Domain, Error, Machine, Reducible as _};
+use jred::machine::{Machine, Reducible as _};
 
 use super::SimulationError;
 use super::clock::Moment;

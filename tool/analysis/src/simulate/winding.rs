@@ -4,7 +4,7 @@
 //! L·di/dt = U − R·i − k·ω        T = k·i
 //! ```
 
-use jred::Error;
+use jred::error::Error;
 
 use super::commanded::{Command, Commander};
 use super::machine::Plant;

@@ -1,6 +1,6 @@
 //! Why a machine has no steady cycle.
 
-use jred::Error;
+use jred::error::Error;
 use serde::{Serialize, Serializer};
 
 use crate::simulate::SimulationError;

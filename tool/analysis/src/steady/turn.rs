@@ -5,7 +5,7 @@
 
 use std::f64::consts::TAU;
 
-use jred::Error;
+use jred::error::Error;
 
 use super::SteadyError;
 use crate::simulate::machine::{Instant, Plant};

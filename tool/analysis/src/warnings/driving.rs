@@ -1,6 +1,6 @@
 //! Process loads that drive the machine: where their power is positive in the direction of motion.
 
-use jred::Error;
+use jred::error::Error;
 use jred::machine::Mechanism as _;
 
 use jred_file::model::coordinate::whole_range;

@@ -1,6 +1,6 @@
 //! A slide with limited travel whose motion advances with every cycle.
 
-use jred::Error;
+use jred::error::Error;
 use jred::machine::Mechanism as _;
 
 use jred_file::model::coordinate::Coordinate;

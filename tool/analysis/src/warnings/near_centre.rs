@@ -1,7 +1,8 @@
 //! A motion of the tool that comes close to a dead centre, where the drive link moves far for little travel of the tool.
 
+use jred::Domain;
+use jred::error::Error;
 use jred::machine::Mechanism as _;
-use jred::{Domain, Error};
 
 use jred_file::model::coordinate::Coordinate;
 use jred_file::model::machine::MachineFile;

@@ -3,8 +3,8 @@
 //! The limits are listed in docs/machine-file.md: all shipped machines keep within them, and a unit that is wrong by a factor of 1000, or of an
 //! inertia by 10 000, does not.
 
-use jred::machine::{Body, Joint, Jointed as _, Marker, Mechanism as _};
-use jred::{Error, Link};
+use jred::error::Error;
+use jred::machine::{Body, Joint, Jointed as _, Link, Marker, Mechanism as _};
 
 use jred_file::model::coordinate::Coordinate;
 use jred_file::model::laden::Attached;

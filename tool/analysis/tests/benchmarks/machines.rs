@@ -1,7 +1,7 @@
 //! Machines whose inertia, ratio or radius changes, each against a derivation of its own.
 
 use super::{SIMPSON, duty, machine, near};
-use jred::Reducible as _;
+use jred::machine::Reducible as _;
 
 /// Runs with a strip at v: x = R·cos φ, so ω = −v/(R·sin φ) and α = −ω²·cot φ.
 #[test]

@@ -1,8 +1,8 @@
 //! Andrews' squeezing mechanism against its published initial values and its published solution.
 
 use crate::reader;
-use jred::Reducible;
 use jred::machine::Mechanism;
+use jred::machine::Reducible;
 use jred_analysis::simulate::simulate;
 use jred_file::model::machine::MachineFile;
 

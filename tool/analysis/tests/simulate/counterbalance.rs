@@ -1,7 +1,7 @@
 //! A spring that balances a press.
 
-use jred::Reducible as _;
 use jred::machine::Mechanism as _;
+use jred::machine::Reducible as _;
 use jred_analysis::simulate::simulate;
 use jred_file::model::simulation::Shaft;
 

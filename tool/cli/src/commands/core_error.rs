@@ -1,6 +1,6 @@
 //! The core's errors as reports: the fault, and its cure as help.
 
-use jred::Error;
+use jred::error::Error;
 use jred_analysis::duty::Fault;
 use miette::{Report, miette};
 

@@ -7,7 +7,7 @@ use crate::commands::core_error::{core_report, duty_report};
 use crate::commands::{Done, print_answer, read_warned, warn};
 use crate::options;
 use crate::output;
-use jred::Reducible as _;
+use jred::machine::Reducible as _;
 use jred_analysis::duty::Duty;
 use jred_export::{Choice, Export, Failure, Form, LayoutChoice, Name, Number, Proven, Task};
 use jred_file::argument;

@@ -16,7 +16,7 @@ use crate::commands::{
 };
 use crate::options::fastest::{Asked, Fastest as Options};
 use crate::output::{self, Files};
-use jred::Reducible as _;
+use jred::machine::Reducible as _;
 use jred_file::argument;
 use jred_file::model::coordinate::Coordinate;
 use jred_file::model::drive_train;

@@ -5,7 +5,7 @@ use miette::{Result, miette};
 use crate::commands::core_error::core_report;
 use crate::options::plan::{Form, PlanFile};
 use crate::output::{self, Files};
-use jred::Reducible as _;
+use jred::machine::Reducible as _;
 use jred_export::{plan_c_source, plan_source};
 use jred_file::model::machine::MachineFile;
 use jred_file::plain;

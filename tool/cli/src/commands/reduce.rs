@@ -6,7 +6,7 @@ use crate::commands::core_error::core_report;
 use crate::commands::{Done, print_answer, warn};
 use crate::options;
 use crate::output;
-use jred::Reducible as _;
+use jred::machine::Reducible as _;
 use jred_analysis::checked;
 use jred_analysis::reduce;
 use jred_analysis::reduce::{Over, Sets, reduce};

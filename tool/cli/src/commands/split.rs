@@ -1,6 +1,6 @@
 //! `jred split`: divides a total gear ratio over stages for the smallest reduced inertia.
 
-use jred::mechanism::synthesis::{Driven, OpenStage, OpenTrain, RatioSplit};
+use jred::mechanism::synthesis::{OpenStage, OpenTrain, RatioSplit, WheelInertia};
 use jred::number::RangeError;
 use miette::{Result, miette};
 
@@ -26,10 +26,17 @@ fn train(options: &options::Split) -> Result<RatioSplit> {
     let stages = usize::from(options.stages);
     let drivers = each(&options.pinion, stages, "pinion")?;
     let driven = if options.driven.is_empty() {
-        drivers.iter().copied().map(Driven::LikePinion).collect()
+        drivers
+            .iter()
+            .copied()
+            .map(WheelInertia::LikePinion)
+            .collect()
     } else {
         let wheels = each(&options.driven, stages, "driven")?;
-        wheels.into_iter().map(Driven::Constant).collect::<Vec<_>>()
+        wheels
+            .into_iter()
+            .map(WheelInertia::Constant)
+            .collect::<Vec<_>>()
     };
     let open: Vec<OpenStage> = drivers
         .into_iter()

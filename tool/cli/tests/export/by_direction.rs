@@ -2,7 +2,7 @@
 
 use jred::number::{Number, Quantity};
 use jred::table::{AccelerationOf, Format, SpeedOf, TorqueOf};
-use jred::{Image, Phase, Rows16, Set, Spline, curves};
+use jred::{CurveSet, Image, Phase, Rows16, Spline, curves};
 
 use super::{export_of, words_of};
 use crate::support::{Folder, shipped};
@@ -14,16 +14,16 @@ const BOTH_WAYS: &str = "type = \"cycle\"\n\
     [[motion.segment]]\nlaw = \"modified-sine\"\nmove = \"-90 deg\"\nduration = \"0.5 s\"";
 /// m·d²/8 of the table.
 const INERTIA: f64 = 20.0 * 0.3 * 0.3 / 8.0;
-const SET: Set = curves::LOAD | curves::CONSTANT_COULOMB;
+const SET: CurveSet = curves::LOAD | curves::CONSTANT_COULOMB;
 /// Curves of a slider whose friction depends on the position.
-const SLIDER: Set = curves::LOAD | curves::COULOMB;
+const SLIDER: CurveSet = curves::LOAD | curves::COULOMB;
 
 fn of<Q: Quantity>(value: f64) -> Q {
     Q::of(Q::Number::from_f64(value).unwrap())
 }
 
 /// The largest torque error (N·m) of a model against `exact` (of phase, speed and acceleration) over both directions.
-fn worst<F: Format, const SET: Set>(
+fn worst<F: Format, const SET: CurveSet>(
     words: &[u32],
     [omega, alpha]: [f64; 2],
     exact: impl Fn(f64, f64, f64) -> f64,

@@ -1,13 +1,14 @@
 //! A slider-crank in closed form: selected, loaded, ticked; refused if there is no such form.
 
+use jred::machine::Reducible as _;
 use jred::slider_crank::terms;
-use jred::{Image, ImageError, Phase, Reducible as _, Set, SliderCrankForm, Spline, curves};
+use jred::{CurveSet, Image, ImageError, Phase, SliderCrankForm, Spline, curves};
 
 use super::images::{errors, machine};
 use super::{export_of, feeder_form, number_after, words_of};
 use crate::support::{Folder, press_file, shipped};
 
-const SET: Set = curves::LOAD
+const SET: CurveSet = curves::LOAD
     | curves::VISCOUS
     | curves::COULOMB
     | curves::CONSTANT_COULOMB

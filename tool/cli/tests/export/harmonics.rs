@@ -1,7 +1,8 @@
 //! Harmonics: exported, loaded, ticked; refused if a table is needed.
 
 use jred::harmonic::terms;
-use jred::{Harmonic, Image, ImageError, Phase, Reducible as _, Set, Spline, curves};
+use jred::machine::Reducible as _;
+use jred::{CurveSet, Harmonic, Image, ImageError, Phase, Spline, curves};
 
 use super::images::{machine, random};
 use super::{export, export_of, number_after, words_of};
@@ -17,7 +18,7 @@ fn smooth(folder: &Folder) -> std::path::PathBuf {
 }
 
 /// J is even; the load of the weight and the friction F·x′ are odd.
-const SET: Set = curves::LOAD
+const SET: CurveSet = curves::LOAD
     | curves::COULOMB
     | curves::CONSTANT_VISCOUS
     | terms::INERTIA_COS
@@ -71,8 +72,8 @@ fn an_image_of_harmonics_holds_its_error() {
             let phase = Phase::from_bits((random() * 4_294_967_296.0) as u32);
             let mut signed = |most: f32| most * (2.0 * random() - 1.0) as f32;
             let (omega, alpha) = (
-                signed(image.validity().omega),
-                signed(image.validity().alpha),
+                signed(image.validity().max_speed),
+                signed(image.validity().max_acceleration),
             );
             let found = model.torque(phase, omega, alpha);
             assert_eq!(found, any.torque(phase, omega, alpha));
@@ -92,7 +93,7 @@ fn an_image_of_harmonics_holds_its_error() {
         ));
         assert!(matches!(
             image.model::<Harmonic<f32>, { curves::LOAD }>(),
-            Err(ImageError::Table(jred::TableError::Curves(SET)))
+            Err(ImageError::Table(jred::table::TableError::Curves(SET)))
         ));
     }
 }

@@ -1,10 +1,11 @@
 //! Every exported type and layout, loaded and ticked like in firmware, against the exact reduction.
 
+use jred::machine::Reducible as _;
 use jred::number::{Number, Quantity};
 use jred::table::Format;
 use jred::{
-    Cubic, Image, ImageError, Phase, Q31, Quadratic, Reducible as _, Rows16, Set, SliderCrankForm,
-    Spline, Spline16, curves,
+    Cubic, CurveSet, Image, ImageError, Phase, Q31, Quadratic, Rows16, SliderCrankForm, Spline,
+    Spline16, curves,
 };
 use jred_file::model::machine::MachineFile;
 use jred_file::model::mechanism::AnyMechanism;
@@ -13,8 +14,8 @@ use super::{KINDS, export, export_of, image, number_after, words_of};
 use crate::support::{Folder, budget, press_file, shipped};
 
 /// The curves of the press.
-const SET: Set = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
-const WITH_RECIPROCAL: Set = SET | curves::RECIPROCAL;
+const SET: CurveSet = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
+const WITH_RECIPROCAL: CurveSet = SET | curves::RECIPROCAL;
 
 /// A fixed sequence of numbers from 0 to 1 (xorshift; G. Marsaglia 2003).
 pub(super) fn random() -> impl FnMut() -> f64 {
@@ -27,13 +28,13 @@ pub(super) fn random() -> impl FnMut() -> f64 {
     }
 }
 
-pub(super) fn machine(file: &MachineFile) -> jred::Machine<AnyMechanism> {
+pub(super) fn machine(file: &MachineFile) -> jred::machine::Machine<AnyMechanism> {
     file.with_drive_train().unwrap()
 }
 
 /// The largest errors of torque (N·m), and of acceleration times J, at random states; `spread` maps a number from 0 to 1 to a phase.
 pub(super) fn errors<N: Number>(
-    machine: &jred::Machine<AnyMechanism>,
+    machine: &jred::machine::Machine<AnyMechanism>,
     image: &Image<'_>,
     spread: impl Fn(f64) -> Phase,
     torque: impl Fn(Phase, N::Speed, N::Acceleration) -> N::Torque,
@@ -42,7 +43,10 @@ pub(super) fn errors<N: Number>(
     let scale = image.scale();
     let [torque_base, speed_base] = [scale.torque(), scale.speed()].map(f64::from);
     let acceleration_base = f64::from(scale.acceleration());
-    let (most_omega, most_alpha) = (image.validity().omega, image.validity().alpha);
+    let (most_omega, most_alpha) = (
+        image.validity().max_speed,
+        image.validity().max_acceleration,
+    );
     let mut random = random();
     let mut worst = [0.0f64; 2];
     for k in 0..20_000 {
@@ -83,7 +87,7 @@ fn value<Q: Quantity>(quantity: Q) -> f64 {
     quantity.number().to_f64()
 }
 
-fn of_model<F: Format, const CURVES: Set>(words: &[u32]) -> [f64; 2] {
+fn of_model<F: Format, const CURVES: CurveSet>(words: &[u32]) -> [f64; 2] {
     let image = Image::new(words).unwrap();
     let model = image.model::<F, CURVES>().unwrap();
     errors::<F::Number>(
@@ -170,7 +174,7 @@ fn every_type_and_layout_holds_its_error() {
             let bytes = number_after(&run.out, " bytes of rows, ");
             assert_eq!(bytes, 4.0 * words.len() as f64);
             let omega = number_after(&run.out, "|omega| <= ");
-            assert!((omega / f64::from(image.validity().omega) - 1.0).abs() < 1e-5);
+            assert!((omega / f64::from(image.validity().max_speed) - 1.0).abs() < 1e-5);
         }
     }
 }
@@ -227,7 +231,10 @@ fn every_machine_holds_its_error() {
 fn of_curves(image: &Image<'_>, file: &MachineFile, kind: (&str, &str)) -> f64 {
     let machine = machine(file);
     let domain = machine.domain();
-    let (omega, alpha) = (image.validity().omega, image.validity().alpha);
+    let (omega, alpha) = (
+        image.validity().max_speed,
+        image.validity().max_acceleration,
+    );
     let mut random = random();
     let mut worst = 0.0f64;
     for _ in 0..2000 {
@@ -352,7 +359,7 @@ fn a_damaged_file_is_refused() {
     ));
     assert!(matches!(
         image.model::<Spline<f32>, 0>(),
-        Err(ImageError::Table(jred::TableError::Curves(SET)))
+        Err(ImageError::Table(jred::table::TableError::Curves(SET)))
     ));
 }
 

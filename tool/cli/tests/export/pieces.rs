@@ -2,10 +2,11 @@
 
 use std::path::PathBuf;
 
+use jred::machine::Reducible as _;
 use jred::table::Format;
 use jred::{
-    Cubic, Domain, Image, Model, Phase, Pieces, Q31, Quadratic, Reducible as _, Rows16, Set,
-    Spline, Spline16, curves,
+    Cubic, CurveSet, Domain, Image, Model, Phase, Pieces, Q31, Quadratic, Rows16, Spline, Spline16,
+    curves,
 };
 
 use jred_export::{Answer, Export, LayoutChoice, Number, Task};
@@ -16,7 +17,7 @@ use super::{KINDS, export_of, press_pieces};
 use crate::support::{Folder, Run, budget, edited_press, press_file, shipped};
 
 /// The curves of the press.
-const SET: Set = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
+const SET: CurveSet = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
 
 /// The press with a pressing force that rises within half a degree.
 fn steep(folder: &Folder) -> PathBuf {

@@ -6,8 +6,8 @@
 
 mod course;
 
-use jred::Machine;
 use jred::friction::FrictionDrive;
+use jred::machine::Machine;
 use jred::machine::{Element, Frame, Load, Mechanism as _};
 use jred::mechanism::{BallScrew, Geneva, Hoist, ParallelShafts, Planetary, RackAndPinion, Train};
 use jred_enclosure::{Closure, Curves, Form, Interval, Parts, Place, Unproven};

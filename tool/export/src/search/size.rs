@@ -1,9 +1,10 @@
 //! One size of a table of one format: evaluated, made, and ticked.
 
-use jred::image::{encode, image_len};
-use jred::table::{Format, Usage, words_len};
-use jred::tabulate::{self, Request, Tabulated};
-use jred::{Error, Image, Scale, Set, Table, Validity};
+use jred::error::Error;
+use jred::image::{Validity, encode, image_len};
+use jred::table::{Format, Table, Usage, words_len};
+use jred::tabulate::{self, Request, TableFigures};
+use jred::{CurveSet, Image, Scale};
 
 use crate::candidate::Made;
 use crate::search::Search;
@@ -12,7 +13,7 @@ use crate::ticks;
 /// A size to evaluate.
 pub(super) struct Size<'s> {
     pub(super) search: &'s Search<'s>,
-    pub(super) set: Set,
+    pub(super) set: CurveSet,
     pub(super) cells: u32,
     pub(super) scale: Scale,
 }
@@ -33,7 +34,7 @@ impl<F: Format> Default for Buffers<F> {
 }
 
 /// Bytes of an image.
-pub(super) fn bytes<F: Format>(cells: u32, set: Set) -> usize {
+pub(super) fn bytes<F: Format>(cells: u32, set: CurveSet) -> usize {
     4 * image_len::<F>(cells, set)
 }
 
@@ -127,7 +128,7 @@ impl Size<'_> {
 }
 
 /// The error for the image: in single precision, not rounded down.
-fn validity(found: &Tabulated, request: &Request, error: f64) -> Validity {
+fn validity(found: &TableFigures, request: &Request, error: f64) -> Validity {
     Validity {
         torque_error: rounded_up(error),
         ..found.validity(request)

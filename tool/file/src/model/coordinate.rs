@@ -2,8 +2,9 @@
 
 use std::f64::consts::TAU;
 
+use jred::Domain;
+use jred::error::Error;
 use jred::machine::{Joint, Jointed};
-use jred::{Domain, Error};
 
 use crate::number::columns::{Column, Quantity};
 use crate::units::Vocabulary;

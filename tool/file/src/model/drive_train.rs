@@ -8,7 +8,7 @@
 //! T_k = T_(chain behind k) + Σ T_branch       T_branch = (J·α_b + M·sgn ω_b + b·ω_b) through its stages, by its own flow of power
 //! ```
 
-use jred::Error;
+use jred::error::Error;
 use jred::mechanism::{Stage, Train, TrainInput, TrainOutput};
 use miette::{Report, miette};
 

@@ -1,7 +1,8 @@
 //! Masses fixed to links: a link and its masses form one rigid body.
 
-use jred::machine::{Frames, Jointed, Joints, MassProperties, Mechanism, PoseError};
-use jred::{Domain, Error, Link};
+use jred::Domain;
+use jred::error::Error;
+use jred::machine::{Frames, Jointed, Joints, Link, MassProperties, Mechanism, PoseError};
 
 use crate::model::mechanism::AnyMechanism;
 

@@ -4,8 +4,8 @@ use std::borrow::Cow;
 use std::fmt;
 use std::sync::OnceLock;
 
-use jred::machine::{Element, Mechanism as _};
-use jred::{Error, Machine, Reducible as _, Reduction};
+use jred::error::Error;
+use jred::machine::{Element, Machine, Mechanism as _, Reducible as _, Reduction};
 
 use crate::model::axis::Axis;
 use crate::model::coordinate::positions;

@@ -6,10 +6,11 @@ use std::any::Any;
 use std::fmt;
 use std::sync::Arc;
 
+use jred::Domain;
+use jred::error::Error;
 use jred::machine::PoseError;
-use jred::machine::{Action, Frames, Jointed, Joints, Load, Mechanism};
+use jred::machine::{Action, Frames, Jointed, Joints, Link, Load, Mechanism};
 use jred::mechanism::linkage::Pair;
-use jred::{Domain, Error, Link};
 
 use crate::model::axis::Axis;
 use crate::model::coordinate::Coordinate;

@@ -3,8 +3,8 @@
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-use jred::machine::{Frames, Jointed, Joints, Mechanism, PoseError};
-use jred::{Domain, Link};
+use jred::Domain;
+use jred::machine::{Frames, Jointed, Joints, Link, Mechanism, PoseError};
 
 use super::mechanism::Inner;
 

@@ -2,8 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use jred::machine::{Mechanism as _, PoseError};
-use jred::{Machine, Reducible as _};
+use jred::machine::{Machine, Mechanism as _, PoseError, Reducible as _};
 
 use crate::model::coordinate;
 use crate::model::mechanism::AnyMechanism;

@@ -6,9 +6,9 @@
 
 use std::borrow::Cow;
 
+use jred::error::Error;
 use jred::machine::Mechanism as _;
-use jred::machine::{Action, Load};
-use jred::{Error, Machine};
+use jred::machine::{Action, Load, Machine};
 
 use crate::model::carriage::Carriage;
 use crate::model::laden::{Attached, laden};

@@ -1,6 +1,7 @@
 //! `[simulation]`: the motor of a free motion, its controller, and its stop.
 
-use jred::{Domain, Reducible as _};
+use jred::Domain;
+use jred::machine::Reducible as _;
 
 use crate::model::characteristic::Characteristic;
 use crate::model::coordinate::Coordinate;

@@ -27,7 +27,7 @@ mod table;
 pub(crate) use mechanism::{DriveLinkAlone, Tabulated};
 pub use table::{Over, Table};
 
-use jred::Error;
+use jred::error::Error;
 use jred::machine::{Action, Body, Element, Frame, Load, Marker, Window, Wrench};
 use jred::number::Transfer;
 

@@ -3,7 +3,7 @@
 //! Its ratio is shifted in time, so the constraint between its shafts is not integrable: the angle of the drive link is not a function of the motor's
 //! angle, and there is no unique table J_red(φ) at the motor shaft. What remains is the equation of motion, which `jred simulate` integrates.
 
-use jred::Error;
+use jred::error::Error;
 use jred::friction::{
     Arrangement, Contact, Course, CreepContact, Drive, Dual, Flow, OperatingPoint, Ramp, RampShape,
     Stage, Traction, Variable,

@@ -11,11 +11,12 @@
 
 use std::f64::consts::{PI, TAU};
 
+use jred::Domain;
+use jred::error::Error;
 use jred::machine::{
-    Body, Frame, Frames, Joint, Jointed, Joints, Marker, Mechanism, PoseError, Wrench,
+    Body, Frame, Frames, Joint, Jointed, Joints, Link, Marker, Mechanism, PoseError, Wrench,
 };
 use jred::number::{RangeError, Transfer};
-use jred::{Domain, Error, Link};
 
 /// The figures of a winder (SI).
 #[derive(Clone, Copy, Debug)]

@@ -1,7 +1,7 @@
 //! Motion-opposing loads that do process work: a press force, a cut. A load that acts all the time is friction.
 
-use jred::machine::{Action, Load, Mechanism as _};
-use jred::{Error, Machine};
+use jred::error::Error;
+use jred::machine::{Action, Load, Machine, Mechanism as _};
 
 use crate::model::machine::MachineFile;
 use crate::model::mechanism::AnyMechanism;

@@ -1,7 +1,7 @@
 //! `[[carriage]]`: a mass that a second axis moves along a guide on a link, while the drive link moves.
 
-use jred::machine::{Action, Load, MAX_LOADS};
-use jred::{Domain, Machine};
+use jred::Domain;
+use jred::machine::{Action, Load, MAX_LOADS, Machine};
 
 use super::drive_link::DriveLink;
 use super::mass::attached;
@@ -77,7 +77,7 @@ pub(super) fn read(
                 .help("combine loads that act on the same link"));
         }
         let load = Load::new(carriage.mass.link, Action::Force([0.0; 2]));
-        let load = load.map_err(jred::Error::from);
+        let load = load.map_err(jred::error::Error::from);
         machine = load
             .and_then(|load| {
                 let name = carriage.name.clone();

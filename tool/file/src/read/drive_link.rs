@@ -2,8 +2,9 @@
 
 use std::f64::consts::TAU;
 
+use jred::Domain;
+use jred::error::Error;
 use jred::machine::Mechanism as _;
-use jred::{Domain, Error};
 
 use crate::model::coordinate::Coordinate;
 use crate::model::mechanism::AnyMechanism;

@@ -34,7 +34,7 @@ pub use mechanism::mechanism_types;
 use std::ops::Range;
 use std::path::Path;
 
-use jred::Machine;
+use jred::machine::Machine;
 use miette::{Report, miette};
 
 use crate::model::axis::Axis;
@@ -185,7 +185,7 @@ fn loaded(
     mechanism: AnyMechanism,
     loads: &[NamedLoad],
     elements: &[NamedElement],
-) -> std::result::Result<Machine<AnyMechanism>, jred::Error> {
+) -> std::result::Result<Machine<AnyMechanism>, jred::error::Error> {
     let mut machine = Machine::new(mechanism);
     for named in loads {
         machine = machine.with_load(named.load)?;

@@ -1,6 +1,6 @@
 //! `[motion]`: the prescribed motion of the drive link.
 
-use jred::Machine;
+use jred::machine::Machine;
 
 use crate::model::mechanism::{AnyMechanism, NamedLoad};
 use crate::model::motion::Motion;

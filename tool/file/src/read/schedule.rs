@@ -2,8 +2,8 @@
 
 use std::ops::Range;
 
-use jred::Machine;
 use jred::machine::Load;
+use jred::machine::Machine;
 
 use super::loads::{self, SCHEDULE};
 use crate::model::carriage::Carriage;

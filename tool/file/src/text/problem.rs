@@ -42,7 +42,7 @@ impl Problem {
     }
 
     /// The problem of an error of the core, with its cure.
-    pub fn of(error: impl Into<jred::Error>) -> Self {
+    pub fn of(error: impl Into<jred::error::Error>) -> Self {
         let error = error.into();
         Self::new(error.to_string()).help(error.cure().to_string())
     }

@@ -61,12 +61,12 @@ impl<'a> Section<'a> {
     }
 
     /// An error of the core about the table as a whole.
-    pub(crate) fn error(&self, error: impl Into<jred::Error>, label: &str) -> Problem {
+    pub(crate) fn error(&self, error: impl Into<jred::error::Error>, label: &str) -> Problem {
         Problem::of(error).at(self.header.clone(), label)
     }
 
     /// The same; the message begins with the table's title.
-    pub(crate) fn titled(&self, error: impl Into<jred::Error>, label: &str) -> Problem {
+    pub(crate) fn titled(&self, error: impl Into<jred::error::Error>, label: &str) -> Problem {
         let error = error.into();
         let problem = self.problem(format!("{}: {error}", self.title), label);
         problem.help(error.cure().to_string())

@@ -3,7 +3,8 @@
 use std::f64::consts::{PI, TAU};
 use std::fmt::Write;
 
-use jred::{Domain, Reducible};
+use jred::Domain;
+use jred::machine::Reducible;
 use jred_file::model::coordinate::Coordinate;
 
 use super::of_curves;

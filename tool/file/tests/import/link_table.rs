@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 use std::fmt::Write;
 
-use jred::Reducible;
+use jred::machine::Reducible;
 use jred_file::model::machine::MachineFile;
 
 use super::parse;

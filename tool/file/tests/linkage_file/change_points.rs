@@ -2,7 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use jred::Reducible as _;
+use jred::machine::Reducible as _;
 use jred::machine::{Jointed as _, Mechanism as _};
 
 use super::{read, refuses_edit};

@@ -1,7 +1,7 @@
 //! `[[spring]]` and `[[damper]]` of every mechanism.
 
-use jred::Reducible as _;
 use jred::machine::Mechanism as _;
+use jred::machine::Reducible as _;
 
 use super::{FOUR_BAR, read, refuses, refuses_edit, within};
 use crate::support::press_text;

@@ -1,7 +1,7 @@
 //! Bounded drives: a boom lifted by a cylinder, and a crank that swings.
 
-use jred::machine::Mechanism as _;
-use jred::{Domain, Reducible as _};
+use jred::Domain;
+use jred::machine::{Mechanism as _, Reducible as _};
 use jred_file::model::coordinate::Coordinate;
 
 use super::{FOUR_BAR, parse, read, refuses, refuses_edit, within};

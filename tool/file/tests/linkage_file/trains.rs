@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use jred::Reducible as _;
+use jred::machine::Reducible as _;
 use jred::mechanism::TrainOutput;
 
 use super::{read, within};

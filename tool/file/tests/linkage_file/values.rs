@@ -2,9 +2,9 @@
 
 use std::f64::consts::TAU;
 
-use jred::machine::{Jointed as _, MassProperties, Mechanism as _};
+use jred::Domain;
+use jred::machine::{Jointed as _, Link, Machine, MassProperties, Mechanism as _, Reducible as _};
 use jred::mechanism::{Branch, SixLink, SixLinkDimensions, SliderCrank, SliderCrankDimensions};
-use jred::{Domain, Link, Machine, Reducible as _};
 use serde_json::Value;
 
 use super::{FOUR_BAR, read, within};

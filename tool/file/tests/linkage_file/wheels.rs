@@ -1,7 +1,7 @@
 //! Gears, racks and belts: how they move, and what does not fit their bearings or follow.
 
-use jred::Reducible as _;
 use jred::machine::Mechanism as _;
+use jred::machine::Reducible as _;
 
 use super::{read, refuses, refuses_edit, within};
 

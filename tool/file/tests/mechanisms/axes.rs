@@ -1,6 +1,7 @@
 //! `docs/axes.md`: toothed-belt axis, conveyor, feed roll, rotary table, winder.
 
-use jred::{Domain, Reducible as _};
+use jred::Domain;
+use jred::machine::Reducible as _;
 
 use jred_file::model::coordinate::Coordinate;
 

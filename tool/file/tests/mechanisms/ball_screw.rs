@@ -2,8 +2,8 @@
 
 use std::f64::consts::TAU;
 
-use jred::Reducible as _;
 use jred::machine::Mechanism as _;
+use jred::machine::Reducible as _;
 
 use super::{close, example, machine, parse, refuses_edit};
 

@@ -37,7 +37,7 @@ fn the_documented_example_is_read() {
     close(file.machine.mechanism().links()[0].com()[0], 0.005);
     // The table of figures is that of the library.
     for slots in [3, 4, 5, 6, 8, 10, 12_u32] {
-        let none = [0.0; 2].map(|inertia| jred::Link::rotor(inertia).unwrap());
+        let none = [0.0; 2].map(|inertia| jred::machine::Link::rotor(inertia).unwrap());
         let geneva = jred::mechanism::Geneva::new(slots, 1.0, none).unwrap();
         let digits = |value: f64| {
             let places = 2 - (value * (1.0 + 1e-9)).log10().floor() as i32;

@@ -1,7 +1,7 @@
 //! `type = "hoist"`.
 
-use jred::Reducible as _;
 use jred::machine::Mechanism as _;
+use jred::machine::Reducible as _;
 
 use super::{close, example, machine, parse, refuses_edit};
 

@@ -1,6 +1,6 @@
 //! `type = "planetary"`.
 
-use jred::Reducible as _;
+use jred::machine::Reducible as _;
 use jred::machine::{Jointed as _, Mechanism as _};
 
 use super::{close, example, machine, parse, refuses_edit};

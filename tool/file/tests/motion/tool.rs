@@ -3,8 +3,8 @@
 use std::f64::consts::{PI, TAU};
 use std::fmt::Write as _;
 
-use jred::machine::{Jointed as _, Mechanism as _};
-use jred::{Domain, Reducible as _};
+use jred::Domain;
+use jred::machine::{Jointed as _, Mechanism as _, Reducible as _};
 use jred_file::model::machine::MachineFile;
 use jred_file::model::motion::{Measure, Motion, Segment, ToolCoordinate};
 

@@ -1,7 +1,7 @@
 //! The quantity to minimise, at each sample, as a linear function of the unknowns.
 
-use jred::machine::{Element, Frames, MassProperties, Mechanism as _};
-use jred::{Error, Link, Reducible as _};
+use jred::error::Error;
+use jred::machine::{Element, Frames, Link, MassProperties, Mechanism as _, Reducible as _};
 use jred_analysis::duty::{Duty, Instant, Sampling};
 use jred_file::model::coordinate::positions;
 use jred_file::model::machine::MachineFile;

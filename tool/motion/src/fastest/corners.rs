@@ -2,8 +2,9 @@
 
 use std::f64::consts::TAU;
 
-use jred::machine::Mechanism as _;
-use jred::{Domain, Error, Reducible as _};
+use jred::Domain;
+use jred::error::Error;
+use jred::machine::{Mechanism as _, Reducible as _};
 use jred_file::number::numerics::{edge, least};
 
 use super::field::Field;

@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use jred::Error;
+use jred::error::Error;
 use jred_file::model::machine::MachineFile;
 use jred_sizing::select::fit::input_kind;
 

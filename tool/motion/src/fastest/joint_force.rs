@@ -14,7 +14,7 @@
 
 use std::ops::Deref;
 
-use jred::Error;
+use jred::error::Error;
 use jred::machine::MAX_JOINTS;
 
 use jred_file::model::machine::MachineFile;

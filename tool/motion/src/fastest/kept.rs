@@ -1,6 +1,6 @@
 //! Parts of the motion that are kept unchanged.
 
-use jred::Error;
+use jred::error::Error;
 use jred_file::model::machine::MachineFile;
 
 use super::field::{Binding, Field, Limits};

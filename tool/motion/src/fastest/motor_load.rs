@@ -2,7 +2,7 @@
 
 use std::convert::Infallible;
 
-use jred::Error;
+use jred::error::Error;
 use jred::machine::motion::State;
 use jred_file::model::machine::MachineFile;
 use jred_file::number::numerics;

@@ -3,7 +3,7 @@
 mod cure;
 mod words;
 
-use jred::Error;
+use jred::error::Error;
 use jred_analysis::duty;
 use jred_file::model::axis::Axis;
 use jred_file::model::coordinate::Coordinate;

@@ -1,6 +1,6 @@
 //! The phase plane of a move: speed over position, with the active limit of each stretch and the speeds that the machine cannot pass.
 
-use jred::Error;
+use jred::error::Error;
 use jred_file::model::machine::MachineFile;
 
 use super::Binding;

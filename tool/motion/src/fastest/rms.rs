@@ -13,7 +13,7 @@
 //! Where a weight acts all along the path, β may exceed 1: a constant J against a weight G needs β = R²/(4·(R² − G²)), more than 1 for a limit below
 //! 1.155·G. Therefore β grows with a share s from 0 to 1 as 1/β = (1 − s)/s + (1 − C²/R²), and ∫T² dt − R²·t falls with s.
 
-use jred::Error;
+use jred::error::Error;
 use jred_file::model::coordinate::Coordinate;
 use jred_file::model::machine::MachineFile;
 

@@ -4,8 +4,9 @@
 
 use std::f64::consts::TAU;
 
+use jred::Domain;
+use jred::error::Error;
 use jred::machine::Mechanism as _;
-use jred::{Domain, Error};
 use jred_file::model::coordinate::positions;
 use jred_file::model::mechanism::AnyMechanism;
 

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use jred::Error;
+use jred::error::Error;
 
 use super::field::Field;
 use super::joint_force::{JointForce, Spot};

@@ -12,7 +12,7 @@
 //! For a cycle that is long against the time constant, the search uses the greatest temperature of the periodic state in the same way. The motion is
 //! then the fastest one with its RMS torque; another motion that distributes the heat differently over the cycle may be faster.
 
-use jred::Error;
+use jred::error::Error;
 use jred_file::model::machine::MachineFile;
 use jred_file::model::operation::Operation;
 use jred_file::model::surroundings::{REFERENCE, Surroundings};

@@ -4,7 +4,7 @@
 //! that is convex in v² and a stays convex in the unknowns. w and its slope are continuous, except at an edge of a load or a cam, where the
 //! acceleration jumps: there each side has its own slope.
 
-use jred::Error;
+use jred::error::Error;
 use jred_file::number::quadrature::GAUSS_5;
 
 use super::{Ends, Travel};

@@ -8,7 +8,7 @@ use super::mesh::Mesh;
 use crate::collocation::pieces::{Value, dot, hermite};
 use crate::collocation::torque::Torque;
 use crate::way::{Place, Way};
-use jred::Error;
+use jred::error::Error;
 
 /// Most steps of Newton's method.
 const STEPS: u32 = 200;

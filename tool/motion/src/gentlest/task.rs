@@ -2,7 +2,8 @@
 
 use std::rc::Rc;
 
-use jred::{Domain, Reducible as _};
+use jred::Domain;
+use jred::machine::Reducible as _;
 
 use super::cost::Cost;
 use super::mesh::Mesh;

@@ -9,7 +9,7 @@
 //!
 //! for every place s and every rate. 1/R is the least of both right sides divided by ω.
 
-use jred::Error;
+use jred::error::Error;
 use jred_file::model::machine::MachineFile;
 
 use crate::trace::{Node, Trace};

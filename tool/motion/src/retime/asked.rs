@@ -1,6 +1,6 @@
 //! The machine with the request for its motion: the same parts with other moves, and their cost.
 
-use jred::Error;
+use jred::error::Error;
 use jred::machine::motion::{End, Law, Polynomial};
 use jred_analysis::duty::{self, Duty};
 use jred_file::model::machine::MachineFile;

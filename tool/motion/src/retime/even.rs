@@ -1,6 +1,6 @@
 //! A rotation at constant kinetic energy.
 
-use jred::Error;
+use jred::error::Error;
 use jred::machine::motion::{End, Polynomial};
 use jred_file::model::motion::Phase;
 use jred_file::number::numerics::gauss;

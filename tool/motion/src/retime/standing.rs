@@ -1,6 +1,6 @@
 //! Times in which links are at rest while the drive moves, as for the table of an indexing cam.
 
-use jred::Error;
+use jred::error::Error;
 use jred::machine::Mechanism as _;
 use jred_file::model::machine::MachineFile;
 use jred_file::model::motion::Motion;

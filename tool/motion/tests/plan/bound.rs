@@ -3,8 +3,8 @@
 use std::f64::consts::TAU;
 
 use jred::axis::Plan as Read;
-use jred::table::{Constants, Shape};
-use jred::{Domain, Model, Scale, Spline, Table, curves};
+use jred::table::{Constants, Shape, Table};
+use jred::{Domain, Model, Scale, Spline, curves};
 use jred_analysis::checked;
 use jred_file::model::coordinate::Coordinate;
 use jred_motion::fastest::{Limits, Task, solve};

@@ -1,6 +1,6 @@
 //! Content of a drawing, in metres: parts of links in their own frames, parts of the ground, paths, poses.
 
-use jred::Error;
+use jred::error::Error;
 use jred::machine::{Body, Frames, Joint, Jointed as _, Joints, Marker, Mechanism as _, PoseError};
 
 use jred_file::model::coordinate::whole_range;

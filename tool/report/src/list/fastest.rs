@@ -12,7 +12,7 @@ use super::contact::of_fastest;
 use crate::answer::Answer;
 use crate::list::kept;
 use crate::table::output::Format;
-use jred::Error;
+use jred::error::Error;
 use jred_file::model::machine::MachineFile;
 use jred_file::number::columns::{Column, Columns, Quantity};
 use jred_file::number::rounding::{percent, short};

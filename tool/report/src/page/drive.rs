@@ -1,6 +1,7 @@
 //! Charts of the drive: the torque-speed plane, the course over time, λ over the range, and every rule over the ratio.
 
-use jred::{Error, Reducible as _};
+use jred::error::Error;
+use jred::machine::Reducible as _;
 
 use super::chart::{Chart, ChartKind};
 use super::figures::{dashed, line};

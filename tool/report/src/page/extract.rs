@@ -1,6 +1,6 @@
 //! Tables of the page about a mechanism: the largest forces, and a few rows of the curves.
 
-use jred::Error;
+use jred::error::Error;
 
 use super::mechanism::{POINTS, Source};
 use jred_analysis::reduce::{Request, Sets, largest};

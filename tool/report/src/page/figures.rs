@@ -1,7 +1,7 @@
 //! Figures of the machine, and of a simulation.
 
-use jred::machine::Mechanism as _;
-use jred::{Error, Reducible as _};
+use jred::error::Error;
+use jred::machine::{Mechanism as _, Reducible as _};
 
 use super::chart::{Chart, ChartKind};
 use super::section::{Figure, Section, over};

@@ -1,7 +1,7 @@
 //! The page about a mechanism: drawing, animation, check, curves, motions, forces.
 
 use askama::Template;
-use jred::Error;
+use jred::error::Error;
 
 use super::extract::{Table, largest_forces, tables};
 use super::figures;

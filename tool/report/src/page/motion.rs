@@ -1,6 +1,6 @@
 //! Pages about motions: the fastest, the gentlest, the steady cycle.
 
-use jred::Error;
+use jred::error::Error;
 use jred::machine::motion::State;
 use jred_analysis::simulate::Together;
 use jred_analysis::steady::Steady;

@@ -10,9 +10,9 @@
 //! m scales every mass and inertia of the mechanism, its payload and its flywheel; p every force and moment of given direction. The drive train keeps
 //! its inertia and its losses, which are computed again at every instant.
 
-use jred::machine::TorqueTerms;
+use jred::error::Error;
+use jred::machine::{Machine, TorqueTerms};
 use jred::mechanism::TrainOutput;
-use jred::{Error, Machine};
 
 use jred_analysis::duty::mechanics::{Held, Rest, constant_loads};
 use jred_analysis::duty::{Duty, Instant, Smooth};

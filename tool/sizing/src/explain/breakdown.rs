@@ -14,7 +14,7 @@
 //! The share of each in the mean square is ⟨T_k·T⟩/⟨T²⟩, its projection on the whole: the shares add up to one. A share may be negative: without that
 //! contribution the RMS torque would be greater.
 
-use jred::Error;
+use jred::error::Error;
 use serde::Serialize;
 
 use super::contributions::{Contribution, Contributions, Effect, PartKind};

@@ -1,6 +1,6 @@
 //! The torque of a drive, split by parts and by effects, at every instant of its cycle.
 
-use jred::Error;
+use jred::error::Error;
 use jred::machine::Mechanism as _;
 
 use crate::catalogue::Drive;

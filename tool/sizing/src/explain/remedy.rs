@@ -12,7 +12,7 @@
 //! rule that is violated without them is violated ([`Altered::outline`]). Between two values of the grid there is no search if the result is worse on
 //! both sides.
 
-use jred::Error;
+use jred::error::Error;
 use serde::Serialize;
 
 use super::altered::{Alteration, Altered};

@@ -1,7 +1,7 @@
 //! The source in the firmware: the meter over the cycle has the figures of `jred size`, and its verdicts.
 
-use jred::Reducible as _;
 use jred::duty::{Meter, Verdict, Window};
+use jred::machine::Reducible as _;
 use jred::mechanism::TrainOutput;
 use jred_analysis::checked;
 use jred_file::model::machine::MachineFile;

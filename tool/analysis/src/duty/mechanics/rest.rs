@@ -3,7 +3,7 @@
 //! Weight and springs act wherever the machine is stopped, and so does a constant force or moment that the machine file ties to no position, time or
 //! direction: the motor must hold them without end. A process load acts at rest only as long as a dwell of the motion lasts.
 
-use jred::Error;
+use jred::error::Error;
 use jred::machine::{Action, Mechanism as _};
 
 use crate::duty::Instant;

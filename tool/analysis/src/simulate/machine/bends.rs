@@ -1,7 +1,7 @@
 //! Bends of the equations of motion: where the power through a stage with losses or through the motor's gearbox reverses, where the motor's
 //! torque-speed curve has a corner, and where a point under friction turns back.
 
-use jred::Error;
+use jred::error::Error;
 use jred::machine::{Action, Mechanism as _};
 use jred::mechanism::TrainOutput;
 

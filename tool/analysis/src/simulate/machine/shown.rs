@@ -1,6 +1,6 @@
 //! Output of a machine under its motor: the columns of a row, and the state of the motor.
 
-use jred::Error;
+use jred::error::Error;
 use jred::machine::motion::State as Moving;
 
 use super::{Plant, Stored, beside_name};

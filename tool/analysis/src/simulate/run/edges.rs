@@ -2,7 +2,8 @@
 
 use std::f64::consts::TAU;
 
-use jred::{Domain, Reducible as _};
+use jred::Domain;
+use jred::machine::Reducible as _;
 
 use super::{Plant, Run};
 use crate::simulate::SimulationError;

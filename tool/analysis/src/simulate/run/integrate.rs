@@ -1,6 +1,6 @@
 //! The integrator's steps.
 
-use jred::Error;
+use jred::error::Error;
 
 use super::{Plant, Run};
 use crate::simulate::SimulationError;

@@ -1,6 +1,6 @@
 //! Interface of a machine under its motor for a simulation.
 
-use jred::Error;
+use jred::error::Error;
 
 use super::Row;
 use crate::simulate::SimulationError;

@@ -1,6 +1,6 @@
 //! Start from rest: the direction of the drive link, and the missing torque if it does not start.
 
-use jred::Error;
+use jred::error::Error;
 
 use super::{HAIR, Plant, Run};
 use crate::simulate::clock::Moment;

@@ -1,6 +1,6 @@
 //! The current smooth stretch of time: times at its ends, where quantities jump, are moved inside.
 
-use jred::Error;
+use jred::error::Error;
 
 use super::{Plant, Run};
 use crate::simulate::clock::Moment;

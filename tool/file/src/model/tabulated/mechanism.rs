@@ -2,11 +2,13 @@
 
 use std::sync::Arc;
 
+use jred::Domain;
+use jred::error::Error;
 use jred::machine::{
-    Body, Frame, Frames, Joint, Jointed, Joints, MAX_LINKS, Marker, Mechanism, PoseError, Wrench,
+    Body, Frame, Frames, Joint, Jointed, Joints, Link, MAX_LINKS, Marker, Mechanism, PoseError,
+    Wrench,
 };
 use jred::number::{RangeError, Transfer};
-use jred::{Domain, Error, Link};
 
 use super::{Course, StandIn};
 use crate::model::mechanism::Inner;

@@ -1,7 +1,7 @@
 //! `type = "four-bar"`.
 
 use jred::Domain;
-use jred::mechanism::{Blocked, BuildError, FourBar, FourBarDimensions, Grashof, Side};
+use jred::mechanism::{BuildError, FourBar, FourBarDimensions, Grashof, RotationError, Side};
 use jred::number::RangeError;
 
 use super::{core, link};
@@ -49,7 +49,7 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
         }
     };
     let mechanism = built.map_err(|error| match (&keep, &stroke, error) {
-        (Some(keep), _, BuildError::Misfit(misfit)) => {
+        (Some(keep), _, BuildError::Dimensions(misfit)) => {
             Problem::new(format!("{}: {misfit}", section.title()))
                 .at(keep.span(), "nothing to keep like this")
                 .help(misfit.cure().to_string())
@@ -108,15 +108,15 @@ pub(super) fn blocked(
     last: &Value,
     error: BuildError,
 ) -> Problem {
-    let BuildError::Blocked(blocked) = error else {
+    let BuildError::Rotation(blocked) = error else {
         return core(section, error);
     };
     let (place, label) = match blocked {
-        Blocked::TooShort { .. } => (last, "too short"),
+        RotationError::TooShort { .. } => (last, "too short"),
         _ => (crank, "this crank"),
     };
     let guided = match blocked {
-        Blocked::FourBar { lengths, .. } if Grashof::of(lengths) == Grashof::ChangePoint => {
+        RotationError::FourBar { lengths, .. } if Grashof::of(lengths) == Grashof::ChangePoint => {
             "; if something guides it through the flat position, write keep_branch = true"
         }
         _ => "",

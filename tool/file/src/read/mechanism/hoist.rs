@@ -1,6 +1,6 @@
 //! `type = "hoist"`.
 
-use jred::mechanism::{Hoist, Rope, Suspended};
+use jred::mechanism::{Hoist, Rope, RopeLoad};
 
 use super::{core, link, parts};
 use crate::model::mechanism::AnyMechanism;
@@ -38,12 +38,12 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
 }
 
 /// A rope and the mass suspended from it.
-fn hanging(section: &Section) -> Result<Suspended> {
+fn hanging(section: &Section) -> Result<RopeLoad> {
     let radius = section.quantity("radius", &LENGTH)?.positive()?;
     let falls = section
         .get("falls")
         .map_or(Ok(1), |item| item.count(Rope::MAX_FALLS, "2"))?;
     let link = parts::slide(section)?;
     let rope = Rope::new(radius, falls).map_err(|error| core(section, error))?;
-    Ok(Suspended { rope, link })
+    Ok(RopeLoad { rope, link })
 }

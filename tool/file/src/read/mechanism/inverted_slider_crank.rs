@@ -1,6 +1,8 @@
 //! `type = "inverted-slider-crank"`: crank and slotted lever, Whitworth's motion.
 
-use jred::mechanism::{BuildError, InvertedSliderCrank, InvertedSliderCrankDimensions, Misfit};
+use jred::mechanism::{
+    BuildError, DimensionError, InvertedSliderCrank, InvertedSliderCrankDimensions,
+};
 
 use super::{core, link, stopped, stroke};
 use crate::model::mechanism::AnyMechanism;
@@ -44,7 +46,7 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
                 ];
                 return stopped(section, item, words, error);
             }
-            let BuildError::Misfit(Misfit::ChangePoint {
+            let BuildError::Dimensions(DimensionError::ChangePoint {
                 centres,
                 rocking,
                 turning,

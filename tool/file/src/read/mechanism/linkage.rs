@@ -7,9 +7,9 @@ mod joints;
 mod problems;
 mod wheels;
 
-use jred::machine::{Frame, Frames, Joint, Jointed, Joints, Mechanism, PoseError};
+use jred::Domain;
+use jred::machine::{Frame, Frames, Joint, Jointed, Joints, Link, Mechanism, PoseError};
 use jred::mechanism::linkage::{LinkageError, Pair};
-use jred::{Domain, Link};
 
 use crate::model::coordinate::Coordinate;
 use crate::model::mechanism::{AnyMechanism, ChangePoint, Inner};

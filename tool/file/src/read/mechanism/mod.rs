@@ -25,9 +25,10 @@ mod winder;
 
 use std::f64::consts::TAU;
 
-use jred::machine::{MassProperties, Mechanism as _, PoseError};
+use jred::Domain;
+use jred::error::Error;
+use jred::machine::{Link, MassProperties, Mechanism as _, PoseError};
 use jred::mechanism::BuildError;
-use jred::{Domain, Error, Link};
 
 use crate::model::coordinate::Coordinate;
 use crate::model::mechanism::AnyMechanism;

@@ -1,7 +1,7 @@
 //! Parts common to several mechanisms: links that only slide, and wheels that only turn.
 
-use jred::machine::{MassProperties, Mechanism as _};
-use jred::{Domain, Link};
+use jred::Domain;
+use jred::machine::{Link, MassProperties, Mechanism as _};
 
 use super::core;
 use crate::model::axis::Axis;

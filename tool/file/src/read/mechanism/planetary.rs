@@ -1,7 +1,9 @@
 //! `type = "planetary"`.
 
-use jred::Link;
-use jred::mechanism::{BuildError, Member, Misfit, Planetary, PlanetaryDimensions, PlanetaryGears};
+use jred::machine::Link;
+use jred::mechanism::{
+    BuildError, DimensionError, Member, Planetary, PlanetaryDimensions, PlanetaryGears,
+};
 
 use super::{core, parts};
 use crate::model::mechanism::AnyMechanism;
@@ -109,13 +111,15 @@ fn teeth(section: &Section) -> Result<u32> {
 /// Gears that do not fit together; shown at the planets.
 fn unfit(section: &Section, planets: &Section, error: BuildError) -> Problem {
     let help = match error {
-        BuildError::Misfit(Misfit::PlanetTeeth { .. }) => {
+        BuildError::Dimensions(DimensionError::PlanetTeeth { .. }) => {
             "correct one of the three numbers of teeth, or remove `teeth` of the planets"
         }
-        BuildError::Misfit(Misfit::PlanetSpacing { .. }) => {
+        BuildError::Dimensions(DimensionError::PlanetSpacing { .. }) => {
             "change the number of planets or the numbers of teeth"
         }
-        BuildError::Misfit(Misfit::PlanetsOverlap { .. }) => "use fewer or smaller planets",
+        BuildError::Dimensions(DimensionError::PlanetsOverlap { .. }) => {
+            "use fewer or smaller planets"
+        }
         _ => return core(section, error),
     };
     planets

@@ -1,6 +1,7 @@
 //! `type = "reduced-curves"`: J(φ) and torques from a CSV file.
 
-use jred::{Domain, Link};
+use jred::Domain;
+use jred::machine::Link;
 
 use super::core;
 use crate::model::coordinate::Coordinate;

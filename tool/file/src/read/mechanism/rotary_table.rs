@@ -1,7 +1,7 @@
 //! `type = "rotary-table"`: a table with parts on a pitch circle.
 
 use jred::Domain;
-use jred::Link;
+use jred::machine::Link;
 use jred::machine::MassProperties;
 
 use super::{core, parts};

@@ -1,8 +1,8 @@
 //! `type = "slider-crank"`.
 
-use jred::Link;
+use jred::machine::Link;
 use jred::machine::MassProperties;
-use jred::mechanism::{Blocked, Branch, BuildError, SliderCrank, SliderCrankDimensions};
+use jred::mechanism::{Branch, BuildError, RotationError, SliderCrank, SliderCrankDimensions};
 
 use crate::model::mechanism::AnyMechanism;
 
@@ -55,7 +55,7 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
         if let Some((item, _)) = &stroke {
             return stopped(section, item, ROD, error);
         }
-        let BuildError::Blocked(Blocked::TooShort { phi, shortest, reach, .. }) = error else {
+        let BuildError::Rotation(RotationError::TooShort { phi, shortest, reach, .. }) = error else {
             return core(section, error);
         };
         let what = format!(

@@ -5,7 +5,7 @@
 
 use std::f64::consts::PI;
 
-use jred::Link;
+use jred::machine::Link;
 use jred::machine::MassProperties;
 use jred::mechanism::RackAndPinion;
 

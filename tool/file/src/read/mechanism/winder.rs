@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use jred::Error;
+use jred::error::Error;
 use jred::machine::{Action, Load};
 
 use super::core;

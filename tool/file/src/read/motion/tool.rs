@@ -3,9 +3,9 @@
 use std::convert::Infallible;
 use std::f64::consts::TAU;
 
+use jred::Domain;
 use jred::machine::motion::State;
-use jred::machine::{Joint, Jointed as _, Mechanism as _};
-use jred::{Domain, Machine};
+use jred::machine::{Joint, Jointed as _, Machine, Mechanism as _};
 
 use crate::model::mechanism::{AnyMechanism, NamedLoad};
 use crate::model::motion::{Measure, Motion, Reach, Standstill, ToolCoordinate};

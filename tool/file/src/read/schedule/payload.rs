@@ -1,6 +1,6 @@
 //! `[[payload]]`: a part that a link picks up and sets down.
 
-use jred::Machine;
+use jred::machine::Machine;
 use jred::machine::Mechanism as _;
 
 use super::{Course, joined, part};

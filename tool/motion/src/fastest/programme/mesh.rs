@@ -4,7 +4,7 @@
 //! acceleration. w″, and with it the jerk, may jump where two pieces meet. With the fifth degree w″ is a cubic in each piece, which follows an arc of
 //! constant jerk or of constant torque with an error of order 4.
 
-use jred::Error;
+use jred::error::Error;
 
 use crate::collocation::pieces::{Value, dot, first_columns, hermite};
 use crate::collocation::shape::Shape;

@@ -1,6 +1,6 @@
 //! The motion over time for w(u), and the check of its limits with the machine itself.
 
-use jred::Error;
+use jred::error::Error;
 use jred_file::number::quadrature::GAUSS_5;
 
 use super::borders::{Met, strongest};

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use jred::Error;
+use jred::error::Error;
 use serde::Serialize;
 
 use crate::table::output::text_table;

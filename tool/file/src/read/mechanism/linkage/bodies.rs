@@ -1,7 +1,7 @@
 //! The bodies of a linkage: mass, approximate drawing, and the points that joints connect.
 use std::ops::Range;
 
-use jred::Link;
+use jred::machine::Link;
 use jred::machine::{Body, Marker, MassProperties};
 
 use crate::plain;

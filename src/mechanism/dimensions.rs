@@ -10,7 +10,7 @@ use crate::number::error::{Curable, error};
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
-pub enum Misfit {
+pub enum DimensionError {
     /// The pivot of a slotted lever lies where the slot cannot follow the crank pin through a whole turn.
     ChangePoint {
         /// Distance of the pivots (m).
@@ -63,9 +63,9 @@ pub enum Misfit {
     FixedInput(&'static str),
 }
 
-error!(Misfit);
+error!(DimensionError);
 
-impl fmt::Display for Misfit {
+impl fmt::Display for DimensionError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
             Self::ChangePoint { centres, .. } => write!(
@@ -111,7 +111,7 @@ impl fmt::Display for Misfit {
     }
 }
 
-impl Curable for Misfit {
+impl Curable for DimensionError {
     fn write_cure(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
             Self::ChangePoint {
@@ -146,13 +146,13 @@ impl Curable for Misfit {
 }
 
 /// Checks that a link's centre of mass lies on its axis, the origin of its frame.
-pub(super) fn centred(name: &'static str, link: &Link) -> Result<(), Misfit> {
+pub(super) fn centred(name: &'static str, link: &Link) -> Result<(), DimensionError> {
     if link.is_centred() {
         return Ok(());
     }
     let [u, v] = link.com();
     let distance = math::sqrt(u * u + v * v);
-    Err(Misfit::OffAxis {
+    Err(DimensionError::OffAxis {
         link: name,
         distance,
     })

@@ -9,7 +9,7 @@ use crate::number::error::{Curable, error};
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
-pub enum Blocked {
+pub enum RotationError {
     /// A four-bar whose crank cannot turn freely.
     FourBar {
         /// Lengths of crank, coupler, rocker and ground (m).
@@ -45,9 +45,9 @@ pub enum Blocked {
     },
 }
 
-error!(Blocked);
+error!(RotationError);
 
-impl fmt::Display for Blocked {
+impl fmt::Display for RotationError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::Apart { .. } => "the links cannot be joined: ",
@@ -77,7 +77,7 @@ impl fmt::Display for Blocked {
     }
 }
 
-impl Curable for Blocked {
+impl Curable for RotationError {
     fn write_cure(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
             Self::Apart { .. } => f.write_str("shorten it, or make the others longer"),
