@@ -394,7 +394,7 @@ fn ratio(subject: &Subject, change: Option<&Remedies>) -> Vec<Figure> {
 }
 
 /// The page with the plots of a simulation.
-pub fn simulation_page(shown: &list::simulation::View) -> String {
+pub fn simulation_page(shown: &list::simulation::SimulationView) -> String {
     let file = shown.machines.first;
     let sections = figures::simulation(&shown.found.columns);
     MotionPage::page(file, "simulation", shown.about(), &shown.answer(), sections)

@@ -10,22 +10,22 @@ use jred_export::data::ExportData;
 /// All schemas, each with the name of its form.
 pub fn all() -> Vec<(&'static str, Schema)> {
     vec![
-        of::<list::balance::Form>(),
-        of::<list::bus::Form>(),
+        of::<list::balance::BalanceData>(),
+        of::<list::bus::BusData>(),
         of::<ExportData>(),
-        of::<list::fastest::Form>(),
-        of::<list::inspection::Form>(),
-        of::<list::front::Form>(),
+        of::<list::fastest::FastestData>(),
+        of::<list::inspection::CheckData>(),
+        of::<list::front::FrontData>(),
         of_sheet(list::ratio::FORM, &list::ratio::COLUMNS),
-        of::<list::reduction::Form>(),
-        of::<list::retime::Form>(),
+        of::<list::reduction::ReductionData>(),
+        of::<list::retime::RetimeData>(),
         of_sheet(list::sensitivity::FORM, &list::sensitivity::COLUMNS),
-        of::<list::rule_list::Set>(),
-        of::<list::rule_list::Sets>(),
-        of::<list::simulation::Form>(),
+        of::<list::rule_list::SetData>(),
+        of::<list::rule_list::SetsData>(),
+        of::<list::simulation::SimulationData>(),
         of::<list::split::SplitData>(),
         of::<Steady>(),
-        of::<list::listing::Form>(),
+        of::<list::listing::SizeData>(),
         of_sheet(list::tolerance::FORM, &list::tolerance::COLUMNS),
     ]
 }

@@ -60,7 +60,7 @@ pub fn balance(options: &options::balance::Balance) -> Result<Done> {
         };
         report(options, &fault, &links)
     })?;
-    let view = list::balance::View {
+    let view = list::balance::BalanceView {
         file: &file,
         request: &request,
         balanced: &balanced,

@@ -130,7 +130,7 @@ pub fn fastest(options: &Options) -> Result<Done> {
         (actuator, chosen.limits.gearbox_torque),
         &mut files,
     )?;
-    let view = list::fastest::View {
+    let view = list::fastest::FastestView {
         file: &file,
         drive: &chosen.name,
         asked,

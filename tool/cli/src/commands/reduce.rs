@@ -87,7 +87,7 @@ pub(super) fn run(options: &options::Reduce) -> Result<Done> {
     // At a change point the joint forces are missing; time, position and speed are not.
     let cells = if sets.reactions { 3 } else { usize::MAX };
     let passed = !(moves && columns.has_empty_cells(cells));
-    let view = list::reduction::View {
+    let view = list::reduction::ReductionView {
         file: &file,
         sets,
         columns: &columns,

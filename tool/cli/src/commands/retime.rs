@@ -88,7 +88,7 @@ pub fn retime(options: &Retime) -> Result<Done> {
             .map_err(duty_report)?,
     };
     let broken = broken(&file, &retimed.trace).map_err(core_report)?;
-    let mut shown = list::retime::View {
+    let mut shown = list::retime::RetimeView {
         file: &file,
         drive: drive.map(|drive| drive.name()),
         request: &request,

@@ -94,7 +94,7 @@ pub(super) fn run(options: &Simulate) -> Result<Done> {
         ..Sets::default()
     };
     widen(&mut found, &machines, asked)?;
-    let shown = list::simulation::View {
+    let shown = list::simulation::SimulationView {
         machines: &machines,
         simulation,
         found: &found,

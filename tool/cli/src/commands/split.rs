@@ -13,7 +13,7 @@ use jred_report::list::split;
 /// # Errors
 /// Contradictory options, or bounds within which the stages cannot reach the ratio.
 pub fn run(options: &options::Split) -> Result<Answer<'static>> {
-    let view = split::View {
+    let view = split::SplitView {
         train: &train(options)?,
         bounds: [options.min_ratio, options.max_ratio],
         like_pinions: options.driven.is_empty(),

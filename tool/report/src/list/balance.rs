@@ -14,7 +14,7 @@ use jred_motion::balance::{Balanced, Figures, Goal, Request};
 
 /// The content of the listing.
 #[derive(Debug)]
-pub struct View<'a> {
+pub struct BalanceView<'a> {
     /// The machine.
     pub file: &'a MachineFile,
     /// The request.
@@ -23,7 +23,7 @@ pub struct View<'a> {
     pub balanced: &'a Balanced,
 }
 
-impl View<'_> {
+impl BalanceView<'_> {
     fn coordinate(&self) -> Coordinate {
         self.file.machine.mechanism().coordinate()
     }
@@ -61,7 +61,7 @@ impl View<'_> {
 }
 
 /// The result, the figures before and after, and what to write into the machine file.
-pub fn answer(view: &View) -> Answer<'static> {
+pub fn answer(view: &BalanceView) -> Answer<'static> {
     let Balanced {
         masses,
         springs,
@@ -113,7 +113,7 @@ pub fn answer(view: &View) -> Answer<'static> {
 }
 
 /// Disadvantages of the result.
-fn warnings(view: &View) -> Vec<String> {
+fn warnings(view: &BalanceView) -> Vec<String> {
     let effort = &view.coordinate().vocabulary().torque;
     let heats = view.balanced.heats().map(|share| {
         format!(
@@ -145,7 +145,7 @@ fn both_ways(found: &Element, [pull, push]: [f64; 2]) -> Option<String> {
 }
 
 /// The figures before and after.
-fn table(answer: &mut Answer, view: &View, figures: [&Figures; 2]) {
+fn table(answer: &mut Answer, view: &BalanceView, figures: [&Figures; 2]) {
     let coordinate = view.coordinate();
     let (effort, unit) = (&coordinate.vocabulary().torque, coordinate.effort_unit());
     let pair = |of: fn(&Figures) -> Option<[f64; 2]>, unit: &str| {
@@ -238,9 +238,6 @@ impl Data for BalanceData<'_> {
     const FORM: &'static str = "jred-balance/1";
 }
 
-/// The form of the JSON.
-pub(crate) type Form = BalanceData<'static>;
-
 #[derive(Serialize, JsonSchema)]
 struct FiguresData {
     /// The value of the quantity that is least.
@@ -327,7 +324,7 @@ struct RateData {
     push: f64,
 }
 
-fn data<'a>(view: &'a View) -> BalanceData<'a> {
+fn data<'a>(view: &'a BalanceView) -> BalanceData<'a> {
     let Balanced {
         masses,
         springs,

@@ -18,7 +18,7 @@ use jred_sizing::bus::curve::PowerCurve;
 use jred_sizing::bus::store::BusFigures;
 use jred_sizing::bus::verdict::Judged;
 
-pub(crate) use data::Form;
+pub(crate) use data::BusData;
 
 /// The verdict of every check, the cures, and the powers and voltages behind them.
 ///

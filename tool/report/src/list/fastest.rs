@@ -28,7 +28,7 @@ use jred_motion::trace::Node;
 use jred_motion::way::{Actuator, BothWays};
 use jred_sizing::select::fit::input_kind;
 
-pub(crate) use data::Form;
+pub(crate) use data::FastestData;
 pub use drive::Warmth;
 
 /// Durations that differ by a smaller share are shown as the same.
@@ -41,7 +41,7 @@ const MANY: f64 = 3.0;
 const LEAST_EXCESS: f64 = 1e-9;
 
 /// The fastest motion of a machine with a drive.
-pub struct View<'a> {
+pub struct FastestView<'a> {
     /// The machine.
     pub file: &'a MachineFile,
     /// Name of the drive.
@@ -70,7 +70,7 @@ pub struct View<'a> {
     pub instants: usize,
 }
 
-impl View<'_> {
+impl FastestView<'_> {
     /// The motion over the time, with the torque and speed of the motor.
     fn course(&self) -> Result<Columns, Error> {
         let axis = self.file.axis();

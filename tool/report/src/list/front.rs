@@ -30,9 +30,6 @@ impl Data for FrontData<'_> {
     const FORM: &'static str = "jred-pareto/1";
 }
 
-/// The form of the JSON.
-pub(crate) type Form = FrontData<'static>;
-
 #[derive(Serialize, JsonSchema)]
 struct PointData<'a> {
     /// Key of the motor.

@@ -316,9 +316,6 @@ impl Data for CheckData<'_> {
     const FORM: &'static str = "jred-check/1";
 }
 
-/// The form of the JSON.
-pub(crate) type Form = CheckData<'static>;
-
 /// A whole turn, or a stroke between two positions (rad, or m).
 #[derive(Serialize, JsonSchema)]
 #[serde(untagged)]

@@ -14,7 +14,7 @@ use jred_file::number::columns::Columns;
 
 /// The rows, and remarks about them.
 #[derive(Debug)]
-pub struct View<'a> {
+pub struct ReductionView<'a> {
     /// The machine.
     pub file: &'a MachineFile,
     /// The sets of columns.
@@ -45,10 +45,7 @@ impl Data for ReductionData<'_> {
     const HAS_COURSE: bool = true;
 }
 
-/// The form of the JSON.
-pub(crate) type Form = ReductionData<'static>;
-
-impl<'a> View<'a> {
+impl<'a> ReductionView<'a> {
     /// The largest forces, remarks, and the rows.
     pub fn answer(&self) -> Answer<'a> {
         let notes = self.notes();

@@ -27,7 +27,7 @@ const SAME: f64 = 5e-4;
 
 /// The content of the listing.
 #[derive(Debug)]
-pub struct View<'a> {
+pub struct RetimeView<'a> {
     /// The machine.
     pub file: &'a MachineFile,
     /// Name of the drive; `None`: the torque is at the input of the drive train.
@@ -44,7 +44,7 @@ pub struct View<'a> {
     pub written: Vec<String>,
 }
 
-fn words(shown: &View) -> &'static Vocabulary {
+fn words(shown: &RetimeView) -> &'static Vocabulary {
     input_kind(shown.file).vocabulary()
 }
 
@@ -73,12 +73,12 @@ fn rows(retimed: &Retimed) -> Vec<(&'static str, &Figures)> {
 }
 
 /// Whether there are columns for the copper loss, and for the shares of the drive's limits.
-fn columns(shown: &View) -> [bool; 2] {
+fn columns(shown: &RetimeView) -> [bool; 2] {
     [shown.request.copper.is_some(), shown.drive.is_some()]
 }
 
 /// The motion, its drive, and the ends of its moves.
-pub(crate) fn subject(shown: &View) -> String {
+pub(crate) fn subject(shown: &RetimeView) -> String {
     let words = words(shown);
     let drive = shown.drive.as_ref().map_or_else(
         || "at the input of the drive train".to_owned(),
@@ -98,9 +98,9 @@ pub(crate) fn subject(shown: &View) -> String {
 }
 
 /// The result: its figure first, then the motions compared, then each move.
-pub fn answer(shown: &View) -> Answer<'static> {
+pub fn answer(shown: &RetimeView) -> Answer<'static> {
     let words = words(shown);
-    let View { retimed, .. } = shown;
+    let RetimeView { retimed, .. } = shown;
     let title = format!("{}: {}", shown.file.title, subject(shown));
     let mut answer = Answer::new(shown.file.title.clone(), &data(shown)).titled(title);
     answer.csv(retimed.trace.of_axis(&shown.file.axis()).profile());
@@ -151,8 +151,8 @@ pub fn answer(shown: &View) -> Answer<'static> {
     answer
 }
 
-fn describe(answer: &mut Answer, shown: &View, words: &Vocabulary) {
-    let View {
+fn describe(answer: &mut Answer, shown: &RetimeView, words: &Vocabulary) {
+    let RetimeView {
         request, retimed, ..
     } = shown;
     let best = retimed.best.of(request.goal);
@@ -207,7 +207,7 @@ fn describe(answer: &mut Answer, shown: &View, words: &Vocabulary) {
 }
 
 /// The rules that the motion violates.
-fn violated<'a>(shown: &'a View) -> impl Iterator<Item = &'a Check> {
+fn violated<'a>(shown: &'a RetimeView) -> impl Iterator<Item = &'a Check> {
     let all = shown.checks.iter();
     all.filter(|check| check.verdict == Verdict::Fail)
 }
@@ -222,7 +222,7 @@ fn less(value: f64, than: f64) -> String {
     format!("{} {side} than", percent(share.abs()))
 }
 
-fn optimum(shown: &View, words: &Vocabulary) -> String {
+fn optimum(shown: &RetimeView, words: &Vocabulary) -> String {
     let retimed = shown.retimed;
     let goal = shown.request.goal;
     let best = retimed.best.of(goal);
@@ -275,7 +275,7 @@ const fn why(reason: Reason) -> &'static str {
     }
 }
 
-fn one_move(shown: &View, gentle: &Gentle, goal: Goal) -> String {
+fn one_move(shown: &RetimeView, gentle: &Gentle, goal: Goal) -> String {
     let axis = shown.file.axis();
     let travel = &gentle.travel;
     let mut says = format!(
@@ -376,9 +376,6 @@ impl Data for RetimeData<'_> {
     const FORM: &'static str = "jred-retime/1";
 }
 
-/// The form of the JSON.
-pub(crate) type Form = RetimeData<'static>;
-
 /// Figures of a motion (SI units).
 #[derive(Serialize, JsonSchema)]
 struct MotionFigures {
@@ -446,8 +443,8 @@ struct MoveData {
     elements: usize,
 }
 
-fn data<'a>(shown: &'a View) -> RetimeData<'a> {
-    let View {
+fn data<'a>(shown: &'a RetimeView) -> RetimeData<'a> {
+    let RetimeView {
         request,
         retimed,
         file,

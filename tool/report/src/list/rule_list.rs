@@ -185,9 +185,6 @@ impl Data for SetsData<'_> {
     const FORM: &'static str = "jred-rule-sets/1";
 }
 
-/// The form of the JSON of all sets.
-pub(crate) type Sets = SetsData<'static>;
-
 /// A rule set: the JSON of `jred rules NAME`.
 #[derive(Serialize, JsonSchema)]
 pub(crate) struct SetData<'a> {
@@ -207,9 +204,6 @@ pub(crate) struct SetData<'a> {
 impl Data for SetData<'_> {
     const FORM: &'static str = "jred-rules/1";
 }
-
-/// The form of the JSON of one set.
-pub(crate) type Set = SetData<'static>;
 
 #[derive(Serialize, JsonSchema)]
 struct RuleData<'a> {

@@ -10,11 +10,11 @@ use jred_analysis::simulate::{Simulated, Stop, Together};
 use jred_file::model::simulation::Simulation;
 use jred_motion::driven::Loads;
 
-pub(crate) use data::Form;
+pub(crate) use data::SimulationData;
 
 /// A simulated motion.
 #[derive(Clone, Copy, Debug)]
-pub struct View<'s> {
+pub struct SimulationView<'s> {
     /// The machines on the motor's shaft.
     pub machines: &'s Together<'s>,
     /// The request.
@@ -27,7 +27,7 @@ pub struct View<'s> {
     pub drive: Option<(&'s str, &'s Loads)>,
 }
 
-impl<'s> View<'s> {
+impl<'s> SimulationView<'s> {
     /// Its events, one per line, and the course.
     pub fn answer(&self) -> Answer<'s> {
         let mut answer = Answer::new(self.title(), &self.data());

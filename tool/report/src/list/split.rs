@@ -14,7 +14,7 @@ use jred_file::number::rounding::rounded;
 
 /// A train of stages.
 #[derive(Debug)]
-pub struct View<'a> {
+pub struct SplitView<'a> {
     /// The train.
     pub train: &'a RatioSplit,
     /// Least and largest ratio of a stage.
@@ -61,7 +61,7 @@ impl From<&Split> for Division {
     }
 }
 
-impl View<'_> {
+impl SplitView<'_> {
     /// The best division, equal ratios, and the inertia over the ratio of the first stage.
     ///
     /// # Errors

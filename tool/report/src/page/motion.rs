@@ -251,8 +251,8 @@ fn winding(warmth: &list::fastest::Warmth) -> Option<Section> {
 ///
 /// # Errors
 /// The mechanism cannot be placed somewhere.
-pub fn fastest_page(view: &list::fastest::View) -> Result<String, Error> {
-    let list::fastest::View {
+pub fn fastest_page(view: &list::fastest::FastestView) -> Result<String, Error> {
+    let list::fastest::FastestView {
         file,
         actuator,
         cycle,
@@ -302,8 +302,8 @@ pub fn fastest_page(view: &list::fastest::View) -> Result<String, Error> {
 ///
 /// # Errors
 /// The mechanism cannot be placed somewhere.
-pub fn retime_page(shown: &list::retime::View, own: &Motion) -> Result<String, Error> {
-    let list::retime::View {
+pub fn retime_page(shown: &list::retime::RetimeView, own: &Motion) -> Result<String, Error> {
+    let list::retime::RetimeView {
         file,
         request,
         retimed,

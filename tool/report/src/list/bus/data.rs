@@ -14,9 +14,6 @@ use jred_sizing::bus::period::{Common, LOOKED_AT, MOST_CYCLES};
 use jred_sizing::bus::store::BusFigures;
 use jred_sizing::bus::verdict::Judged;
 
-/// The form of the JSON.
-pub(crate) type Form = BusData<'static>;
-
 impl Data for BusData<'_> {
     const FORM: &'static str = "jred-bus/1";
 }
@@ -59,7 +56,7 @@ pub(crate) struct BusData<'a> {
     /// Why no brake resistor can work.
     conflict: Option<Conflict>,
     /// The checks.
-    checks: Vec<CheckData>,
+    checks: Vec<CheckRow>,
     /// Checks without data.
     #[serde(rename = "not checked")]
     not_checked: Vec<String>,
@@ -148,7 +145,7 @@ struct Conflict {
 }
 
 #[derive(Serialize, JsonSchema)]
-struct CheckData {
+struct CheckRow {
     /// Name.
     check: &'static str,
     /// Value, in `unit`; none: unbounded or unknown.
@@ -248,9 +245,9 @@ pub(super) fn data(bus: &Bus) -> BusData<'_> {
     }
 }
 
-fn checks(bus: &Bus) -> Vec<CheckData> {
+fn checks(bus: &Bus) -> Vec<CheckRow> {
     let all = bus.checks().into_iter();
-    all.map(|check| CheckData {
+    all.map(|check| CheckRow {
         check: check.name(),
         value: check.figure.is_finite().then_some(check.figure),
         limit: check.limit,

@@ -6,7 +6,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::moves::{eased, greatest};
-use super::{View, of_fastest};
+use super::{FastestView, of_fastest};
 use crate::answer::schema::Data;
 use crate::list::kept::{self, KeptPart};
 use jred_motion::fastest::Reserve;
@@ -16,9 +16,6 @@ use jred_motion::fastest::ruled::{Cap, Judged};
 use jred_sizing::judge::check::Check;
 
 use super::Warmth;
-
-/// The form of the JSON.
-pub(crate) type Form = FastestData<'static>;
 
 impl Data for FastestData<'_> {
     const FORM: &'static str = "jred-fastest/1";
@@ -222,7 +219,7 @@ struct CostData<'a> {
     time: f64,
 }
 
-impl View<'_> {
+impl FastestView<'_> {
     pub(super) fn data(&self) -> FastestData<'_> {
         let cycle = self.cycle;
         let load = &cycle.load;

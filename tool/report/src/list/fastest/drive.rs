@@ -8,7 +8,7 @@ use jred_motion::fastest::joint_force::Reached;
 use jred_motion::fastest::winding::Temperatures;
 use jred_motion::fastest::{KeptPart, Reserve};
 
-use super::View;
+use super::FastestView;
 use crate::answer::Answer;
 
 /// Relative difference below which two S1 torques are the same.
@@ -26,7 +26,7 @@ pub struct Warmth {
     pub bound: Option<[f64; 2]>,
 }
 
-impl View<'_> {
+impl FastestView<'_> {
     /// The load of the motor, and the pause that it needs.
     pub(super) fn motor(&self, answer: &mut Answer) {
         let Vocabulary { torque, speed, .. } = self.words();

@@ -10,7 +10,7 @@ use jred_motion::fastest::{Binding, Phase};
 use jred_sizing::select::fit::input_kind;
 use jred_sizing::study::cell::Cell;
 
-use super::View;
+use super::FastestView;
 use crate::answer::Answer;
 
 /// Share of the largest speed below which a speed is a rounding error: speeds are roots of energies.
@@ -22,7 +22,7 @@ const DIP: f64 = 5e-4;
 /// Phases shorter than this share of the move's time are dropped.
 const LEAST_PHASE: f64 = 1e-9;
 
-impl View<'_> {
+impl FastestView<'_> {
     pub(super) fn one_move(&self, number: usize, made: &Made, answer: &mut Answer) {
         let axis = self.file.axis();
         let unit = axis.coordinate.unit();

@@ -5,10 +5,10 @@ use jred_file::number::rounding::{percent, short};
 use jred_motion::fastest::ruled::{Cap, Judged};
 use jred_sizing::judge::check::Check;
 
-use super::View;
+use super::FastestView;
 use crate::answer::Answer;
 
-impl View<'_> {
+impl FastestView<'_> {
     /// The rules that the motion satisfies, and those that it violates.
     pub(super) fn rules(&self, judged: &Judged, answer: &mut Answer) {
         let kept: Vec<String> = judged

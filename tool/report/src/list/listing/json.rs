@@ -93,9 +93,6 @@ impl Data for SizeData<'_> {
     const FORM: &'static str = "jred-size/4";
 }
 
-/// The form of the JSON.
-pub(crate) type Form = SizeData<'static>;
-
 /// Duty at a drive link that turns or slides.
 #[derive(Serialize, JsonSchema)]
 #[serde(untagged)]

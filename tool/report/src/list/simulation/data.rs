@@ -3,14 +3,11 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::View;
+use super::SimulationView;
 use crate::answer::schema::Data;
 use jred_analysis::simulate::{Impacts, Rest, Stop};
 use jred_file::model::axis::Axis;
 use jred_motion::driven::{Loads, Peak};
-
-/// The form of the JSON.
-pub(crate) type Form = SimulationData<'static>;
 
 impl Data for SimulationData<'_> {
     const FORM: &'static str = "jred-simulate/1";
@@ -169,7 +166,7 @@ struct Loaded {
     position: f64,
 }
 
-impl View<'_> {
+impl SimulationView<'_> {
     pub(super) fn data(&self) -> SimulationData<'_> {
         let found = self.found;
         let axis = &self.machines.first.axis();

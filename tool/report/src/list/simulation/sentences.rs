@@ -8,11 +8,11 @@ use jred_file::number::rounding::{short, shown};
 use jred_file::units::RPM;
 use jred_motion::driven::{Loads, Peak};
 
-use super::View;
+use super::SimulationView;
 use crate::answer::Answer;
 use crate::list::driven::{Turns, driven};
 
-impl View<'_> {
+impl SimulationView<'_> {
     /// Adds the events, one sentence each.
     pub(super) fn sentences(&self, answer: &mut Answer) {
         let axis = self.machines.first.axis();
