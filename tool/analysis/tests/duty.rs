@@ -1,4 +1,4 @@
-//! What a motion asks of the drive link's input: laws, recorded moves, short loads.
+//! The duty of a motion at the input of the drive link: laws, recorded moves, short loads.
 // Zeros and copied figures are exact.
 #![allow(clippy::float_cmp)]
 

@@ -36,7 +36,7 @@ fn of(text: &str) -> Steady {
     checked(try_of(text, None))
 }
 
-/// What holds for every steady cycle.
+/// Properties of every steady cycle.
 #[track_caller]
 fn checked(found: Result<Steady, SteadyError>) -> Steady {
     checked_to(budget::STEADY_RESIDUAL, found)

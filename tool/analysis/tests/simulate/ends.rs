@@ -1,4 +1,4 @@
-//! What is said of a run when it is over: only what has happened by then.
+//! The report of a run that is over contains only events up to then.
 
 use std::f64::consts::TAU;
 
