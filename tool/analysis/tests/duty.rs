@@ -271,7 +271,7 @@ fn a_motion_that_passes_too_many_edges_is_refused() {
     assert!(parse(600).is_ok());
     for turns in [700, 159_155] {
         let problem = parse(turns).unwrap_err();
-        let words = format!("{problem} {}", problem.help().unwrap());
+        let words = format!("{problem} {}", problem.cure().unwrap());
         let passed = format!(
             "passes edges of loads or cams {} times; at most 5000",
             8 * turns

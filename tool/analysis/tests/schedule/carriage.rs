@@ -400,7 +400,7 @@ fn contradictions_are_refused() {
     let why = parse(&rod(LEANING))
         .refuse_scheduled("fastest")
         .unwrap_err();
-    let cure = why.help().unwrap().to_string();
+    let cure = why.cure().unwrap().to_string();
     assert!(
         cure.starts_with("remove the carriage, or fix it to the link with a [[mass]]")
             && !cure.contains("segments"),
