@@ -30,7 +30,7 @@ pub fn read(path: &Path) -> Result<MachineFile, Problem> {
     }
 }
 
-/// [`read`] for a command that follows the drive link over several turns; loads may repeat after several turns.
+/// [`read()`] for a command that follows the drive link over several turns; loads may repeat after several turns.
 ///
 /// # Errors
 /// A file that cannot be read, or any error of [`parse`].

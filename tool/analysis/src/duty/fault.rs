@@ -141,6 +141,6 @@ impl miette::Diagnostic for Fault {
 
 impl From<Fault> for Problem {
     fn from(fault: Fault) -> Self {
-        Self::new(fault.to_string()).help(fault.cure().to_string())
+        Self::new(fault.to_string()).help(fault.cure())
     }
 }
