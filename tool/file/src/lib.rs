@@ -19,6 +19,7 @@
 #![forbid(unsafe_code)]
 
 pub mod argument;
+pub mod keys;
 pub mod model;
 pub mod number;
 pub mod plain;

@@ -14,7 +14,6 @@ use crate::number::rounding::figure;
 use crate::text::item::Item;
 use crate::text::problem::Result;
 use crate::text::section::Section;
-use crate::units::kind::TIME;
 
 use contradictions::{Acting, check_contradictions};
 
@@ -59,11 +58,7 @@ pub(super) fn read(
     let course = Course::of(root, motion)?;
     let mut scheduled = Vec::new();
     let mut acting: Vec<Acting> = Vec::new();
-    let sections = match root.get("load") {
-        Some(item) => item.sections("[[load]]")?,
-        None => Vec::new(),
-    };
-    for (section, entry) in sections.into_iter().zip(entries) {
+    for (section, entry) in root.tables("load")?.into_iter().zip(entries) {
         let part = part(&section, &course)?;
         let at_rest = section.get("at_rest");
         if part.item.is_some() || at_rest.is_some() {
@@ -188,7 +183,7 @@ fn part<'s>(section: &Section<'s>, course: &Course) -> Result<Part<'s>> {
         course.required(&item)?;
         let travel = [Travel::Forward, Travel::Backward];
         let words = ["forward", "backward"];
-        let chosen = item.choice(&words)?;
+        let chosen = item.word()?;
         part.when.travel = Some(travel[chosen]);
         part.words.push(words[chosen].to_owned());
         part.item.get_or_insert(item);
@@ -263,7 +258,7 @@ fn joined(spans: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
 /// `during = ["0.2 s", "0.5 s"]`; in a cycle it can extend past the end.
 fn of_times(item: &Item, course: &Course) -> Result<(Vec<[f64; 2]>, String)> {
     let motion = course.required(item)?;
-    let times = item.pair([&TIME, &TIME])?;
+    let times = item.values()?;
     let end = motion.duration();
     for time in &times {
         if time.si < 0.0 || time.si > end * (1.0 + 1e-9) {

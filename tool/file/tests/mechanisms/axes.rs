@@ -116,7 +116,7 @@ fn wrong_entries_are_refused_with_their_cure() {
             "conveyor",
             "inclination = \"12 deg\"",
             "incline = \"12 deg\"",
-            &["`inclination` in gravity is missing"],
+            &["`inclination` in [gravity] is missing"],
         ),
         (
             "conveyor",

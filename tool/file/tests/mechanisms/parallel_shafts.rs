@@ -76,7 +76,7 @@ fn wrong_entries_are_refused_with_their_cure() {
         head,
         "[mechanism.drive]",
         "driven = []\n[mechanism.drive]",
-        &["at least one driven shaft"],
+        &["at least one [[mechanism.driven]]"],
     );
     refuses_edit(
         head,
