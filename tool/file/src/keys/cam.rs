@@ -56,7 +56,7 @@ pub(crate) static DISC_CAM: Table = Table::of("disc-cam", &[&[
         key("mass", quantity(&MASS).not_negative(), "without the roller"),
         key("inertia", quantity(&INERTIA).not_negative(), "about its own centre of mass").only(SWINGING),
         super::parts::COM,
-    ]]).by("type")), ""),
+    ]]).by("type").elsewhere(&[("inertia", "a follower that slides does not turn, so it has no moment of inertia")])), ""),
     may("roller", Form::Table(&Table::of("", &[&[
         key("radius", quantity(&LENGTH).positive(), "r_r; the roller is required of a follower with one"),
         key("mass", quantity(&MASS).not_negative(), "of the roller"),

@@ -35,7 +35,7 @@ pub(super) fn read(root: &Section, drive_link: DriveLink) -> Result<Option<Varia
                 "make the screw, rack or crank that moves the drive link part of the mechanism",
             ));
     }
-    let given = section.peek("ratio");
+    let given = section.get("ratio");
     let whole = given.filter(|item| item.is_list() || item.is_text());
     let mut ratio = match &whole {
         Some(list) if list.is_list() => points(list)?,

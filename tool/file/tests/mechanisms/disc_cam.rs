@@ -209,7 +209,11 @@ fn wrong_entries_are_refused_with_their_cure() {
         (
             "angle = \"90 deg\"",
             "duration = \"90 deg\"",
-            &["`angle` in [[mechanism.segment]] number 1 is missing"],
+            &[
+                "unknown key `duration`",
+                "over the angle of the cam",
+                "add angle = ",
+            ],
         ),
         (
             "type = \"translating-roller\"",

@@ -286,9 +286,10 @@ fn limited(section: &Section, distance: Option<Value>, with_jerk: bool) -> Resul
     };
     let acceleration = section.value("max_acceleration")?.si;
     let deceleration = section.maybe("max_deceleration")?.unwrap_or(acceleration);
-    let jerk = match with_jerk {
-        true => Some(section.value("max_jerk")?.si),
-        false => None,
+    let jerk = if with_jerk {
+        Some(section.value("max_jerk")?.si)
+    } else {
+        None
     };
     let limits = Limits {
         speed: speed.as_ref().map_or(f64::INFINITY, |speed| speed.si),
