@@ -66,12 +66,13 @@ pub(crate) static DISC_CAM: Table = Table::of("disc-cam", &[&[
         key("stiffness", Form::Quantity([&TORSION_STIFFNESS, &STIFFNESS], Limit::Positive), "closing spring on the guide's axis, or a torsion spring about A"),
         key("preload", Form::Quantity([&TORQUE, &FORCE], Limit::NotNegative), "at s = 0, on the cam"),
     ]), ""),
-    may("segment", SEGMENTS, "the program, 1 to 16 segments from φ = 0, together one turn: [below](#keys); required without `lift`")
+    may("segment", SEGMENTS, "the program, from φ = 0, together one turn; required without `lift`")
         .such_as(" once for each rise = \"…\", return = \"…\" and dwell = \"…\""),
     may("lift", Form::File, "relative to the machine file: the [lift over the angle](#table), instead of segments"),
     may("lift_within", of_axis(POSITION).positive(), "how far the program may miss the table (0.1 % of the stroke)"),
-    LAYOUT[0], LAYOUT[1], LAYOUT[2], LAYOUT[3],
-    SWING,
+    LAYOUT[0].meaning("titles of the [columns](import.md#csv) `angle`, `lift`, `slope`, `bend`"),
+    LAYOUT[1], LAYOUT[2], LAYOUT[3],
+    SWING.meaning("rising, less than a turn: only of a cam with `closure = \"form\"` (full turn)"),
 ]]);
 
 /// The keys of a joint that is a cam.
@@ -88,7 +89,7 @@ pub(super) const JOINT: &[Key] = &[
         ("com", IN_THE_FOLLOWER),
         ("inertia", "the rotation of the roller is neglected in a linkage; type = \"disc-cam\" includes it"),
     ])), "").such_as("{ radius = \"13 mm\" }"),
-    key("segment", SEGMENTS, "as of a [disc cam](disc-cam.md), also as `[[mechanism.joint.segment]]`").such_as(" once for each rise = \"…\", return = \"…\" and dwell = \"…\""),
+    key("segment", SEGMENTS, "as of a [disc cam](mechanisms/disc-cam.md), also as `[[mechanism.joint.segment]]`").such_as(" once for each rise = \"…\", return = \"…\" and dwell = \"…\""),
 ];
 
 const IS_A_BODY: &str = "the follower is a body of the linkage, which has its own mass: give it there";

@@ -16,7 +16,7 @@ pub(super) const FLOW: Form = Form::Words(&["input-drives", "output-drives"]);
 const INERTIA_OF_WHEEL: Key = key("inertia", quantity(&INERTIA).not_negative(), "of the wheel with its share of the shaft");
 
 const GEAR: Form = inner!(&[key("teeth", Form::Count([1, 100_000]), "number of teeth").such_as("18"), INERTIA_OF_WHEEL]);
-const PULLEY: Form = Form::Table(&Table::of("", &[&[key("radius", quantity(&LENGTH).positive(), "effective radius: half the pitch diameter"), INERTIA_OF_WHEEL]])
+const PULLEY: Form = Form::Table(&Table::of("", &[&[key("radius", quantity(&LENGTH).positive(), "effective radius: half the pitch diameter"), INERTIA_OF_WHEEL.meaning("of the pulley with its shaft")]])
     .elsewhere(&[("diameter", "a pulley is given by its radius: give half the pitch diameter, radius = \"40 mm\"")]));
 
 const EFFICIENCY: Key = may("efficiency", quantity(&SHARE).limited(Limit::UpTo(1.0)), "in both directions of power").or("100 %");
@@ -95,7 +95,7 @@ static SHIFT: Table = Table::of("shift", &[&[
 ]]);
 
 pub(crate) static VARIATOR: Table = Table::of("variator", &[&[
-    key("ratio", Form::Any(&[RATIO, Form::List(&Form::Tuple(&[quantity(&TIME), RATIO]), [5, 1000]), Form::Text]), "i, output over input speed, 0.001 to 1000: at the start; or a list of times and ratios, or a formula, of its whole course").such_as("0.5, the output speed over the input speed"),
+    key("ratio", Form::Any(&[RATIO, Form::List(&Form::Tuple(&[quantity(&TIME), RATIO]), [5, 1000]), Form::Text]), "i, output over input speed: at the start, or as list or formula its whole course").such_as("0.5, the output speed over the input speed"),
     key("input_inertia", quantity(&INERTIA).positive(), "of the input shaft, without the motor's rotor"),
     key("output_inertia", quantity(&INERTIA).not_negative(), "of the output shaft"),
     may("slip", quantity(&SHARE).not_negative(), "ε < 100 %: constant, loses power"),

@@ -14,7 +14,7 @@ const AT_MOST: &str = "combine loads that act on the same link";
 
 /// When a load acts.
 const WHEN: &[Key] = &[
-    may("segments", Form::List(&Form::Count([1, 1000]), [1, 1000]), "numbers of the motion's segments in which it acts, from 1 (all)").such_as("[2, 3]"),
+    may("segments", Form::List(&Form::Count([1, 1000]), [1, usize::MAX]), "numbers of the motion's segments in which it acts, from 1 (all)").such_as("[2, 3]"),
     may("during", pair(&TIME), "instead: from one time to another; in a cycle over its end if the second is smaller"),
     may("direction", Form::Words(&["forward", "backward"]), "φ grows, or falls (both). At rest it does not act"),
 ];
@@ -53,7 +53,8 @@ pub(crate) static LOAD_TABLE: Table = Table::of("load.table", &[&[
     ]), ""),
     may("outside", Form::Words(&["error", "zero"]), "what acts beyond the rows").or("error"),
     may("curve", Form::Words(&["smooth", "monotone"]), "of forces and moments").or("smooth"),
-    LAYOUT[0], LAYOUT[1], LAYOUT[2], LAYOUT[3],
+    LAYOUT[0].meaning("titles of the [columns](#csv) `position`, `payload`, `thrust`, `torque`, `force`, `force_x`, `force_y`, `moment`"),
+    LAYOUT[1], LAYOUT[2], LAYOUT[3],
 ]]).elsewhere(&[
     ("at_rest", "write at_rest with a plain force or moment"),
     ("force", SEPARATE), ("moment", SEPARATE), ("opposing_force", SEPARATE), ("opposing_moment", SEPARATE), ("viscous_force", SEPARATE), ("viscous_moment", SEPARATE),
@@ -64,26 +65,31 @@ const SEPARATE: &str = "a table already says what acts; write this in a separate
 
 const PART_OF_MOTION: &str = "what is there for a part of the motion is a [[payload]]";
 
-const fn attached(at: &'static str, mass: &'static str) -> [Key; 5] {
+const fn attached(on: &'static str, mass: &'static str, at: &'static str) -> [Key; 5] {
     [
-        key("on", LINK, "it is fixed to"),
+        key("on", LINK, on),
         key("mass", quantity(&MASS).positive(), mass),
-        may("name", Form::Text, "in reports (from the link)").such_as("\"workpiece\""),
+        may("name", Form::Text, "in reports (\"mass on\" and the link)").such_as("\"workpiece\""),
         may("inertia", quantity(&INERTIA).not_negative(), "about its own centre of mass").or("0"),
         may("at", pair(&LENGTH), at).or("0"),
     ]
 }
 
-pub(crate) static MASSES: Table = Table::of("mass", &[&attached("its centre of mass `[u, v]` in the link's frame", "not counted by a coefficient of guide friction")])
+pub(crate) static MASSES: Table = Table::of("mass", &[&attached("it is fixed to", "not counted by a coefficient of guide friction", "its centre of mass `[u, v]` in the link's frame")])
     .elsewhere(&[("segments", PART_OF_MOTION), ("during", PART_OF_MOTION)]);
 
-pub(crate) static PAYLOAD: Table = Table::of("payload", &[&attached("its centre of mass `[u, v]` in the link's frame", ""), WHEN, &[
+const PAYLOAD_KEYS: &[Key] = &[
+    WHEN[0].meaning("numbers of the motion's segments in which it is carried, in one go; required without `during`"),
+    WHEN[1],
     may("while_moving", Form::Flag, "whether its place may move at pick-up and set-down").or("false"),
-]]).elsewhere(&[("between", COLUMN), ("ramp", COLUMN)]);
+];
+
+pub(crate) static PAYLOAD: Table = Table::of("payload", &[&attached("it is fixed to", "", "its centre of mass `[u, v]` in the link's frame"), PAYLOAD_KEYS])
+    .elsewhere(&[("between", COLUMN), ("ramp", COLUMN), ("direction", "write segments = [2, 3] or during = [\"0.2 s\", \"0.5 s\"]: the time over which it is carried")]);
 
 const COLUMN: &str = "a payload over a part of the turn is a column of a table of loads: docs/import.md";
 
-pub(crate) static CARRIAGE: Table = Table::of("carriage", &[&attached("its centre of mass `[u, v]` at s = 0", ""), &[
+pub(crate) static CARRIAGE: Table = Table::of("carriage", &[&attached("that carries the guide", "", "its centre of mass `[u, v]` at s = 0"), &[
     may("direction", quantity(&ANGLE), "of the guide, from u of the link's frame").or("0"),
     key("stroke", pair(&LENGTH), "rising: range of s along the guide").such_as("[\"0 mm\", \"1500 mm\"]"),
     key("motion", Form::Table(&super::motion::OF_CARRIAGE), "s over the time of `[motion]`").such_as(" with type = \"cycle\" and its segments, as for [motion]"),

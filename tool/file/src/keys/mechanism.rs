@@ -49,7 +49,7 @@ pub(crate) static FOUR_BAR: Table = Table::of("four-bar", &[&[
     key("rocker", inner!(&[length("c")], LINK), ""),
     may("side", LEFT_RIGHT, "side of the directed line AC on which B lies").or("left"),
     may("keep_branch", Form::Flag, "guided through its [change points](#change-points), if s + l = p + q").or("false"),
-    may("stroke", pair(&ANGLE), "range of a crank that only swings, without a dead point (full turn)").such_as("[\"-30 deg\", \"60 deg\"]"),
+    SWING.meaning("rising: range of a crank that only swings, without a dead point (full turn)"),
 ]]);
 
 pub(crate) static SIX_LINK: Table = Table::of("six-link", &[&[
@@ -97,14 +97,14 @@ pub(crate) static SCOTCH_YOKE: Table = Table::of("scotch-yoke", &[&[
 pub(crate) static RACK_AND_PINION: Table = Table::of("rack-and-pinion", &[&[
     key("pinion", inner!(&[key("radius", quantity(&LENGTH).positive(), "r, pitch radius")], LINK), ""),
     key("rack", ON_GUIDE, ""),
-    stroke("positions of the rack along x ([no ends](../axes.md#stroke))"),
+    stroke("positions of the rack along x ([no ends](axes.md#stroke))"),
 ]]);
 
 pub(crate) static BALL_SCREW: Table = Table::of("ball-screw", &[&[
     key("lead", quantity(&LENGTH), "h, travel of the nut a turn; negative: −x"),
     key("screw", TURNING, ""),
     key("nut", ON_GUIDE, ""),
-    stroke("positions of the nut along x ([no ends](../axes.md#stroke))"),
+    stroke("positions of the nut along x ([no ends](axes.md#stroke))"),
 ]]);
 
 const HANGING: Form = Form::Table(&Table::of("", &[&[
@@ -117,8 +117,8 @@ const HANGING: Form = Form::Table(&Table::of("", &[&[
 pub(crate) static HOIST: Table = Table::of("hoist", &[&[
     key("drum", inner!(LINK), ""),
     key("load", HANGING, ""),
-    may("counterweight", HANGING, "required of a counterweight (no counterweight)"),
-    stroke("positions of the load along y ([no ends](../axes.md#stroke))"),
+    may("counterweight", HANGING, "on another rope of the drum (no counterweight)"),
+    stroke("positions of the load along y ([no ends](axes.md#stroke))"),
 ]]);
 
 pub(crate) static GENEVA: Table = Table::of("geneva", &[&[
@@ -136,7 +136,7 @@ const fn member(name: &'static str, help: &'static str) -> Key {
 }
 
 const MEMBER: &[Key] = &[
-    may("inertia", quantity(&INERTIA).not_negative(), "about the central axis; required unless it is fixed"),
+    may("inertia", quantity(&INERTIA).not_negative(), "about the central axis; required unless it is fixed (0)"),
     may("mass", quantity(&MASS).not_negative(), "for the forces in the bearings").or("0"),
 ];
 
@@ -206,7 +206,7 @@ const IDLER: Table = Table::of("", &[&[
     may("count", Form::Count([1, 1000]), "number of equal ones").or("1").such_as("2"),
 ]]);
 
-const IDLERS: Key = may("idler", Form::Tables(&IDLER, [0, 1000], ""), "");
+const IDLERS: Key = may("idler", Form::Tables(&IDLER, [0, usize::MAX], ""), "");
 const BELT_MASS: Key = may("belt_mass", quantity(&MASS).not_negative(), "of the whole loop").or("0");
 
 pub(crate) static BELT_AXIS: Table = Table::of("belt-axis", &[&[
@@ -234,7 +234,7 @@ pub(super) const TABLE: &[Key] = &[
         may("diameter", quantity(&LENGTH).positive(), "of a disc, instead of the inertia; with the mass"),
         may("mass", quantity(&MASS).not_negative(), "of a disc, or for the force in its bearing").or("0").such_as("\"60 kg\""),
     ]), ""),
-    may("parts", Form::Tables(&PARTS, [0, 1000], ""), ""),
+    may("parts", Form::Tables(&PARTS, [0, usize::MAX], ""), ""),
 ];
 
 pub(crate) static ROTARY_TABLE: Table = Table::of("rotary-table", &[TABLE, &[SWING]]);

@@ -25,6 +25,7 @@ pub(crate) mod site;
 #[rustfmt::skip]
 mod top;
 
+pub use site::RULE_SET;
 pub use top::MACHINE;
 
 /// A table whose keys are listed with those of the table that it is in.

@@ -24,7 +24,7 @@ const LIMITED: &[&str] = &["trapezoid", "jerk-limited"];
 const ANY_SHARE: Form = quantity(&SHARE).limited(Limit::Within(1.0));
 
 /// The law of a part that moves from rest to rest.
-pub(super) const REST_TO_REST: &[Key] = &[key("law", Form::Words(&LAWS), "a [law](../machine-file.md#motion-laws) from rest to rest").such_as("\"polynomial-345\"")];
+pub(super) const REST_TO_REST: &[Key] = &[key("law", Form::Words(&LAWS), "a [law](machine-file.md#motion-laws) from rest to rest").such_as("\"polynomial-345\"")];
 
 /// The shares of two laws.
 pub(super) const SHARES: &[Key] = &[
@@ -52,14 +52,14 @@ static SEGMENT: Table = Table::of("motion.segment", &[&[
     may("max_acceleration", of_axis(ACCELERATIONS).positive(), "limit; required without a duration").only(LIMITED),
     may("max_deceleration", of_axis(ACCELERATIONS).positive(), "limit (`max_acceleration`)").only(LIMITED),
     may("max_jerk", of_axis(JERKS).positive(), "limit; required").only(&["jerk-limited"]),
-    may("to", of_axis(POSITION), "position of the drive link to come to rest (the start of the cycle)").only(&["join"]),
+    may("to", of_axis(POSITION), "position of the drive link to come to rest (the start of the cycle); a dwell or another join may follow").only(&["join"]),
 ]]).by("law");
 
 /// Layout of another program's CSV file.
 pub(super) const LAYOUT: [Key; 4] = [
     may("columns", Form::Named(&Form::Text), "titles of the [columns](import.md#csv) by their names: which column is which"),
     may("skip_rows", Form::Count([1, 10_000]), "number of lines above the header").such_as("1"),
-    may("header", Form::List(&Form::Text, [1, 1000]), "titles of a file without a header").such_as("[\"t [s]\", \"phi [deg]\"]"),
+    may("header", Form::List(&Form::Text, [1, usize::MAX]), "titles of a file without a header").such_as("[\"t [s]\", \"phi [deg]\"]"),
     may("counts_per_turn", Form::Count([1, u32::MAX]), "of an encoder, for columns in `counts`, `counts/s`").such_as("8192"),
 ];
 
@@ -82,7 +82,7 @@ static OF: Table = Table::of("motion.of", &[&[
     may("slide", Form::Name("a joint that is a guide"), "the coordinate is the displacement in it"),
 ]]).elsewhere(&[("along", "`along` is for a point"), ("at", "`at` gives a point of a link named with `point`")]);
 
-const START: Key = may("start", of_axis(POSITION), "φ, or the tool's coordinate, at the start; of a profile of speeds only (0; a stroke's first end)");
+const START: Key = may("start", of_axis(POSITION), "φ, or the tool's coordinate, at the start; of a profile only if it has no positions (0; a stroke's first end; the tool's at `near`)");
 const OF_SEGMENTS: Key = key("segment", Form::Tables(&SEGMENT, [0, usize::MAX], ""), "1 to 1000 moves and dwells").only(&["cycle", "point-to-point"]);
 
 const OF_PROFILE: &[Key] = &with([
@@ -92,7 +92,8 @@ const OF_PROFILE: &[Key] = &with([
     may("smoothing", quantity(&CUTOFF).positive(), "at which the amplitude is halved"),
     may("close_within", of_axis(POSITION).positive(), "how far a cycle may miss its end (1e-5 of a turn or of the stroke)"),
     may("master_speed", quantity(&ANGULAR_SPEED).positive(), "of the master of an [electronic cam](import.md#master)"),
-    LAYOUT[0], LAYOUT[1], LAYOUT[2], LAYOUT[3],
+    LAYOUT[0].meaning("titles of the [columns](import.md#csv) `time`, `position`, `speed`, `acceleration`, `master`, `slope`, `bend`"),
+    LAYOUT[1], LAYOUT[2], LAYOUT[3],
 ], PROFILE);
 
 const TOOL: &[(&str, &str)] = &[
@@ -105,7 +106,7 @@ const TOOL: &[(&str, &str)] = &[
 pub(crate) static MOTION: Table = Table::of("motion", &[&[
     key("type", Form::Words(&["constant-speed", "cycle", "point-to-point", "profile"]), "see above").such_as("\"cycle\""),
     may("of", Form::Table(&OF), "[whose motion it is](#motion-of-the-tool) (the drive link's)"),
-    may("near", of_axis(POSITION), "of the drive link, on the branch on which the [tool](#motion-of-the-tool) works").or("0"),
+    may("near", of_axis(POSITION), "of the drive link, on the branch on which the [tool](#motion-of-the-tool) works; no dead centre").or("0"),
     START,
     key("speed", of_axis(SPEED), "not zero; negative is clockwise").only(&["constant-speed"]),
     OF_SEGMENTS,

@@ -21,7 +21,7 @@ pub(super) const SLIDE: &[Key] = &[key("mass", quantity(&MASS).not_negative(), "
 /// A link that slides on a guide.
 pub(super) const GUIDED: &[Key] = &[
     key("mass", quantity(&MASS).not_negative(), "with all that moves with it"),
-    may("friction", Form::Number([0.0, 2.0]), "coefficient of the guide").or("0").such_as("0.05"),
+    may("friction", Form::Number([0.0, 2.0]), "[coefficient of the guide](axes.md)").or("0").such_as("0.05"),
     COM,
 ];
 
@@ -34,7 +34,7 @@ pub(super) const WHEEL: &[Key] = &[
 pub(super) const COM: Key = may("com", pair(&LENGTH), "centre of mass `[u, v]`").or("0");
 
 /// The range of a crank that only swings.
-pub(super) const SWING: Key = may("stroke", pair(&ANGLE), "range of a crank that swings (full turn)").such_as("[\"-30 deg\", \"60 deg\"]");
+pub(super) const SWING: Key = may("stroke", pair(&ANGLE), "rising, less than a turn: range of a drive link that swings (full turn)").such_as("[\"-30 deg\", \"60 deg\"]");
 
 /// The range of a part that slides.
 pub(super) const fn stroke(help: &'static str) -> Key {

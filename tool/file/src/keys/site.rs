@@ -82,8 +82,8 @@ const LIMITS: [Key; 2 * Rule::COUNT] = {
             Rule::GearboxCycles => &OF_CYCLES,
             _ => &OF_SHARE,
         };
-        keys[2 * at] = may(rule.key(), Form::Any(forms), rule.name());
-        keys[2 * at + 1] = may(rule.warning_key(), limit(rule), "limit of the warning, not beyond the limit");
+        keys[2 * at] = may(rule.key(), Form::Any(forms), "limit of the [rule](sizing-rules.md) of this name, or `{ limit, warning, source }`");
+        keys[2 * at + 1] = may(rule.warning_key(), limit(rule), "limit of the warning of a rule, not beyond the limit");
         at += 1;
     }
     keys
@@ -106,7 +106,7 @@ pub(crate) static RULES: Table = Table::of("rules", &[&[
 
 
 /// The file of a rule set.
-pub(crate) static RULE_SET: Table = Table::of("rule-set", &[&[
+pub static RULE_SET: Table = Table::of("rule-set", &[&[
     key("title", Form::Text, "").such_as("\"Rules of our house\""),
     may("source", Form::Text, "where its limits are from").such_as("\"data sheet, page 4\""),
     may("based_on", Form::Text, "name of the built-in set that it changes, or `none`").or("general"),

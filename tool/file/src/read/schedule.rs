@@ -5,7 +5,7 @@ use std::ops::Range;
 use jred::machine::Load;
 use jred::machine::Machine;
 
-use super::loads::{self, SCHEDULE};
+use super::loads;
 use crate::model::carriage::Carriage;
 use crate::model::mechanism::{AnyMechanism, NamedLoad};
 use crate::model::motion::Motion;
@@ -160,7 +160,10 @@ fn part<'s>(section: &Section<'s>, course: &Course) -> Result<Part<'s>> {
         words: Vec::new(),
         item: None,
     };
-    let [segments, during, direction] = SCHEDULE.map(|key| section.get(key));
+    let (segments, during) = (section.get("segments"), section.get("during"));
+    let direction = section
+        .describes("direction")
+        .then(|| section.get("direction"));
     if let (Some(segments), Some(during)) = (&segments, &during) {
         return Err(during
             .problem("is given together with `segments`", "here")
@@ -179,7 +182,7 @@ fn part<'s>(section: &Section<'s>, course: &Course) -> Result<Part<'s>> {
         part.words.push(words);
         part.item = Some(item);
     }
-    if let Some(item) = direction {
+    if let Some(item) = direction.flatten() {
         course.required(&item)?;
         let travel = [Travel::Forward, Travel::Backward];
         let words = ["forward", "backward"];

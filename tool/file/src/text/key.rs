@@ -198,6 +198,12 @@ impl Key {
         Self { example, ..self }
     }
 
+    /// Another meaning of a key that several tables have.
+    #[must_use]
+    pub const fn meaning(self, help: &'static str) -> Self {
+        Self { help, ..self }
+    }
+
     /// Used with these words only.
     #[must_use]
     pub const fn only(self, only: &'static [&'static str]) -> Self {

@@ -107,6 +107,11 @@ impl<'a> Section<'a> {
         self.keys().find(|key| key.name == name)
     }
 
+    /// Whether a key is described.
+    pub(crate) fn describes(&self, name: &str) -> bool {
+        self.description(name).is_some()
+    }
+
     /// Whether a key is described, and used with the word that was chosen.
     fn is_used(&self, name: &str) -> bool {
         let word = self.word.get();

@@ -60,11 +60,6 @@ fn payload(section: &Section, machine: &Machine<AnyMechanism>, course: &Course) 
     let while_moving = section.is("while_moving")?;
     let part = part(section, course)?;
     section.finish()?;
-    if let Some(item) = section.peek("direction") {
-        return Err(item
-            .problem("is for loads", "not of a payload")
-            .help("write segments = [2, 3] or during = [\"0.2 s\", \"0.5 s\"]: the time over which it is carried"));
-    }
     let Some(item) = &part.item else {
         return Err(section.missing(
             "segments",
