@@ -113,7 +113,7 @@ const ENDS: Key = key("between", Form::List(&EITHER_END, [2, 2]), "two ends on d
 pub(crate) static SPRING: Table = Table::of("spring", &[&[
     NAME,
     ENDS,
-    key("stiffness", Form::Any(&[quantity(&STIFFNESS).positive(), quantity(&TORSION_STIFFNESS).positive()]), "force per length, or moment per angle"),
+    key("stiffness", Form::Any(&[quantity(&STIFFNESS).positive(), quantity(&TORSION_STIFFNESS).positive()]), ""),
     may("free_length", quantity(&LENGTH).not_negative(), "without force: longer it pulls, shorter it pushes"),
     may("free_angle", quantity(&ANGLE), "instead, in torsion: angle of the second body against the first without moment"),
 ]]);

@@ -28,11 +28,11 @@ pub(super) const REST_TO_REST: &[Key] = &[key("law", Form::Words(&LAWS), "a [law
 
 /// The shares of two laws.
 pub(super) const SHARES: &[Key] = &[
-    may("accelerate", quantity(&SHARE).limited(Limit::UpTo(1.0)), "of the duration; with `decelerate` ≤ 100 % (1/3)").only(TRAPEZOID),
-    may("decelerate", quantity(&SHARE).limited(Limit::UpTo(1.0)), "of the duration; with `accelerate` ≤ 100 % (1/3)").only(TRAPEZOID),
-    may("sine", ANY_SHARE, "of the duration in both halves; the three together 1 % to 100 %").or("0").only(SCCA),
-    may("constant", ANY_SHARE, "of the duration in both halves; the three together 1 % to 100 %").or("0").only(SCCA),
-    may("cosine", ANY_SHARE, "of the duration in both halves; the three together 1 % to 100 %").or("0").only(SCCA),
+    may("accelerate", quantity(&SHARE).limited(Limit::UpTo(1.0)), "of the move; with `decelerate` ≤ 100 % (1/3)").only(TRAPEZOID),
+    may("decelerate", quantity(&SHARE).limited(Limit::UpTo(1.0)), "of the move; with `accelerate` ≤ 100 % (1/3)").only(TRAPEZOID),
+    may("sine", ANY_SHARE, "of the move in both halves; the three together 1 % to 100 %").or("0").only(SCCA),
+    may("constant", ANY_SHARE, "of the move in both halves; the three together 1 % to 100 %").or("0").only(SCCA),
+    may("cosine", ANY_SHARE, "of the move in both halves; the three together 1 % to 100 %").or("0").only(SCCA),
 ];
 
 static SEGMENT: Table = Table::of("motion.segment", &[&[

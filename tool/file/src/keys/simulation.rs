@@ -13,7 +13,7 @@ const ANY_POSITION: Form = Form::Any(&[quantity(&ANGLE), quantity(&LENGTH)]);
 static CONTROL: Table = Table::of("control", &[&[
     key("speed_gain", Form::Quantity([&VISCOUS_MOMENT, &VISCOUS_FORCE], Limit::Positive), "K at the motor shaft, `\"4 N m s/rad\"` (`\"20 N s/m\"` of a linear motor)"),
     may("integral_time", quantity(&TIME).positive(), "t_i (no integral); at the limit the integral stops growing"),
-    may("position_gain", quantity(&GAIN).not_negative(), "K_v; with 0 only the speed is controlled").or("0"),
+    may("position_gain", quantity(&GAIN).not_negative(), "K_v, `\"20 1/s\"`; with 0 only the speed is controlled").or("0"),
     may("feed_forward", Form::Words(&["none", "mean-inertia", "model"]), "T_ff").or("none"),
 ]]);
 

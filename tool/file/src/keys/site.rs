@@ -72,17 +72,19 @@ static OF_RATIO: [Form; 3] = [RATIO, OFF, both!(RATIO)];
 static OF_CYCLES: [Form; 3] = [quantity(&SHARE).limited(Limit::UpTo(1000.0)), OFF, both!(quantity(&SHARE).limited(Limit::UpTo(1000.0)))];
 static OF_SHARE: [Form; 3] = [quantity(&SHARE).limited(Limit::UpTo(2.0)), OFF, both!(quantity(&SHARE).limited(Limit::UpTo(2.0)))];
 
+const LIMIT: &str = "limit of the [rule](sizing-rules.md) of this name, or `{ limit, warning, source }`";
+
 const LIMITS: [Key; 2 * Rule::COUNT] = {
     let mut keys = [may("", Form::Text, ""); 2 * Rule::COUNT];
     let mut at = 0;
     while at < Rule::COUNT {
         let rule = Rule::ALL[at];
-        let forms: &'static [Form; 3] = match rule {
-            _ if rule.is_ratio() => &OF_RATIO,
-            Rule::GearboxCycles => &OF_CYCLES,
-            _ => &OF_SHARE,
+        let (forms, help): (&'static [Form; 3], _) = match rule {
+            _ if rule.is_ratio() => (&OF_RATIO, LIMIT),
+            Rule::GearboxCycles => (&OF_CYCLES, "limit of the cycles per hour, as share of 1000"),
+            _ => (&OF_SHARE, LIMIT),
         };
-        keys[2 * at] = may(rule.key(), Form::Any(forms), "limit of the [rule](sizing-rules.md) of this name, or `{ limit, warning, source }`");
+        keys[2 * at] = may(rule.key(), Form::Any(forms), help);
         keys[2 * at + 1] = may(rule.warning_key(), limit(rule), "limit of the warning of a rule, not beyond the limit");
         at += 1;
     }

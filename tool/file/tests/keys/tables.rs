@@ -110,10 +110,10 @@ fn many(form: Form) -> String {
 }
 
 /// The second column of a row.
-fn cell(table: &Table, key: &Key, shown: Shown) -> String {
+fn cell(table: &Table, key: &Key, only: &[&str]) -> String {
     let mut cell = String::new();
-    if !key.only.is_empty() && !matches!(shown, Shown::With(_)) {
-        write!(cell, "{}: ", key.only.join(", ")).unwrap();
+    if !only.is_empty() {
+        write!(cell, "{}: ", only.join(", ")).unwrap();
     }
     cell += &value(key.form, &words_of(table, key));
     if let Need::Default(default) = key.need {
@@ -162,8 +162,14 @@ impl<'n> Shown<'n> {
     }
 }
 
-/// Rows of keys with the same second column are one.
-fn rows(table: &'static Table, path: &str, shown: Shown, found: &mut Vec<(Vec<String>, String)>) {
+/// Rows of keys with the same second column are one; `with` are the words with which the table is used.
+fn rows(
+    table: &'static Table,
+    path: &str,
+    with: &[&str],
+    shown: Shown,
+    found: &mut Vec<(Vec<String>, String)>,
+) {
     // A key that a table needs is not needed if the table is not.
     let (outer, may) = path
         .strip_prefix('?')
@@ -172,6 +178,11 @@ fn rows(table: &'static Table, path: &str, shown: Shown, found: &mut Vec<(Vec<St
     for key in table.keys().filter(|key| shown.has(key)) {
         let name = format!("{outer}{}", key.name);
         let needed = key.need == Need::Required;
+        let only = match shown {
+            Shown::With(_) => &[],
+            _ if key.only.is_empty() => with,
+            _ => key.only,
+        };
         let inner = match key.form {
             Form::Table(inner) | Form::Tables(inner, ..) if inner.name.is_empty() => Some(inner),
             _ => None,
@@ -182,7 +193,7 @@ fn rows(table: &'static Table, path: &str, shown: Shown, found: &mut Vec<(Vec<St
                 (true, true) => format!("`{outer}`**`{}`**", key.name),
                 _ => format!("`{name}`"),
             };
-            let cell = cell(table, key, shown);
+            let cell = cell(table, key, only);
             match found.iter_mut().find(|(_, known)| *known == cell) {
                 Some((names, _)) => names.push(bold),
                 None => found.push((vec![bold], cell)),
@@ -190,7 +201,7 @@ fn rows(table: &'static Table, path: &str, shown: Shown, found: &mut Vec<(Vec<St
         }
         if let Some(inner) = inner {
             let mark = if needed && !may { "" } else { "?" };
-            rows(inner, &format!("{mark}{name}."), Shown::All, found);
+            rows(inner, &format!("{mark}{name}."), only, Shown::All, found);
         }
     }
 }
@@ -198,7 +209,7 @@ fn rows(table: &'static Table, path: &str, shown: Shown, found: &mut Vec<(Vec<St
 /// The table of a page in `docs/` or, if `deep`, in a folder of it: there links lead up first.
 fn markdown(table: &'static Table, shown: Shown, deep: bool) -> String {
     let mut found = Vec::new();
-    rows(table, "", shown, &mut found);
+    rows(table, "", &[], shown, &mut found);
     // What every link has comes last.
     let common = |names: &[String]| {
         ["mass", "inertia", "com"].iter().any(|key| {
