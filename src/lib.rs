@@ -143,7 +143,7 @@
 //! - `mechanics`, the default: everything that creates tables from machines: [`machine`] except its motion laws, [`mechanism`], [`friction`],
 //!   [`tabulate`], the search for [`harmonic`]s and [`error::Error`]. It needs `heapless`. Firmware with a finished image does not need it, and
 //!   compiles in a third of the time with `default-features = false`; with it firmware creates tables itself. The linked code is the same in both
-//! cases;
+//!   cases;
 //! - `defmt`: `defmt::Format` for the public value types;
 //! - `micromath`: `SliderCrankForm`, a slider-crank without a table.
 

@@ -113,7 +113,7 @@ fn a_layer_uses_those_before_it_only() {
     for (layer, below) in LAYERS {
         let mut text = String::new();
         sources(&root.join(layer), &mut text);
-        // What a macro names is for its user.
+        // Names in a macro are for its user.
         let text = text.replace("$crate::", "");
         for used in text.split("crate::").skip(1).flat_map(names) {
             let Some(other) = owner.get(used) else {

@@ -36,10 +36,15 @@ use crate::tick::{HEADER_WORDS, ImageError, Progress};
 /// for packet in include_image!("../../examples/data/press_f32.jred").chunks(50) {
 ///     slot.receive(packet)?;
 /// }
-/// // In the background: 16 words at a time.
-/// while slot.check(16).is_none() {}
-/// let feed_forward: FeedForward<'_, Spline<f32>, PRESS> = slot.feed_forward().ok_or("refused")?;
-/// # assert!(feed_forward.status(0.0, 0.0).is_valid());
+/// // In the background: 16 words at a time, up to the verdict.
+/// let verdict = loop {
+///     if let Some(verdict) = slot.check(16) {
+///         break verdict;
+///     }
+/// };
+/// verdict?;
+/// let feed_forward: Option<FeedForward<'_, Spline<f32>, PRESS>> = slot.feed_forward();
+/// # assert!(feed_forward.unwrap().status(0.0, 0.0).is_valid());
 /// # Ok(())
 /// # }
 /// ```

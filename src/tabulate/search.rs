@@ -77,7 +77,7 @@ pub fn growing(most: u32) -> impl Iterator<Item = u32> {
 
 /// The smallest size up to `most` cells for which `meets` returns a value, and that value.
 ///
-/// First tries [growing](growing) sizes until one meets; then the smaller ones: every size up to `exhaustive` cells, and larger ones by bisection,
+/// First tries [growing] sizes until one meets; then the smaller ones: every size up to `exhaustive` cells, and larger ones by bisection,
 /// which assumes that the error falls with the number of cells.
 ///
 /// # Errors

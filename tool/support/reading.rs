@@ -4,7 +4,8 @@
 use std::path::{Path, PathBuf};
 
 use jred_file::model::machine::MachineFile;
-use miette::{GraphicalReportHandler, GraphicalTheme, Report};
+use jred_file::text::problem::Problem;
+use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme};
 
 use crate::reader;
 use crate::support::edited;
@@ -32,16 +33,16 @@ pub(crate) fn text_of(name: &str) -> String {
 }
 
 /// Reads a text as a file of [`data`].
-pub(crate) fn parse(text: &str) -> Result<MachineFile, Report> {
+pub(crate) fn parse(text: &str) -> Result<MachineFile, Problem> {
     parse_in(text, &data())
 }
 
-pub(crate) fn parse_as(name: &str, text: &str) -> Result<MachineFile, Report> {
+pub(crate) fn parse_as(name: &str, text: &str) -> Result<MachineFile, Problem> {
     reader::parse(name, text, data())
 }
 
 /// Reads a text as a file of `folder`.
-pub(crate) fn parse_in(text: &str, folder: &Path) -> Result<MachineFile, Report> {
+pub(crate) fn parse_in(text: &str, folder: &Path) -> Result<MachineFile, Problem> {
     reader::parse("machine.toml", text, folder)
 }
 
@@ -54,7 +55,7 @@ pub(crate) fn parse_with(machine: &str, files: &[(&str, &str)]) -> Result<Machin
     reader::parse("machine.toml", machine, folder.path()).map_err(|report| {
         let mut text = String::new();
         miette::NarratableReportHandler::new()
-            .render_report(&mut text, report.as_ref())
+            .render_report(&mut text, &report)
             .unwrap();
         text
     })
@@ -66,15 +67,15 @@ pub(crate) fn read(text: &str) -> MachineFile {
 }
 
 /// The report as a user sees it, without colours and line breaks.
-pub(crate) fn rendered(report: &Report) -> String {
+pub(crate) fn rendered(report: &dyn Diagnostic) -> String {
     rendered_in(report, 1000)
 }
 
-pub(crate) fn rendered_in(report: &Report, width: usize) -> String {
+pub(crate) fn rendered_in(report: &dyn Diagnostic, width: usize) -> String {
     let mut text = String::new();
     GraphicalReportHandler::new_themed(GraphicalTheme::unicode_nocolor())
         .with_width(width)
-        .render_report(&mut text, report.as_ref())
+        .render_report(&mut text, report)
         .unwrap();
     text
 }

@@ -51,7 +51,7 @@ fn every_set_of_polynomials_has_a_family() {
 
 #[test]
 fn harmonics_with_constant_friction_have_a_family() {
-    let families = listed("// Of harmonics");
+    let families = listed("// Harmonics have");
     let has = |set: CurveSet, bits: CurveSet| set & bits != 0;
     let meant = accepted::<Harmonic<f32>>(0..1 << 16)
         .into_iter()
@@ -73,5 +73,5 @@ fn slider_cranks_with_plain_loads_have_a_family() {
             let others = terms::ALL & !(terms::LOAD_SIN | terms::LOAD_COS);
             set & (curves::VISCOUS | others) == 0
         });
-    assert_eq!(listed("// Of a slider-crank"), meant.collect());
+    assert_eq!(listed("// For a slider-crank"), meant.collect());
 }

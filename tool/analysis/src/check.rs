@@ -35,7 +35,7 @@ fn inertia(unchecked: &Unchecked) -> Result<()> {
     let file = unchecked.file();
     let report = |error: Error| unchecked.in_mechanism(Problem::of(error), "in this machine");
     let train = file.train_inertia();
-    let inertia = |phi: f64| {
+    let inertia = |phi: f64| -> Result<f64> {
         let reduction = file.bare_reduction(phi).map_err(report)?;
         Ok(reduction.inertia + train)
     };

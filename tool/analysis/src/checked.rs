@@ -3,9 +3,9 @@
 #[cfg(feature = "fs")]
 use std::path::Path;
 
-use miette::Report;
 #[cfg(feature = "fs")]
-use miette::miette;
+use jred_file::problem;
+use jred_file::text::problem::Problem;
 
 use jred_file::model::machine::MachineFile;
 use jred_file::read;
@@ -18,11 +18,11 @@ use crate::check::check;
 /// # Errors
 /// A file that cannot be read, any error of [`parse`], or a load that repeats only after several turns.
 #[cfg(feature = "fs")]
-pub fn read(path: &Path) -> Result<MachineFile, Report> {
+pub fn read(path: &Path) -> Result<MachineFile, Problem> {
     let file = read_over_turns(path)?;
     match file.turns() {
         1 => Ok(file),
-        turns => Err(miette!(
+        turns => Err(problem!(
             help = "for this command give loads without `turns`, which act alike in every turn",
             "the loads of {} repeat after {turns} turns: only `jred simulate` and `jred steady` follow the drive link from turn to turn",
             file.name
@@ -30,12 +30,12 @@ pub fn read(path: &Path) -> Result<MachineFile, Report> {
     }
 }
 
-/// [`read`] for a command that follows the drive link over several turns; loads may repeat after several turns.
+/// [`read()`] for a command that follows the drive link over several turns; loads may repeat after several turns.
 ///
 /// # Errors
 /// A file that cannot be read, or any error of [`parse`].
 #[cfg(feature = "fs")]
-pub fn read_over_turns(path: &Path) -> Result<MachineFile, Report> {
+pub fn read_over_turns(path: &Path) -> Result<MachineFile, Problem> {
     let name = jred_file::plain::path(path);
     parse(&name, &read::text(path)?, read::folder(path))
 }
@@ -44,9 +44,9 @@ pub fn read_over_turns(path: &Path) -> Result<MachineFile, Report> {
 ///
 /// # Errors
 /// The first fault in the file, with its place and a cure.
-pub fn parse(name: &str, text: &str, files: impl Files) -> Result<MachineFile, Report> {
+pub fn parse(name: &str, text: &str, files: impl Files) -> Result<MachineFile, Problem> {
     let unchecked = read::parse(name, text, files)?;
-    check(unchecked).map_err(|problem| problem.into_report(name, text))
+    check(unchecked).map_err(|problem| problem.in_text(name, text))
 }
 
 /// [`parse`] for a `text` that differs from one already read, but not in its machine and motion: the checks of its mechanics, which take most of the
@@ -54,6 +54,6 @@ pub fn parse(name: &str, text: &str, files: impl Files) -> Result<MachineFile, R
 ///
 /// # Errors
 /// Errors of reading.
-pub fn parse_around(name: &str, text: &str, files: impl Files) -> Result<MachineFile, Report> {
+pub fn parse_around(name: &str, text: &str, files: impl Files) -> Result<MachineFile, Problem> {
     Ok(read::parse(name, text, files)?.trusted())
 }

@@ -1,4 +1,4 @@
-//! What follows from a machine and its motion, without any drive.
+//! Analysis of a machine and its motion, without any drive.
 //!
 //! One of the packages behind the command `jred`, between [`jred_file`], which reads machine files, and `jred-sizing`, which knows drives. Results
 //! are data; nothing is printed. Each module knows those before it:

@@ -40,7 +40,7 @@ fn columns(name: &str) -> (Vec<String>, Columns) {
     (first, Columns { names, rows })
 }
 
-/// What `jred reduce` gives at the script's positions.
+/// The results of `jred reduce` at the script's positions.
 fn reduced(name: &str, sets: Sets) -> Columns {
     let request = Request {
         over: Over::Angle,

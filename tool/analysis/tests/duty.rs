@@ -1,4 +1,4 @@
-//! What a motion asks of the drive link's input: laws, recorded moves, short loads.
+//! The duty of a motion at the input of the drive link: laws, recorded moves, short loads.
 // Zeros and copied figures are exact.
 #![allow(clippy::float_cmp)]
 
@@ -271,7 +271,7 @@ fn a_motion_that_passes_too_many_edges_is_refused() {
     assert!(parse(600).is_ok());
     for turns in [700, 159_155] {
         let problem = parse(turns).unwrap_err();
-        let words = format!("{problem} {}", problem.help().unwrap());
+        let words = format!("{problem} {}", problem.cure().unwrap());
         let passed = format!(
             "passes edges of loads or cams {} times; at most 5000",
             8 * turns

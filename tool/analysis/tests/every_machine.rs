@@ -1,4 +1,4 @@
-//! What must hold for every machine file in `machines/`, whatever its mechanism.
+//! Properties of every machine file in `machines/`, whatever its mechanism.
 
 use crate::reading::machines;
 use jred::Domain;
@@ -43,7 +43,7 @@ fn dalembert_agrees_with_the_reduced_equation() {
     }
 }
 
-/// What the drive puts in over a turn at constant speed is what loads and friction take: the kinetic energy comes back, and
+/// The drive's work over a turn at constant speed equals that of loads and friction: the kinetic energy comes back, and
 /// so does the potential energy, but for what the machine has lifted.
 #[test]
 fn energy_balances_over_a_cycle() {

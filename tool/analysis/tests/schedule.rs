@@ -289,7 +289,7 @@ fn curves_contain_what_acts_or_say_so() {
     );
 }
 
-/// What does not follow the motion refuses to leave it out.
+/// A command that does not follow the motion refuses to leave it out.
 #[test]
 fn the_steady_cycle_refuses() {
     let motor = "[simulation]\nstart_angle = \"0 deg\"\nduration = \"1 s\"\noutput_step = \"0.1 s\"\ntorque = \"20 N m\"\n";

@@ -35,11 +35,10 @@ use crate::support::{
 
 /// The simulation of a machine text, or why it ends before its time.
 pub(crate) fn run(text: &str) -> Result<Columns, String> {
-    let report = |report: miette::Report| rendered(&report);
-    let file = parse(text).map_err(report)?;
+    let file = parse(text).map_err(|problem| rendered(&problem))?;
     let simulation = file.simulation.as_ref().unwrap();
     let found = jred_analysis::simulate::simulate(&file, simulation).and_then(Simulated::whole);
-    let found = found.map_err(|e| report(e.into()))?;
+    let found = found.map_err(|error| rendered(&error))?;
     Ok(Columns {
         names: found.names(),
         rows: found.rows().to_vec(),

@@ -36,7 +36,7 @@ fn of(text: &str) -> Steady {
     checked(try_of(text, None))
 }
 
-/// What holds for every steady cycle.
+/// Properties of every steady cycle.
 #[track_caller]
 fn checked(found: Result<Steady, SteadyError>) -> Steady {
     checked_to(budget::STEADY_RESIDUAL, found)
@@ -44,7 +44,7 @@ fn checked(found: Result<Steady, SteadyError>) -> Steady {
 
 #[track_caller]
 fn checked_to(residual: f64, found: Result<Steady, SteadyError>) -> Steady {
-    let found = found.unwrap_or_else(|error| panic!("{}", rendered(&error.into())));
+    let found = found.unwrap_or_else(|error| panic!("{}", rendered(&error)));
     let own = found.cycle.as_ref();
     for cycle in own
         .into_iter()

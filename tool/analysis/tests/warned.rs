@@ -1,4 +1,4 @@
-//! What `jred check` and `jred size` warn of: implausible values, and noise of recordings.
+//! Warnings of `jred check` and `jred size`: implausible values, and noise of recordings.
 
 use std::f64::consts::TAU;
 use std::fmt::Write;

@@ -241,7 +241,7 @@ impl Export {
         text
     }
 
-    /// What of the drive train is not in the table.
+    /// Parts of the drive train that are not in the table.
     pub(crate) fn left_out(&self) -> Option<String> {
         let named: Vec<String> = self
             .branches

@@ -126,7 +126,7 @@ fn hardly_any_place_errs_more_than_the_bound() {
             most[2] = most[2].max(places);
         }
     }
-    // What the search finds is close to the bounds: it looks at the right places.
+    // The results of the search are close to the bounds: it evaluates the right positions.
     println!("{most:?}");
     assert!(most[0] > 0.99 && most[1] > 1.002 && most[2] > 1.005);
 }

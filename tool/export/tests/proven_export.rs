@@ -174,7 +174,7 @@ fn no_place_errs_more_than_is_proven() {
     assert!(proven > 30 && loosest < 1.1, "{proven} {loosest}");
 }
 
-/// What the export tabulates.
+/// The machine that the export tabulates.
 fn with_train(file: &MachineFile) -> Machine<AnyMechanism> {
     file.with_drive_train().unwrap()
 }

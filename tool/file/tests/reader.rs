@@ -5,15 +5,15 @@ use std::path::Path;
 use jred_file::model::machine::MachineFile;
 use jred_file::read::{self, Unchecked};
 use jred_file::text::file::Files;
-use miette::Report;
+use jred_file::text::problem::Problem;
 
 /// The machine file of a text.
-pub(crate) fn parse(name: &str, text: &str, files: impl Files) -> Result<MachineFile, Report> {
+pub(crate) fn parse(name: &str, text: &str, files: impl Files) -> Result<MachineFile, Problem> {
     read::parse(name, text, files).map(Unchecked::trusted)
 }
 
 /// The machine file at a path.
-pub(crate) fn read(path: &Path) -> Result<MachineFile, Report> {
+pub(crate) fn read(path: &Path) -> Result<MachineFile, Problem> {
     parse(
         &jred_file::plain::path(path),
         &read::text(path)?,

@@ -1,4 +1,4 @@
-//! What the two sweeps of the fastest motion cost: from the tabulated machine to the time of the motion, on one core.
+//! Cost of the two sweeps of the fastest motion: from the tabulated machine to the time of the motion, on one core.
 
 use std::hint::black_box;
 use std::path::Path;

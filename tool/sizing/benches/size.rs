@@ -52,7 +52,7 @@ const INSTANTS: usize = 1000;
 /// Argument for a run under a profiler, with the number of instants: the catalogue is judged and nothing else.
 const PROFILE: &str = "--profile";
 
-/// What a selection borrows.
+/// Data that a selection borrows.
 pub(crate) struct Ready {
     catalogue: Catalogue,
     motors: Vec<Prepared>,

@@ -1,5 +1,6 @@
 //! Why no duty can be computed.
 
+use jred_file::text::problem::Problem;
 use std::fmt;
 
 use jred::error::Error;
@@ -135,5 +136,11 @@ impl miette::Diagnostic for Fault {
     fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
         let cure = self.cure();
         (!cure.is_empty()).then(|| Box::new(cure) as Box<dyn fmt::Display>)
+    }
+}
+
+impl From<Fault> for Problem {
+    fn from(fault: Fault) -> Self {
+        Self::new(fault.to_string()).help(fault.cure())
     }
 }

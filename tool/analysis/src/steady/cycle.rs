@@ -34,7 +34,7 @@ pub struct Cycle {
     /// Its figures and its course.
     #[serde(flatten)]
     pub figures: Figures,
-    /// What scales the motor or a load for a prescribed mean speed.
+    /// The scale of the motor or a load for a prescribed mean speed.
     #[serde(rename = "for_mean_speed")]
     pub held: Option<Held>,
     /// |E(end) − E(0)|/E(0).

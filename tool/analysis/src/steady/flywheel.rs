@@ -53,7 +53,7 @@ pub struct Place {
 
 /// A flywheel on one of the shafts.
 ///
-/// What it stores on its way to the machine passes the stages behind it with their losses, so that the inertia is not that on the
+/// Its energy reaches the machine through the stages behind it, with their losses, so that the inertia is not that on the
 /// drive link divided by the squared ratio, unless the train has no losses.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Wheel {

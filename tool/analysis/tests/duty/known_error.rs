@@ -192,7 +192,7 @@ fn rows_are_seen() {
     }
 }
 
-/// What comes out does not depend on the tolerance, but for that.
+/// The result does not depend on the tolerance otherwise.
 #[test]
 fn a_smaller_tolerance_changes_nothing() {
     let file = reader::parse("press.toml", &press_text(), Path::new("")).unwrap();

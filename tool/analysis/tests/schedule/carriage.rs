@@ -154,7 +154,7 @@ fn its_torque_is_lagranges() {
         );
         (largest, relative) = (largest.max(expected.abs()), relative.max(own.abs()));
     }
-    // What its own motion adds is no rounding.
+    // Its own motion adds more than rounding.
     assert!(largest > 1.0 && relative > 0.2, "{largest} {relative}");
 }
 
@@ -201,7 +201,7 @@ fn over_time(file: &MachineFile) -> (Columns, impl Fn(&Columns, &str) -> Vec<f64
     (columns, pick)
 }
 
-/// What the carriage's own axis must do, on an arm that turns evenly under gravity: s̈ − r·ω² along the guide and its weight; what the arm's
+/// The force of the carriage's own axis, on an arm that turns evenly under gravity: s̈ − r·ω² along the guide and its weight; what the arm's
 /// drive must do: 2·m·r·ṙ·ω and the weight's lever. J is 2 kg·m² and m·r².
 #[test]
 fn columns_size_the_second_axis() {
@@ -366,7 +366,7 @@ duration = "0.3 s"
     within("stands", last.terms.total(), 0.0, 1e-12);
 }
 
-/// What cannot be is refused with its place.
+/// An impossible carriage is refused with its place.
 #[test]
 fn contradictions_are_refused() {
     let refused = |from: &str, to: &str| {
@@ -396,11 +396,11 @@ fn contradictions_are_refused() {
         let found = refused(from, to);
         assert!(found.contains(words), "{from}: {found}");
     }
-    // What is said of it names none of the keys of loads.
+    // Its message names no key of loads.
     let why = parse(&rod(LEANING))
         .refuse_scheduled("fastest")
         .unwrap_err();
-    let cure = why.help().unwrap().to_string();
+    let cure = why.cure().unwrap().to_string();
     assert!(
         cure.starts_with("remove the carriage, or fix it to the link with a [[mass]]")
             && !cure.contains("segments"),

@@ -32,7 +32,7 @@ driven = { radius = "40 mm", inertia = "0.006 kg m^2" }
 efficiency = "80 %"
 "#;
 
-/// What one branch asks of its shaft: ratio j of its speed, efficiency, inertia at its end, and friction there.
+/// One branch and its shaft: ratio j of its speed, efficiency, inertia at its end, and friction there.
 fn side(
     [j, eta, inertia]: [f64; 3],
     [opposing, viscous]: [f64; 2],
@@ -87,7 +87,7 @@ fn each_branch_has_its_own_direction_of_power() {
                 near("torque", at(alpha).torque, expected, 1e-14);
                 let slope = (at(alpha + 1e-3).torque - at(alpha - 1e-3).torque) / 2e-3;
                 near("slope", at(alpha).torque_per_alpha, slope, 1e-8);
-                // What goes in comes out, is lost, or accelerates.
+                // The input comes out, is lost, or accelerates.
                 let inner =
                     0.0003 * 9.0 + 0.004 + 0.001 + 0.005 * 1.92 * 1.92 + 0.0005 + 0.006 * 1.5625;
                 let power = at(alpha).torque * 3.0 * omega;
@@ -218,7 +218,7 @@ fn a_fan_accelerates_as_by_hand() {
     within("at rest", rest, 0.0, 1e-12);
 }
 
-/// What sizing asks of the motor is what the hand says, through acceleration and braking.
+/// The motor torque of sizing equals that by hand, through acceleration and braking.
 #[test]
 fn the_duty_is_that_by_hand() {
     let motion = r#"

@@ -1,4 +1,4 @@
-//! What is said of a run when it is over: only what has happened by then.
+//! The report of a run that is over contains only events up to then.
 
 use std::f64::consts::TAU;
 
@@ -113,7 +113,7 @@ stop = { time = "2 s", brake_torque = "1 N m" }
 fn what_comes_after_the_end_has_not_happened() {
     let run = found(SCREW);
     assert_eq!((run.halted_at, run.rest), (None, None));
-    let error = rendered(&run.ended.unwrap().into());
+    let error = rendered(&run.ended.unwrap());
     assert!(
         error.contains("the machine has no end stop: add end_stops"),
         "{error}"

@@ -111,7 +111,7 @@ fn bad_controllers_and_stops_are_refused() {
     assert!(report.contains("has no motion to follow"), "{report}");
 }
 
-/// What was simulated before the drive link left its stroke is kept.
+/// Rows before the drive link left its stroke are kept.
 #[test]
 fn rows_before_an_error_are_kept() {
     let text = edited(

@@ -167,7 +167,7 @@ driven = { radius = "60 mm", inertia = "0 kg m^2" }
         near("time", rest.time, coasting + braking, budget::CLOSED_MOTION);
         near("way", rest.way, way, budget::CLOSED_MOTION);
         assert!(found.ended.is_none());
-        // What the motor gives until then, and what the brake takes away: neither is in the other.
+        // The motor's work until then, and the brake's: neither is in the other.
         let last = found.columns.rows().last().unwrap();
         let names = found.columns.names();
         let work = |name: &str| Some(last[names.iter().position(|own| own == name)?].unwrap());

@@ -88,7 +88,7 @@ fn two_tables_accelerate_as_by_hand() {
     assert!(found.ended.is_none());
 }
 
-/// What both tables' friction takes holds them; by hand as above.
+/// The friction of both tables holds them; by hand as above.
 #[test]
 fn friction_of_both_holds_the_shaft() {
     let (first, second) = (table(0.8, 40, 6.0), table(1.5, 60, 6.0));

@@ -1,4 +1,4 @@
-//! What is wrong with a variator or a friction drive, and what to do.
+//! Faults of a variator or a friction drive, and their cures.
 
 use super::{FAN, PRESS, SHAFTS, refuses};
 use crate::support::edited;

@@ -66,15 +66,8 @@ fn name(options: &options::Export) -> Result<Option<Name>> {
     Ok(Some(name))
 }
 
-/// Runs the command.
-///
-/// # Errors
-/// Bad input, or a file that cannot be written.
-pub(super) fn run(options: &options::Export) -> Result<Done> {
-    let file = read_warned(&options.file)?;
-    output::check([("--out", &options.out)])?;
-    let name = name(options)?;
-    variator::refuse(&file, "export")?;
+/// Whether the table has a curve of 1/J; refuses options that do not go together.
+fn reciprocal(options: &options::Export) -> Result<bool> {
     let reciprocal = match options.reciprocal {
         Choice::Auto => options.forward && options.number != Number::F32,
         Choice::Yes => true,
@@ -107,6 +100,19 @@ pub(super) fn run(options: &options::Export) -> Result<Done> {
             "{whole} a whole turn only, without pieces"
         ));
     }
+    Ok(reciprocal)
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// Bad input, or a file that cannot be written.
+pub(super) fn run(options: &options::Export) -> Result<Done> {
+    let file = read_warned(&options.file)?;
+    output::check([("--out", &options.out)])?;
+    let name = name(options)?;
+    variator::refuse(&file, "export")?;
+    let reciprocal = reciprocal(options)?;
     let coordinate = file.machine.mechanism().coordinate();
     let quantity = |name: &str, text: &Option<String>, read: argument::Reader| {
         let value = text.as_deref().map(|text| {

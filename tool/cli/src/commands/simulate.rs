@@ -112,7 +112,9 @@ pub(super) fn run(options: &Simulate) -> Result<Done> {
 /// Reads the further machines.
 pub(super) fn read_all(paths: &[PathBuf]) -> Result<Vec<MachineFile>> {
     let files = paths.iter();
-    files.map(|path| checked::read_over_turns(path)).collect()
+    files
+        .map(|path| Ok(checked::read_over_turns(path)?))
+        .collect()
 }
 
 /// Starting positions of the further machines' drive links.

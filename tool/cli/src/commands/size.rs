@@ -222,7 +222,7 @@ fn pareto(
 ) -> Result<Done> {
     let front = Front::new(selection, objectives);
     if let Some(obstacle) = front.obstacle() {
-        return Err(obstacle);
+        return Err(obstacle.into());
     }
     let title = format!(
         "{}: Pareto front of the drives that violate no rule",
@@ -266,14 +266,11 @@ fn asked_for<'c>(
     let given = options.search.given();
     listing::Asked::named(selection, name).map_err(|error| {
         if given.is_empty() {
-            return error;
+            return error.into();
         }
-        let help = error.help().map(|help| help.to_string());
+        let help = error.cure().unwrap_or_default();
         miette!(
-            help = format!(
-                "without {given}, every drive is considered; {}",
-                help.unwrap_or_default()
-            ),
+            help = format!("without {given}, every drive is considered; {}", help),
             "{error}; {}",
             counted(
                 selection.fit.len() + selection.refused.len(),

@@ -12,6 +12,7 @@ use crate::rows::run::{Ended, Plan, run};
 use jred_analysis::duty::Sampling;
 use jred_file::number::words::{Word as _, counted};
 use jred_file::plain;
+use jred_file::text::problem::Problem;
 use jred_report::table::rows::{RowFormat, table};
 use jred_sizing::catalogue::Catalogue;
 use jred_sizing::select::filter::Filter;
@@ -52,7 +53,7 @@ pub fn study(
     sampling: impl Into<Sampling>,
 ) -> Result<Study> {
     let catalogue = catalogue(supply, filter)?;
-    Study::open(file, catalogue, supply.rule_set()?, sampling)
+    Ok(Study::open(file, catalogue, supply.rule_set()?, sampling)?)
 }
 
 impl Rows {
@@ -86,7 +87,7 @@ pub fn vary(options: &Vary) -> Result<Done> {
         .vary
         .iter()
         .map(|text| Axis::parse(&study.document, text));
-    let grid = Grid::new(axes.collect::<Result<_>>()?)?;
+    let grid = Grid::new(axes.collect::<Result<_, Problem>>()?)?;
     let task = GridStudy {
         study: &study,
         grid,

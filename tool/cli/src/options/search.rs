@@ -12,6 +12,7 @@ use jred_file::model::rules::RuleSet;
 use jred_file::number::words::Word as _;
 use jred_file::number::words::counted;
 use jred_file::read;
+use jred_file::text::problem::Problem;
 use jred_report::table::output::Format;
 use jred_report::table::rows::RowFormat;
 use jred_sizing::catalogue::{Catalogue, CatalogueError};
@@ -70,7 +71,7 @@ impl SizingOptions {
     ///
     /// # Errors
     /// Unknown set, or an error in its file.
-    pub fn rule_set(&self) -> miette::Result<Option<RuleSet>> {
+    pub fn rule_set(&self) -> Result<Option<RuleSet>, Problem> {
         let named = self.rules.as_deref();
         named
             .map(|word| read::rule_set(word, Path::new("")))

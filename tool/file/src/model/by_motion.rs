@@ -40,10 +40,10 @@ impl MachineFile {
     ///
     /// # Errors
     /// It has such a load, payload or carriage.
-    pub fn refuse_scheduled(&self, command: &str) -> miette::Result<()> {
+    pub fn refuse_scheduled(&self, command: &str) -> crate::text::problem::Result<()> {
         match self.scheduled().next() {
             None => Ok(()),
-            Some(ByMotion { what, cure }) => Err(miette::miette!(
+            Some(ByMotion { what, cure }) => Err(crate::problem!(
                 help = format!("{cure}, for this command; `jred size` contains it"),
                 "{what}: that goes by [motion], but `jred {command}` seeks another motion"
             )),
@@ -54,10 +54,10 @@ impl MachineFile {
     ///
     /// # Errors
     /// A load, payload or carriage depends on the time of the motion, or a load has a separate value at rest.
-    pub fn refuse_timed(&self, command: &str) -> miette::Result<()> {
+    pub fn refuse_timed(&self, command: &str) -> crate::text::problem::Result<()> {
         match self.by_motion(Which::Timed).next() {
             None => Ok(()),
-            Some(ByMotion { what, cure }) => Err(miette::miette!(
+            Some(ByMotion { what, cure }) => Err(crate::problem!(
                 help = format!("{cure}, for this command; `jred size` contains it"),
                 "{what}: that goes by the time of [motion] or by rest, but `jred {command}` seeks another motion"
             )),

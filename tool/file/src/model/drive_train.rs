@@ -8,9 +8,10 @@
 //! T_k = T_(chain behind k) + Σ T_branch       T_branch = (J·α_b + M·sgn ω_b + b·ω_b) through its stages, by its own flow of power
 //! ```
 
+use crate::problem;
+use crate::text::problem::Problem;
 use jred::error::Error;
 use jred::mechanism::{Stage, Train, TrainInput, TrainOutput};
-use miette::{Report, miette};
 
 use crate::model::machine::MachineFile;
 
@@ -18,11 +19,11 @@ use crate::model::machine::MachineFile;
 ///
 /// # Errors
 /// The drive train has branches.
-pub fn refuse(file: &MachineFile, command: &str) -> Result<(), Report> {
+pub fn refuse(file: &MachineFile, command: &str) -> Result<(), Problem> {
     let Some(branch) = file.drive_train.branches().first() else {
         return Ok(());
     };
-    Err(miette!(
+    Err(problem!(
         help = "for this command refer the branches to the drive link: their inertia as `flywheel`, their friction as a [[load]] on it",
         "`jred {command}` cannot be used with branches of the drive train: {} has losses of its own, which change sides at its own instants",
         branch.name

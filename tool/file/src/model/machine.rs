@@ -98,7 +98,7 @@ impl MachineFile {
     ///
     /// # Errors
     /// The file has no motion.
-    pub fn required_motion(&self) -> miette::Result<&Motion> {
+    pub fn required_motion(&self) -> crate::text::problem::Result<&Motion> {
         self.motion_or("")
     }
 
@@ -106,9 +106,9 @@ impl MachineFile {
     ///
     /// # Errors
     /// The file has no motion.
-    pub fn motion_or(&self, instead: &str) -> miette::Result<&Motion> {
+    pub fn motion_or(&self, instead: &str) -> crate::text::problem::Result<&Motion> {
         self.motion.as_ref().ok_or_else(|| {
-            miette::miette!(
+            crate::problem!(
                 help = format!(
                     "{instead}add a [motion], for example type = \"constant-speed\", speed = \"60 rpm\""
                 ),

@@ -3,6 +3,8 @@
 //! Its ratio is shifted in time, so the constraint between its shafts is not integrable: the angle of the drive link is not a function of the motor's
 //! angle, and there is no unique table J_red(φ) at the motor shaft. What remains is the equation of motion, which `jred simulate` integrates.
 
+use crate::problem;
+use crate::text::problem::Problem;
 use jred::error::Error;
 use jred::friction::{
     Arrangement, Contact, Course, CreepContact, Drive, Dual, Flow, OperatingPoint, Ramp, RampShape,
@@ -10,7 +12,6 @@ use jred::friction::{
 };
 use jred::machine::motion::Law;
 use jred_enclosure::Interval;
-use miette::{Report, miette};
 
 use crate::model::machine::MachineFile;
 use crate::number::formula::Formula;
@@ -301,7 +302,7 @@ pub fn integrability_text(file: &MachineFile) -> Option<String> {
 ///
 /// # Errors
 /// The machine has a variator.
-pub fn refuse(file: &MachineFile, command: &str) -> Result<(), Report> {
+pub fn refuse(file: &MachineFile, command: &str) -> Result<(), Problem> {
     let Some(variator) = &file.variator else {
         return Ok(());
     };
@@ -322,7 +323,7 @@ pub fn refuse(file: &MachineFile, command: &str) -> Result<(), Report> {
             "use `jred simulate` to integrate the motion; for the machine behind the variator alone, remove [variator]",
         )
     };
-    Err(miette!(
+    Err(problem!(
         help = help,
         "`jred {command}` cannot be used with a [variator]: {why}"
     ))

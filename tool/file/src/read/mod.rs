@@ -34,8 +34,8 @@ pub use mechanism::mechanism_types;
 use std::ops::Range;
 use std::path::Path;
 
+use crate::problem;
 use jred::machine::Machine;
-use miette::{Report, miette};
 
 use crate::keys::MACHINE;
 use crate::model::axis::Axis;
@@ -72,18 +72,18 @@ pub fn rule_set_names() -> impl Iterator<Item = &'static str> {
 ///
 /// # Errors
 /// An unknown name, a file that cannot be read, or the first fault in it, with its place.
-pub fn rule_set(word: &str, files: impl Files) -> std::result::Result<RuleSet, Report> {
-    rules::named_or_file(word, &files).map_err(|problem| problem.into_report(word, ""))
+pub fn rule_set(word: &str, files: impl Files) -> Result<RuleSet> {
+    rules::named_or_file(word, &files).map_err(|problem| problem.in_text(word, ""))
 }
 
 /// The rules of a machine file applied on top of another set.
 ///
 /// # Errors
 /// The machine file contradicts the set.
-pub fn rules_based_on(rules: &RuleSet, set: RuleSet) -> std::result::Result<RuleSet, Report> {
+pub fn rules_based_on(rules: &RuleSet, set: RuleSet) -> Result<RuleSet> {
     let word = set.name.clone();
     rules.based_on(set).map_err(|contradiction| {
-        miette!(
+        problem!(
             help = contradiction.help,
             "[rules] in the machine file contradicts the set \"{word}\": {}",
             contradiction.message
@@ -96,7 +96,7 @@ pub fn rules_based_on(rules: &RuleSet, set: RuleSet) -> std::result::Result<Rule
 /// # Errors
 /// A file that cannot be read.
 #[cfg(feature = "fs")]
-pub fn text(path: &Path) -> std::result::Result<String, Report> {
+pub fn text(path: &Path) -> Result<String> {
     let name = plain::path(path);
     crate::text::disk::read(path, MAX_SIZE).map_err(|fault| {
         let help = match fault.help.as_str() {
@@ -108,7 +108,7 @@ pub fn text(path: &Path) -> std::result::Result<String, Report> {
             fault.message
         ))
         .help(help)
-        .into_report(&name, "")
+        .in_text(&name, "")
     })
 }
 
@@ -151,8 +151,8 @@ impl Unchecked {
 ///
 /// # Errors
 /// The first fault in the file, with its place and a cure.
-pub fn parse(name: &str, text: &str, files: impl Files) -> std::result::Result<Unchecked, Report> {
-    machine(name, text, &files).map_err(|problem| problem.into_report(name, text))
+pub fn parse(name: &str, text: &str, files: impl Files) -> Result<Unchecked> {
+    machine(name, text, &files).map_err(|problem| problem.in_text(name, text))
 }
 
 /// `gravity`: its components, or the inclination of the x axis.

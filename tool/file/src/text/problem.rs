@@ -4,13 +4,13 @@ use std::borrow::Cow;
 use std::ops::Range;
 use std::sync::Arc;
 
-use miette::{Diagnostic, LabeledSpan, NamedSource, Report};
+use miette::{Diagnostic, LabeledSpan, NamedSource};
 use thiserror::Error;
 
 use crate::plain;
 
 /// Result of reading a part of a text.
-pub type Result<T> = std::result::Result<T, Problem>;
+pub type Result<T, E = Problem> = std::result::Result<T, E>;
 
 /// A fault at places in a text; the text is attached last.
 #[derive(Debug, Error, Diagnostic)]
@@ -77,10 +77,27 @@ impl Problem {
         self
     }
 
-    /// A report that shows the places in the machine file `text`.
-    pub fn into_report(self, name: &str, text: &str) -> Report {
-        Report::new(self.in_file(name, &Arc::new(text.to_owned())))
+    /// The same with the text of its places.
+    #[must_use]
+    pub fn in_text(self, name: &str, text: &str) -> Self {
+        self.in_file(name, &Arc::new(text.to_owned()))
     }
+
+    /// How to mend it.
+    pub fn cure(&self) -> Option<&str> {
+        self.0.help.as_deref()
+    }
+}
+
+/// A [`Problem`] of a formatted message: `problem!(help = "the cure", "{name} is wrong")`.
+#[macro_export]
+macro_rules! problem {
+    (help = $help:expr, $($message:tt)*) => {
+        $crate::text::problem::Problem::new(format!($($message)*)).help($help)
+    };
+    ($($message:tt)*) => {
+        $crate::text::problem::Problem::new(format!($($message)*))
+    };
 }
 
 /// Longest line that is shown; a place in a longer line is given by file and line number.

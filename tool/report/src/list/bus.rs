@@ -5,7 +5,8 @@ mod data;
 use std::borrow::Cow;
 use std::fmt::Write as _;
 
-use miette::{Result, miette};
+use jred_file::problem;
+use jred_file::text::problem::Result;
 
 use crate::answer::Answer;
 use crate::table::output::Format;
@@ -241,7 +242,7 @@ fn verdicts(bus: &Bus, answer: &mut Answer) {
 /// The cycles have no common period that is searched.
 fn course(bus: &Bus) -> Result<Columns> {
     let power = bus.power.as_ref().ok_or_else(|| {
-        miette!(
+        problem!(
             help = "use --format table or json to get bounds",
             "there is no common period to write power and voltage over: {}",
             bus.no_search()

@@ -118,7 +118,7 @@ pub fn answer(front: &Front, title: &str) -> Answer<'static> {
         answer.sentence(line);
     }
     for gap in gaps {
-        answer.warning(gap.to_string());
+        answer.warning(gap);
     }
     answer
 }

@@ -211,7 +211,7 @@ struct RuleData<'a> {
     id: Rule,
     /// Its name.
     rule: &'static str,
-    /// Its key in [rules].
+    /// Its key in `[rules]`.
     key: &'static str,
     /// Whether it is switched off.
     off: bool,

@@ -74,7 +74,7 @@ pub(crate) fn duty(file: &MachineFile, instants: usize) -> Duty {
         panic!("the benchmark's own machine has no motion");
     };
     match Duty::new(file, motion, instants) {
-        // What plain loops can be compared with.
+        // For comparison with plain loops.
         Ok(duty) => brute::sampled(duty),
         Err(error) => panic!("the benchmark's own machine: {error}"),
     }

@@ -1,6 +1,7 @@
 //! The result for the axes on one DC bus.
 
-use miette::{Result, miette};
+use jred_file::problem;
+use jred_file::text::problem::Result;
 
 use super::axes::{Axes, Bounds, Worst};
 use super::cure::{Cure, share};
@@ -107,7 +108,7 @@ impl Answer {
     /// The axes on a bus with these data, and their worst phases.
     fn on(axes: Vec<Axis>, data: BusData, only_in_step: bool, watch: &dyn Watch) -> Result<Self> {
         let bus = data.bus().map_err(|missing| {
-            miette!(
+            problem!(
                 help = "add a [supply] to one of the machine files, for example mains_voltage = \"400 V\", capacitance = \"470 uF\", \
                         chopper_voltage = \"780 V\", max_voltage = \"820 V\"; docs/thermal-and-bus.md has all keys",
                 "no data for the DC bus: {missing} is missing"

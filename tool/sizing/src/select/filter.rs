@@ -1,7 +1,8 @@
 //! Filter for the drives of a catalogue.
 
 use glob::{MatchOptions, Pattern};
-use miette::{Result, miette};
+use jred_file::problem;
+use jred_file::text::problem::Result;
 
 use crate::catalogue::Catalogue;
 use crate::select::named::{is_named, named};
@@ -71,13 +72,13 @@ impl Filter {
             },
         );
         if catalogue.motors.is_empty() {
-            return Err(miette!(
+            return Err(problem!(
                 help = "in patterns, * matches any text and ? any character; without --maker and --motor all motors are considered",
                 "no motor in the catalogue ({motors} in total) passes the filter"
             ));
         }
         if catalogue.gearboxes.is_empty() && !self.allows_direct() {
-            return Err(miette!(
+            return Err(problem!(
                 help = "in patterns, * matches any text and ? any character; a direct drive has the ratio 1",
                 "no gearbox in the catalogue ({gearboxes} in total) passes the filter"
             ));

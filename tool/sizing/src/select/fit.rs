@@ -1,6 +1,7 @@
 //! Motors that fit the machine's input: rotary or linear.
 
-use miette::{Result, miette};
+use jred_file::problem;
+use jred_file::text::problem::Result;
 
 use crate::catalogue::{Catalogue, MotorKind};
 use jred_file::model::coordinate::Coordinate;
@@ -27,14 +28,14 @@ pub fn fit_input(catalogue: &mut Catalogue, file: &MachineFile) -> Result<()> {
         return Ok(());
     }
     Err(match kind {
-        MotorKind::Linear => miette!(
+        MotorKind::Linear => problem!(
             help = "give a catalogue with linear motors (docs/catalogue.md: kind = linear), or add a stage that \
                     converts rotation into displacement: [[drive_train]] with type = \"ball-screw\" and lead = \"10 \
                     mm\", or type = \"rack\" and the radius of its pinion; `jred reduce --over time` shows the \
                     required force",
             "the drive link slides, but the catalogue contains rotary motors only"
         ),
-        MotorKind::Rotary => miette!(
+        MotorKind::Rotary => problem!(
             help = "give a catalogue with rotary motors",
             "the input of the machine turns, but the catalogue contains linear motors only"
         ),

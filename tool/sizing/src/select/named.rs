@@ -1,6 +1,7 @@
 //! A drive of the catalogue by its name.
 
-use miette::{Result, miette};
+use jred_file::problem;
+use jred_file::text::problem::Result;
 
 use crate::catalogue::{Catalogue, Drive, DriveId};
 use jred_file::plain;
@@ -60,7 +61,10 @@ fn alike<'c>(catalogue: &'c Catalogue, text: &str) -> Option<(DriveId, Drive<'c>
 }
 
 /// The error for a drive whose parts exist but are not combined.
-fn not_combined(catalogue: &Catalogue, [motor, text]: [&str; 2]) -> miette::Report {
+fn not_combined(
+    catalogue: &Catalogue,
+    [motor, text]: [&str; 2],
+) -> jred_file::text::problem::Problem {
     let drives = catalogue
         .drives()
         .filter(|(_, drive)| drive.motor.key == motor);
@@ -71,7 +75,7 @@ fn not_combined(catalogue: &Catalogue, [motor, text]: [&str; 2]) -> miette::Repo
         0 => String::new(),
         more => format!(" and {more} more"),
     };
-    miette!(
+    problem!(
         help = format!(
             "it combines {motor} into: {shown}{more}; name further gearboxes and amplifiers of a motor in compatibility.csv (docs/catalogue.md)"
         ),
@@ -115,7 +119,7 @@ pub fn named<'c>(catalogue: &'c Catalogue, text: &str) -> Result<(DriveId, Drive
         || "`jred size FILE --all` lists every drive".to_owned(),
         |near| format!("did you mean \"{near}\"?"),
     );
-    Err(miette!(
+    Err(problem!(
         help = near,
         "the catalogue has no {} for the drive {}",
         plain::quoted(word),

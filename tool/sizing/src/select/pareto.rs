@@ -1,6 +1,7 @@
 //! The Pareto front of the suitable drives over two or three objectives.
 
-use miette::{Report, miette};
+use jred_file::problem;
+use jred_file::text::problem::Problem;
 
 use crate::select::rank::Objective;
 use crate::select::size::{Candidate, Selection};
@@ -112,7 +113,7 @@ impl<'c> Front<'c> {
     }
 
     /// Why no suitable drive could be compared; `None` if one was, or if no drive is suitable.
-    pub fn obstacle(&self) -> Option<Report> {
+    pub fn obstacle(&self) -> Option<Problem> {
         if self.compared > 0 || self.fit == 0 {
             return None;
         }
@@ -128,7 +129,7 @@ impl<'c> Front<'c> {
                 ),
             })
             .collect();
-        Some(miette!(
+        Some(problem!(
             help =
                 "fill in the column of the catalogue (docs/catalogue.md), or use another objective",
             "{} suitable, but {}: there is nothing to compare",

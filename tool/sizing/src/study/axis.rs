@@ -7,7 +7,8 @@
 //! ```
 
 use jred_file::plain;
-use miette::{Result, miette};
+use jred_file::problem;
+use jred_file::text::problem::Result;
 
 use super::edit::Document;
 use jred_file::units::literal;
@@ -39,7 +40,7 @@ impl Axis {
     /// The quantity does not exist, the unit is of another kind, or the range has no values.
     pub fn parse(document: &Document, text: &str) -> Result<Self> {
         let wrong = |why: String| {
-            miette!(
+            problem!(
                 help = SHAPE,
                 "--vary {} cannot be used: {why}",
                 plain::quoted(text)
@@ -70,7 +71,7 @@ impl Axis {
             (values, last.unit.clone(), last)
         };
         if !unit_like.is_like(&own.literal) {
-            return Err(miette!(
+            return Err(problem!(
                 help = format!(
                     "the machine file says {}: write a unit of the same kind",
                     own.shown()
@@ -197,7 +198,7 @@ impl Grid {
                 .take(k)
                 .any(|other| other.quantity == axis.quantity)
             {
-                return Err(miette!(
+                return Err(problem!(
                     help = "two --vary name this quantity, perhaps by two paths: remove one of the two",
                     "{} is varied twice",
                     axis.path
@@ -209,7 +210,7 @@ impl Grid {
             .try_fold(1u64, |n, axis| n.checked_mul(axis.values.len() as u64));
         let count = product.filter(|n| *n <= MOST_MACHINES).ok_or_else(|| {
             let counts: Vec<String> = axes.iter().map(|a| a.values.len().to_string()).collect();
-            miette!(
+            problem!(
                 help = "use fewer values, or vary fewer quantities",
                 "{} machines are too many: one study sizes at most {MOST_MACHINES}",
                 counts.join(" × ")

@@ -1,6 +1,7 @@
 //! One drive, checked in any machine of a study.
 
-use miette::{Result, miette};
+use jred_file::problem;
+use jred_file::text::problem::Result;
 
 use crate::catalogue::{Amplifier, Catalogue, Drive, Gearbox, Motor, Resistor};
 use crate::judge::{Context, Findings};
@@ -43,7 +44,7 @@ impl ChosenDrive {
             rank(&mut selection, objective);
         }
         let first = selection.fit.first().or(selection.refused.first());
-        let first = first.ok_or_else(|| miette!("no drive in the catalogue passes the filter"))?;
+        let first = first.ok_or_else(|| problem!("no drive in the catalogue passes the filter"))?;
         Ok(Self::of(&first.drive, &study.catalogue))
     }
 

@@ -2,7 +2,7 @@
 
 use std::sync::{Arc, OnceLock};
 
-use miette::{IntoDiagnostic as _, Report, Result};
+use jred_file::text::problem::{Problem, Result};
 
 use super::edit::{Document, Edit};
 use crate::catalogue::Catalogue;
@@ -159,7 +159,7 @@ impl Study {
 /// The machine has no motion, or cannot follow it.
 pub fn cycle(file: &MachineFile, sampling: impl Into<Sampling>) -> Result<Cycle> {
     let motion = file.required_motion()?;
-    let duty = Duty::new(file, motion, sampling).into_diagnostic()?;
+    let duty = Duty::new(file, motion, sampling).map_err(Problem::from)?;
     Ok(Cycle::new(&duty))
 }
 
@@ -174,7 +174,7 @@ pub fn sizeable(file: &MachineFile) -> Result<()> {
 }
 
 /// A report on one line, for a table: its sentence without line breaks.
-pub fn sentence(report: &Report) -> String {
+pub fn sentence(report: &Problem) -> String {
     let text = report.to_string();
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }

@@ -7,7 +7,8 @@
 //! A changed file is the text with other numbers in the same places, so that a message shows the line that the user knows.
 
 use jred_file::plain;
-use miette::{Result, miette};
+use jred_file::problem;
+use jred_file::text::problem::Result;
 use std::ops::Range;
 use toml_edit::{Document as Toml, Item, Table, TableLike, Value};
 
@@ -101,7 +102,7 @@ impl Document {
     /// # Errors
     /// The text is not TOML.
     pub fn parse(text: String) -> Result<Self> {
-        let toml = Toml::parse(text.as_str()).map_err(|error| miette!("{error}"))?;
+        let toml = Toml::parse(text.as_str()).map_err(|error| problem!("{error}"))?;
         let mut finder = Finder::default();
         finder.table(toml.as_table());
         let mut quantities = finder.found;
@@ -166,14 +167,14 @@ impl Document {
             found.map(|q| format!("\"{}\"", q.path)).collect()
         };
         if !answers.is_empty() {
-            return Err(miette!(
+            return Err(problem!(
                 help = format!("write more of its path: {}", paths(&answers).join(" or ")),
                 "{} names {} quantities of the machine file",
                 plain::quoted(path),
                 answers.len()
             ));
         }
-        Err(miette!(
+        Err(problem!(
             help = self.nearest(path),
             "the machine file has no quantity {}",
             plain::quoted(path)

@@ -370,7 +370,7 @@ impl Sensitivity {
         one: &ChosenDrive,
         reach: Reach,
         progress: impl Fn() + Sync,
-    ) -> miette::Result<Self> {
+    ) -> jred_file::text::problem::Result<Self> {
         let machine = study.machine(&[])?;
         let findings = one.findings(&machine);
         let rules = &machine.file.rules;

@@ -13,7 +13,8 @@ pub mod summary;
 use std::sync::Arc;
 
 use jred_file::plain;
-use miette::{Report, Result, miette};
+use jred_file::problem;
+use jred_file::text::problem::{Problem, Result};
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt as _, SeedableRng as _};
 use rand_distr::{Distribution as _, StandardNormal};
@@ -28,7 +29,6 @@ use crate::study::task::Task;
 use jred_file::model::rule::Rule;
 use jred_file::model::rules::Limit;
 use jred_file::model::tolerance::{Shape, Tolerance};
-use jred_file::text::problem::Problem;
 
 /// One quantity that scatters.
 #[derive(Clone, Debug)]
@@ -56,12 +56,12 @@ impl Scatter {
         let quantity = study.document.find(&tolerance.path)?;
         let own = study.document.quantities().get(quantity);
         let own =
-            own.ok_or_else(|| miette!("there is no quantity {}", plain::quoted(&tolerance.path)))?;
+            own.ok_or_else(|| problem!("there is no quantity {}", plain::quoted(&tolerance.path)))?;
         let nominal = own.number();
         let given = &tolerance.amount;
         let amount = if given.unit == "%" && own.unit() != "%" {
             if nominal == 0.0 {
-                return Err(miette!(
+                return Err(problem!(
                     help = "write the tolerance as an amount with its unit",
                     "the tolerance of {} is a share of zero",
                     own.path
@@ -71,7 +71,7 @@ impl Scatter {
         } else if given.is_like(&own.literal) {
             given.number * given.scale / own.literal.scale
         } else {
-            return Err(miette!(
+            return Err(problem!(
                 help = "write a share, such as \"5 %\", or an amount with a matching unit",
                 "the tolerance of {}, which is {}, cannot be {}",
                 own.path,
@@ -103,7 +103,7 @@ impl Scatter {
             }
         }
         if scatters.is_empty() {
-            return Err(miette!(
+            return Err(problem!(
                 help = "add a [tolerance] with lines such as \"slider.mass\" = \"±5 %\", or give --tolerance slider.mass=5%",
                 "no quantity has a tolerance"
             ));
@@ -136,7 +136,7 @@ impl Scatter {
 }
 
 /// The error for one quantity with two tolerances, by the same path or by two.
-fn twice(study: &Study, path: &str, both: [&Tolerance; 2]) -> Report {
+fn twice(study: &Study, path: &str, both: [&Tolerance; 2]) -> Problem {
     let shown = both.map(|tolerance| format!("\"{}\" = {}", tolerance.path, tolerance.shown()));
     let mut problem = Problem::new(format!(
         "{path} has two tolerances: {}",
@@ -149,7 +149,7 @@ fn twice(study: &Study, path: &str, both: [&Tolerance; 2]) -> Report {
         }
     }
     let text = Arc::new(study.document.text().to_owned());
-    Report::new(problem.in_file(&study.name, &text))
+    problem.in_file(&study.name, &text)
 }
 
 jred_file::words! {

@@ -1,4 +1,4 @@
-//! Messages of [`NoMotion`](super::NoMotion).
+//! Messages of [`NoMotion`].
 
 use crate::fastest::leg::MOST_STEPS;
 use std::fmt;

@@ -137,7 +137,7 @@ struct Lacks {
 
 #[derive(Serialize, JsonSchema)]
 struct Conflict {
-    /// Keys of [supply], any one of which resolves it.
+    /// Keys of `[supply]`, any one of which resolves it.
     #[serde(rename = "any of")]
     keys: Vec<&'static str>,
     /// The reason.
@@ -165,7 +165,7 @@ struct CheckRow {
 struct Unknown {
     /// The figure.
     figure: &'static str,
-    /// Lists of keys of [supply]: all keys of any one list give it.
+    /// Lists of keys of `[supply]`: all keys of any one list give it.
     #[serde(rename = "any of")]
     keys: &'static [&'static [&'static str]],
 }
@@ -183,7 +183,7 @@ struct CureData<'a> {
 
 #[derive(Serialize, JsonSchema)]
 struct ChangeData {
-    /// Key of [supply].
+    /// Key of `[supply]`.
     key: &'static str,
     /// Least value.
     #[serde(rename = "at least")]

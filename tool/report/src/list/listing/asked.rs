@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use miette::Result;
+use jred_file::text::problem::Result;
 
 use super::explained;
 use super::text::kilowatts;

@@ -1,6 +1,7 @@
 //! Selection of the drives to list.
 
-use miette::{Result, miette};
+use jred_file::problem;
+use jred_file::text::problem::Result;
 
 use crate::table::screen::Screen;
 use jred_file::units::closest;
@@ -92,7 +93,7 @@ pub fn explained<'c>(
         .map_or(String::new(), |found| {
             format!("; did you mean \"{}\"?", found.drive.name())
         });
-    Err(miette!(
+    Err(problem!(
         help = format!(
             "write MOTOR+GEARBOX, or MOTOR for a direct drive, with the keys that `jred size --all` lists{near}"
         ),

@@ -131,7 +131,7 @@ struct RulesData<'a> {
     set: &'a str,
     /// Its description.
     title: &'a str,
-    /// Limits by the rule's key in [rules]: shares of the rating.
+    /// Limits by the rule's key in `[rules]`: shares of the rating.
     limits: BTreeMap<&'static str, LimitData<'a>>,
 }
 
