@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 use std::fmt::Write;
 
 use crate::reader;
+use crate::reading::rendered;
 use jred::machine::Mechanism as _;
 use jred::machine::motion::Law;
 
@@ -53,7 +54,7 @@ fn cam(csv: &str, more: &str) -> Result<jred_file::model::machine::MachineFile, 
     std::fs::write(folder.path().join("lift.csv"), csv).unwrap();
     let text = format!("{CAM}{more}");
     reader::parse("cam.toml", &text, folder.path()).map_err(|report| {
-        let text = format!("{report:?}");
+        let text = rendered(&report);
         text.split_whitespace().collect::<Vec<_>>().join(" ")
     })
 }
@@ -158,8 +159,6 @@ fn tables_that_make_no_cam() {
         "segment = [{ law = \"table\", rise = \"10 mm\", angle = \"360 deg\" }]",
     );
     let report = reader::parse("cam.toml", &text, std::path::Path::new("")).unwrap_err();
-    assert!(
-        format!("{report:?}").contains("lift = \"lift.csv\""),
-        "{report:?}"
-    );
+    let report = rendered(&report);
+    assert!(report.contains("lift = \"lift.csv\""), "{report}");
 }
