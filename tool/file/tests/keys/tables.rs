@@ -110,7 +110,7 @@ fn many(form: Form) -> String {
 }
 
 /// The second column of a row.
-fn cell(table: &Table, key: &Key, only: &[&str]) -> String {
+pub(super) fn cell(table: &Table, key: &Key, only: &[&str]) -> String {
     let mut cell = String::new();
     if !only.is_empty() {
         write!(cell, "{}: ", only.join(", ")).unwrap();
