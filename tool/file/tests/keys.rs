@@ -11,7 +11,8 @@ mod validated;
 use std::path::{Path, PathBuf};
 
 use jred_file::keys::{MACHINE, RULE_SET};
-use jred_file::text::key::{Form, Key, Table};
+use jred_file::text::key::{Form, Key, Need, Table};
+use serde_json::Value;
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
@@ -52,6 +53,104 @@ fn named() -> Vec<&'static Table> {
     walk(&MACHINE, &mut found);
     walk(&RULE_SET, &mut found);
     found
+}
+
+/// A table of a document.
+struct Place {
+    /// Its path in descriptions: "slider-crank.crank".
+    name: String,
+    /// Its path in the document.
+    path: String,
+    keys: Vec<&'static Key>,
+    /// The word that was chosen.
+    word: Option<String>,
+}
+
+/// The tables of a document.
+fn places(machine: &Value) -> Vec<Place> {
+    let mut found = Vec::new();
+    walk(&MACHINE, machine, "", "", &mut found);
+    found
+}
+
+fn walk(table: &'static Table, value: &Value, name: &str, path: &str, found: &mut Vec<Place>) {
+    let word = value.get(table.by).and_then(Value::as_str);
+    let variant = table.variants.iter().copied().find(|variant| {
+        word == Some(variant.name) || word.is_some() && table.key(table.by).is_none()
+    });
+    let name = match variant {
+        _ if table.name.is_empty() => name,
+        Some(variant) => variant.name,
+        None => table.name,
+    };
+    let keys: Vec<_> = table
+        .keys()
+        .chain(variant.into_iter().flat_map(|table| table.keys()))
+        .collect();
+    let keys = keys.into_iter().filter(|key| {
+        let mut elsewhere = variant.into_iter().flat_map(|variant| variant.elsewhere);
+        elsewhere.all(|(name, _)| *name != key.name)
+    });
+    let keys: Vec<_> = keys.collect();
+    let by = variant.map_or(table.by, |variant| variant.by);
+    let default = table.key(by).and_then(|key| match key.need {
+        Need::Default(word) => Some(word),
+        _ => None,
+    });
+    let word = value.get(by).and_then(Value::as_str).or(default);
+    for key in &keys {
+        let Some(inner) = value.get(key.name) else {
+            continue;
+        };
+        let name = format!("{name}.{}", key.name);
+        inside(
+            key.form,
+            inner,
+            &name,
+            &format!("{path}/{}", key.name),
+            found,
+        );
+    }
+    found.push(Place {
+        name: name.to_owned(),
+        path: path.to_owned(),
+        keys,
+        word: word.map(str::to_owned),
+    });
+}
+
+/// The tables in a value.
+fn inside(form: Form, value: &Value, name: &str, path: &str, found: &mut Vec<Place>) {
+    match (form, value) {
+        (Form::Table(table), Value::Object(_)) => walk(table, value, name, path, found),
+        (Form::Tables(table, ..), Value::Array(items)) => {
+            for (k, item) in items.iter().enumerate() {
+                inside(
+                    Form::Table(table),
+                    item,
+                    name,
+                    &format!("{path}/{k}"),
+                    found,
+                );
+            }
+        }
+        (Form::List(form, _), Value::Array(items)) => {
+            for (k, item) in items.iter().enumerate() {
+                inside(*form, item, name, &format!("{path}/{k}"), found);
+            }
+        }
+        (Form::Named(form), Value::Object(entries)) => {
+            for (entry, value) in entries {
+                inside(*form, value, name, &format!("{path}/{entry}"), found);
+            }
+        }
+        (Form::Any(forms), _) => {
+            for form in forms {
+                inside(*form, value, name, path, found);
+            }
+        }
+        _ => {}
+    }
 }
 
 /// A help without the addresses of its links.
