@@ -3,8 +3,8 @@
 //! A [`Section`](super::section::Section) reads by these descriptions; hints, the tables of the documentation and the schema for editors come from them too.
 
 use crate::units::kind::{
-    ACCELERATION, ANGLE, ANGULAR_ACCELERATION, ANGULAR_JERK, ANGULAR_SPEED, FORCE, JERK, Kind,
-    LENGTH, TORQUE, VELOCITY,
+    ACCELERATION, ANGLE, ANGULAR_ACCELERATION, ANGULAR_JERK, ANGULAR_SPEED, FORCE, FORCE_RATE,
+    JERK, Kind, LENGTH, TORQUE, TORQUE_RATE, VELOCITY,
 };
 
 /// The kind of a quantity where the coordinate is an angle, and where it is a length; elsewhere both are the same.
@@ -20,6 +20,8 @@ pub const ACCELERATIONS: Kinds = [&ANGULAR_ACCELERATION, &ACCELERATION];
 pub const JERKS: Kinds = [&ANGULAR_JERK, &JERK];
 /// What drives it.
 pub const EFFORT: Kinds = [&TORQUE, &FORCE];
+/// How fast its effort changes.
+pub const EFFORT_RATES: Kinds = [&TORQUE_RATE, &FORCE_RATE];
 
 /// Limits of a quantity (SI).
 #[derive(Clone, Copy, Debug, PartialEq)]
