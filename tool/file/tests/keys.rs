@@ -64,6 +64,8 @@ struct Place {
     keys: Vec<&'static Key>,
     /// The word that was chosen.
     word: Option<String>,
+    /// Keys of which one is given.
+    either: Vec<&'static [&'static str]>,
 }
 
 /// The tables of a document.
@@ -85,7 +87,7 @@ fn walk(table: &'static Table, value: &Value, name: &str, path: &str, found: &mu
     };
     let keys: Vec<_> = table
         .keys()
-        .chain(variant.into_iter().flat_map(|table| table.keys()))
+        .chain(variant.into_iter().flat_map(Table::keys))
         .collect();
     let keys = keys.into_iter().filter(|key| {
         let mut elsewhere = variant.into_iter().flat_map(|variant| variant.elsewhere);
@@ -116,6 +118,12 @@ fn walk(table: &'static Table, value: &Value, name: &str, path: &str, found: &mu
         path: path.to_owned(),
         keys,
         word: word.map(str::to_owned),
+        either: variant
+            .into_iter()
+            .chain([table])
+            .flat_map(|table| table.either)
+            .map(|(keys, _)| *keys)
+            .collect(),
     });
 }
 

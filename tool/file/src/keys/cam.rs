@@ -32,7 +32,9 @@ static SEGMENT: Table = Table::of("cam.segment", &[&[
     may("end_velocity", VELOCITY, "s′: `\"12 mm/rad\"`; a plain number if it oscillates (the neighbour's)").only(OPEN_END),
     may("start_acceleration", BEND, "s″: `\"-30 mm/rad^2\"`; `\"-0.5 1/rad\"` if it oscillates (the neighbour's, else 0)").only(OPEN_END),
     may("end_acceleration", BEND, "s″: `\"-30 mm/rad^2\"`; `\"-0.5 1/rad\"` if it oscillates (the neighbour's, else 0)").only(OPEN_END),
-]]).by("law").elsewhere(&[("duration", "a cam program is defined over the angle of the cam")]);
+]]).by("law")
+    .either(&[(&["dwell", "rise", "return"], "write a separate segment for each")])
+    .elsewhere(&[("duration", "a cam program is defined over the angle of the cam")]);
 
 const BASE_RADIUS: Key = key("base_radius", quantity(&LENGTH).positive(), "r_b, of the profile");
 const CLOSURE: Key = may("closure", Form::Words(&["force", "form"]), "the follower is kept on the cam by a force, or by a groove or second cam").or("force");
@@ -73,7 +75,7 @@ pub(crate) static DISC_CAM: Table = Table::of("disc-cam", &[&[
     LAYOUT[0].meaning("titles of the [columns](import.md#csv) `angle`, `lift`, `slope`, `bend`"),
     LAYOUT[1], LAYOUT[2], LAYOUT[3],
     SWING.meaning("rising, less than a turn: only of a cam with `closure = \"form\"` (full turn)"),
-]]);
+]]).either(&[(&["lift", "segment"], "give either the segments or the table of the lift")]);
 
 /// The keys of a joint that is a cam.
 pub(super) const JOINT: &[Key] = &[

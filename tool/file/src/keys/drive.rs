@@ -3,7 +3,7 @@
 use jred::machine::MAX_STAGES;
 
 use super::inner;
-use crate::text::key::{Form, Key, Limit, Table, key, may, quantity};
+use crate::text::key::{Form, KEEP_ONE, Key, Limit, Table, key, may, quantity};
 use crate::units::kind::{ANGLE, INERTIA, LENGTH, MASS, SHARE, STIFFNESS as LINEAR, TIME, TORQUE, TORSION_STIFFNESS, VISCOUS_MOMENT};
 
 /// The cure of too many stages.
@@ -81,11 +81,13 @@ pub(crate) static DRIVE_TRAIN: Table = Table::of("drive_train", &[&[
 
 const RATIO: Form = Form::Number(crate::model::variator::RATIOS);
 
-const CREEP: Form = inner!(&[
+const CURVE: &str = "keep the curve, whose last point is where the contact begins to slide, or slip and torque of that point alone";
+
+const CREEP: Form = Form::Table(&Table::of("", &[&[
     may("slip", quantity(&SHARE).positive(), "instead of `slip` of the variator: slip at which the contact slides, < 100 %"),
     may("torque", quantity(&TORQUE).positive(), "contact torque on the output shaft at which it slides"),
     may("curve", Form::List(&Form::Tuple(&[quantity(&SHARE), quantity(&TORQUE)]), [3, 1000]), "instead of the two: `[slip, torque]`, both rising"),
-]);
+]]).either(&[(&["curve", "slip"], CURVE), (&["curve", "torque"], CURVE)]));
 
 static SHIFT: Table = Table::of("shift", &[&[
     key("at", quantity(&TIME).not_negative(), "not before the end of the last"),
@@ -102,7 +104,7 @@ pub(crate) static VARIATOR: Table = Table::of("variator", &[&[
     may("power_flow", FLOW, "required with `slip`"),
     may("creep", CREEP, ""),
     may("shift", Form::Tables(&SHIFT, [0, 1000], "give the whole course of the ratio as a formula"), "changes of the ratio, one after another"),
-]]);
+]]).either(&[(&["slip", "creep"], KEEP_ONE)]);
 
 pub(crate) static STIFFNESS: Table = Table::of("stiffness", &[&[
     may("shaft", Form::Quantity([&TORSION_STIFFNESS, &LINEAR], Limit::Positive), "of shafts and couplings in series (rigid); `\"80 N/um\"` at a sliding drive link"),

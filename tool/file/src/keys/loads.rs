@@ -4,7 +4,7 @@ use jred::machine::{MAX_ELEMENTS, MAX_LOADS, Window};
 
 use super::inner;
 use super::motion::LAYOUT;
-use crate::text::key::{Form, Key, POSITION, Table, key, may, of_axis, pair, quantity};
+use crate::text::key::{Form, KEEP_ONE, Key, POSITION, Table, key, may, of_axis, pair, quantity};
 use crate::units::kind::{
     ANGLE, FORCE, INERTIA, LENGTH, MASS, STIFFNESS, TIME, TORQUE, TORSION_STIFFNESS, VISCOUS_FORCE, VISCOUS_MOMENT,
 };
@@ -24,6 +24,11 @@ const RAMP: Key = may("ramp", of_axis(POSITION).positive(), "at most half of `be
 const TURNS: Key = may("turns", Form::Count([1, Window::MAX_TURNS]), "of the drive link, after which the load repeats").or("1").such_as("2");
 const POINT: Key = may("at", pair(&LENGTH), "point of application `[u, v]` of a force").or("0");
 
+/// The names of the keys below.
+pub(crate) const ACTIONS: [&str; 6] = ["force", "moment", "opposing_force", "opposing_moment", "viscous_force", "viscous_moment"];
+
+const TIMES: (&[&str], &str) = (&["segments", "during"], "give either the segments or the times");
+
 /// The keys of the action of a load, exactly one of them.
 const ACTION: &[Key] = &[
     may("force", pair(&FORCE), "action with fixed direction, x and y"),
@@ -39,7 +44,10 @@ pub(crate) static LOAD: Table = Table::of("load", &[&[
     may("on", LINK, "it acts on; required unless the load is a table"),
 ], ACTION, &[POINT, BETWEEN, RAMP, TURNS], WHEN, &[
     may("at_rest", Form::Any(&[pair(&FORCE), quantity(&FORCE), quantity(&TORQUE)]), "its value, as the action's, where the drive link rests (as in motion); not viscous"),
-]]).variants("table", &[&LOAD_TABLE]);
+]]).variants("table", &[&LOAD_TABLE]).either(&[
+    (&ACTIONS, "write a separate [[load]] for each"),
+    TIMES,
+]);
 
 pub(crate) static LOAD_TABLE: Table = Table::of("load.table", &[&[
     key("table", Form::File, "relative to the machine file").such_as("\"loads.csv\""),
@@ -55,7 +63,9 @@ pub(crate) static LOAD_TABLE: Table = Table::of("load.table", &[&[
     may("curve", Form::Words(&["smooth", "monotone"]), "of forces and moments").or("smooth"),
     LAYOUT[0].meaning("titles of the [columns](#csv) `position`, `payload`, `thrust`, `torque`, `force`, `force_x`, `force_y`, `moment`"),
     LAYOUT[1], LAYOUT[2], LAYOUT[3],
-]]).elsewhere(&[
+]]).either(&[
+    (&["angle", "angle_on_link"], "write `angle` for a fixed direction, `angle_on_link` for one that turns with the link"),
+]).elsewhere(&[
     ("at_rest", "write at_rest with a plain force or moment"),
     ("force", SEPARATE), ("moment", SEPARATE), ("opposing_force", SEPARATE), ("opposing_moment", SEPARATE), ("viscous_force", SEPARATE), ("viscous_moment", SEPARATE),
 ]);
@@ -85,6 +95,7 @@ const PAYLOAD_KEYS: &[Key] = &[
 ];
 
 pub(crate) static PAYLOAD: Table = Table::of("payload", &[&attached("it is fixed to", "", "its centre of mass `[u, v]` in the link's frame"), PAYLOAD_KEYS])
+    .either(&[TIMES])
     .elsewhere(&[("between", COLUMN), ("ramp", COLUMN), ("direction", "write segments = [2, 3] or during = [\"0.2 s\", \"0.5 s\"]: the time over which it is carried")]);
 
 const COLUMN: &str = "a payload over a part of the turn is a column of a table of loads: docs/import.md";
@@ -116,14 +127,14 @@ pub(crate) static SPRING: Table = Table::of("spring", &[&[
     key("stiffness", Form::Any(&[quantity(&STIFFNESS).positive(), quantity(&TORSION_STIFFNESS).positive()]), ""),
     may("free_length", quantity(&LENGTH).not_negative(), "without force: longer it pulls, shorter it pushes"),
     may("free_angle", quantity(&ANGLE), "instead, in torsion: angle of the second body against the first without moment"),
-]]);
+]]).either(&[(&["free_length", "free_angle"], KEEP_ONE)]);
 
 pub(crate) static DAMPER: Table = Table::of("damper", &[&[
     NAME,
     ENDS,
     may("viscous_force", quantity(&VISCOUS_FORCE).positive(), "d of the force d·l̇ along the line between its ends"),
     may("viscous_moment", quantity(&VISCOUS_MOMENT).positive(), "instead: d of the moment d·θ̇ between two bodies"),
-]]);
+]]).either(&[(&["viscous_force", "viscous_moment"], KEEP_ONE)]);
 
 /// The lists of loads and masses.
 pub(super) const LISTS: &[Key] = &[

@@ -53,7 +53,7 @@ static SEGMENT: Table = Table::of("motion.segment", &[&[
     may("max_deceleration", of_axis(ACCELERATIONS).positive(), "limit (`max_acceleration`)").only(LIMITED),
     may("max_jerk", of_axis(JERKS).positive(), "limit; required").only(&["jerk-limited"]),
     may("to", of_axis(POSITION), "position of the drive link to come to rest (the start of the cycle); a dwell or another join may follow").only(&["join"]),
-]]).by("law");
+]]).by("law").either(&[(&["move", "dwell"], "write two [[motion.segment]] tables, one for the move and one for the dwell")]);
 
 /// Layout of another program's CSV file.
 pub(super) const LAYOUT: [Key; 4] = [
@@ -74,13 +74,16 @@ const fn with<const N: usize>(mut keys: [Key; N], only: &'static [&'static str])
 
 const PROFILE: &[&str] = &["profile"];
 
+/// What to write into `of`.
+pub(crate) const SUCH_AS: &str = "write of = { point = \"slider\", along = \"x\" }, of = { link = \"table\" } or of = { slide = \"guide\" }";
+
 static OF: Table = Table::of("motion.of", &[&[
     may("point", Form::Name("a point, or of a link"), "the coordinate is its position"),
     may("at", pair(&LENGTH), "a point `[u, v]` of the link").or("0"),
     may("along", Form::Words(&["x", "y", "path"]), "required with `point`").such_as("\"x\", \"y\" or \"path\""),
     may("link", Form::Name("a link"), "the coordinate is its angle"),
     may("slide", Form::Name("a joint that is a guide"), "the coordinate is the displacement in it"),
-]]).elsewhere(&[("along", "`along` is for a point"), ("at", "`at` gives a point of a link named with `point`")]);
+]]).either(&[(&["point", "link", "slide"], SUCH_AS)]).elsewhere(&[("along", "`along` is for a point"), ("at", "`at` gives a point of a link named with `point`")]);
 
 const START: Key = may("start", of_axis(POSITION), "φ, or the tool's coordinate, at the start; of a profile only if it has no positions (0; a stroke's first end; the tool's at `near`)");
 const OF_SEGMENTS: Key = key("segment", Form::Tables(&SEGMENT, [0, usize::MAX], ""), "1 to 1000 moves and dwells").only(&["cycle", "point-to-point"]);

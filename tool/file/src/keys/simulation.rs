@@ -1,7 +1,7 @@
 //! `[simulation]`.
 
 use super::inner;
-use crate::text::key::{Form, Limit, POSITION, Table, key, may, of_axis, quantity};
+use crate::text::key::{Form, KEEP_ONE, Limit, POSITION, Table, key, may, of_axis, quantity};
 use crate::units::kind::{
     ANGLE, ANGULAR_SPEED, FORCE, GAIN, INDUCTANCE, INERTIA, LENGTH, MASS, POWER, RESISTANCE, SHARE, TIME, TORQUE, TORQUE_CONSTANT, VELOCITY, VISCOUS_FORCE, VISCOUS_MOMENT, VOLTAGE,
 };
@@ -35,14 +35,17 @@ pub(crate) static SIMULATION: Table = Table::of("simulation", &[&[
         may("torque_constant", quantity(&TORQUE_CONSTANT).positive(), "motor: by its winding"),
         may("inductance", quantity(&INDUCTANCE).positive(), "motor: by its winding (without a time constant)"),
     ]), ""),
-    may("induction_motor", inner!(&[
+    may("induction_motor", Form::Table(&Table::of("", &[&[
         key("synchronous_speed", quantity(&ANGULAR_SPEED), "motor: by Kloss's formula"),
         key("breakdown_torque", quantity(&TORQUE), "motor: by Kloss's formula"),
         may("breakdown_slip", quantity(&SHARE), "> 0, ≤ 100 %"),
         may("rated_speed", quantity(&ANGULAR_SPEED), "of the name plate, instead of the slip"),
         may("rated_power", quantity(&POWER), "of the name plate, with the rated speed"),
         may("rated_torque", quantity(&TORQUE), "of the name plate, instead of the rated power"),
-    ]), ""),
+    ]]).either(&[
+        (&["breakdown_slip", "rated_speed"], "keep `breakdown_slip`, or `rated_speed` with `rated_torque` or `rated_power`"),
+        (&["rated_torque", "rated_power"], KEEP_ONE),
+    ])), ""),
     may("at", Form::Words(&["motor", "crank", "drive-link"]), "whose torque and speed; crank is a drive link that turns").or("motor"),
     may("rotor_inertia", quantity(&INERTIA).not_negative(), "at the motor shaft").or("0"),
     may("motor_mass", quantity(&MASS).not_negative(), "instead, of a linear motor: its moving mass").or("0"),
@@ -58,5 +61,9 @@ pub(crate) static SIMULATION: Table = Table::of("simulation", &[&[
         key("at", Form::List(&ANY_POSITION, [2, 2]), "lower and upper [stop](#controller-stop-end-stops)"),
         may("restitution", Form::Number([0.0, 0.99]), "speed after an impact over speed before").or("0").such_as("0.3"),
     ]), ""),
-]]);
+]]).either(&[
+    (&["start_angle", "start_position"], KEEP_ONE),
+    (&["torque", "torque_speed", "dc_motor", "induction_motor"], KEEP_ONE),
+    (&["force", "force_speed"], KEEP_ONE),
+]);
 

@@ -19,7 +19,10 @@ pub(crate) static SUPPLY: Table = Table::of("supply", &[&[
         may("peak_power", quantity(&POWER).positive(), "≥ `power`"),
         may("pulse_energy", quantity(&ENERGY).positive(), "of one pulse"),
     ]), ""),
-]]);
+]]).either(&[(
+    &["bus_voltage", "mains_voltage"],
+    "give one of them: the DC bus behind a rectifier has √2 times the mains voltage, such as 565 V at 400 V",
+)]);
 
 const WARM: Form = quantity(&TEMPERATURE).limited(Limit::Between(-60.0, 300.0));
 
@@ -43,7 +46,7 @@ pub(crate) static TOOL: Table = Table::of("tool", &[&[
     may("at", pair(&LENGTH), "a point `[u, v]` of the link").or("0"),
     may("link", Form::Name("a link"), "instead: whose angle matters"),
     key("play", Form::Quantity([&ANGLE, &LENGTH], Limit::Positive), "largest play, flank to flank: a length, an angle with `link`"),
-]]);
+]]).either(&[(&["point", "link"], "give either the point whose position matters or the link whose angle matters")]);
 
 const RATIO: Form = Form::Number([0.01, 1000.0]);
 
@@ -104,7 +107,8 @@ static MOVES: Table = Table::of("", &[&[
 
 pub(crate) static RULES: Table = Table::of("rules", &[&[
     may("set", Form::Text, "name or file of the rule set that the other keys change").or("general"),
-], &LIMITS, CHOICES]);
+], &LIMITS, CHOICES])
+    .either(&[(&["inertia_ratio", "inertia_ratio_by_moves"], "limits by moves per minute replace the single limit: remove one of the two")]);
 
 
 /// The file of a rule set.

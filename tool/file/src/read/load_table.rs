@@ -40,7 +40,7 @@ pub(super) fn read(
     let mut loads = Vec::new();
     let mut turns = 1;
     for section in root.tables("load")?.iter().filter(|s| is_table(s)) {
-        section.vary(&LOAD_TABLE);
+        section.vary(&LOAD_TABLE)?;
         let own = window::turns(section, drive)?;
         turns = least_common_multiple(turns, own);
         let stand_ins = table(section, &mechanism, drive, (gravity, own), files)?;
@@ -161,13 +161,7 @@ fn direction<'t>(section: &Section<'t>) -> Result<Option<(Item<'t>, Direction)>>
         Ok::<_, Problem>([cos, sin].map(clean))
     };
     Ok(match (fixed, turning) {
-        (Some(fixed), Some(turning)) => {
-            return Err(turning
-                .problem("is given together with `angle`", "here")
-                .at(fixed.key_span(), "and here")
-                .help("write `angle` for a fixed direction, `angle_on_link` for one that turns with the link"));
-        }
-        (Some(item), None) => {
+        (Some(item), _) => {
             let along = Direction::Fixed(unit(&item)?);
             Some((item, along))
         }

@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use jred::machine::{Action, Load, MAX_LOADS};
 
+use crate::keys::loads::ACTIONS;
 use crate::model::mechanism::{AnyMechanism, NamedLoad};
 
 use super::drive_link::DriveLink;
@@ -15,16 +16,6 @@ use crate::text::item::Item;
 use crate::text::problem::{Problem, Result};
 use crate::text::section::Section;
 use crate::units::kind::{FORCE, Kind, TORQUE, VISCOUS_FORCE, VISCOUS_MOMENT};
-
-/// Keys for the action of a load.
-const ACTIONS: [&str; 6] = [
-    "force",
-    "moment",
-    "opposing_force",
-    "opposing_moment",
-    "viscous_force",
-    "viscous_moment",
-];
 
 /// Keys for the times at which a load acts, or a payload is carried.
 pub(super) const SCHEDULE: [&str; 3] = ["segments", "during", "direction"];
@@ -158,7 +149,7 @@ fn load(section: &Section, mechanism: &AnyMechanism, drive: DriveLink) -> Result
 
 /// The one key with the action of the load.
 fn action_key<'a>(section: &Section<'a>) -> Result<(&'static str, Item<'a>)> {
-    if let Some(given) = section.one_of(&ACTIONS)? {
+    if let Some(given) = section.one_of(&ACTIONS) {
         return Ok(given);
     }
     let missing = format!(

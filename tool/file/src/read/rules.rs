@@ -17,7 +17,6 @@ use crate::text::problem::{Problem, Result, quoted};
 use crate::text::section::Section;
 use crate::text::tree;
 use crate::units::did_you_mean;
-use crate::units::kind::SHARE;
 
 /// The built-in rule sets: name and file.
 pub(super) const BUILT_IN: [(&str, &str); 9] = [
@@ -52,13 +51,6 @@ pub(super) const BUILT_IN: [(&str, &str); 9] = [
 
 /// The set on which all others are based.
 const GENERAL: &str = "general";
-
-/// Largest share allowed as a limit.
-const MAX_SHARE: f64 = 2.0;
-/// Largest limit of cycles per hour, as a share; T2B is valid for 1000.
-const MAX_CYCLES: f64 = 1000.0;
-/// Largest limit of a ratio of inertias or frequencies.
-const MAX_RATIO: f64 = 1000.0;
 
 /// The largest file of a rule set (bytes).
 const MAX_SIZE: u64 = 1 << 16;
@@ -226,14 +218,6 @@ fn changes(section: &Section, source: &str) -> Result<Changes> {
     }
     if let Some(item) = section.get("inertia_ratio_by_moves") {
         let bands = by_moves(&section.tables("inertia_ratio_by_moves")?)?;
-        if let Some(other) = section.peek("inertia_ratio") {
-            return Err(item
-                .problem("is given together with `inertia_ratio`", "here")
-                .at(other.span(), "and here")
-                .help(
-                    "limits by moves per minute replace the single limit: remove one of the two",
-                ));
-        }
         change(What::InertiaByMoves(bands), source, item.span());
     }
     Ok(Changes(changes))
@@ -241,10 +225,10 @@ fn changes(section: &Section, source: &str) -> Result<Changes> {
 
 /// A limit: a share of the rule's rating, or a plain ratio.
 fn limit(item: &Item, rule: Rule) -> Result<f64> {
-    match rule {
-        _ if rule.is_ratio() => item.number([0.01, MAX_RATIO], "10"),
-        Rule::GearboxCycles => item.quantity(&SHARE)?.up_to(MAX_CYCLES),
-        _ => item.quantity(&SHARE)?.up_to(MAX_SHARE),
+    if rule.is_ratio() {
+        item.figure()
+    } else {
+        Ok(item.value()?.si)
     }
 }
 

@@ -164,12 +164,6 @@ fn part<'s>(section: &Section<'s>, course: &Course) -> Result<Part<'s>> {
     let direction = section
         .describes("direction")
         .then(|| section.get("direction"));
-    if let (Some(segments), Some(during)) = (&segments, &during) {
-        return Err(during
-            .problem("is given together with `segments`", "here")
-            .at(segments.key_span(), "and here")
-            .help("give either the segments or the times"));
-    }
     if let Some(item) = segments {
         let (spans, words) = of_segments(&item, course)?;
         (part.when.spans, part.when.by_segment) = (Some(spans), true);
@@ -228,11 +222,6 @@ fn of_segments(item: &Item, course: &Course) -> Result<(Vec<[f64; 2]>, String)> 
         .iter()
         .filter_map(|k| course.segments.get(k - 1).copied())
         .collect();
-    if spans.is_empty() {
-        return Err(item
-            .problem("names no segment", "empty")
-            .help("write segments = [2, 3], or remove the key"));
-    }
     Ok((joined(spans), in_segments(&numbers)))
 }
 

@@ -161,15 +161,7 @@ fn start(section: &Section, around: Around) -> Result<[f64; 2]> {
         (section.get("start_angle"), None)
     };
     let given = match (own, position) {
-        (Some(own), Some(position)) => {
-            return Err(Problem::new(
-                "[simulation] has both `start_angle` and `start_position`".to_owned(),
-            )
-            .at(own.key_span(), "of the drive link")
-            .at(position.key_span(), "of the axis")
-            .help("keep one of them"));
-        }
-        (Some(own), None) => places.drive_position(&own)?,
+        (Some(own), _) => places.drive_position(&own)?,
         (None, Some(position)) => places.position(&position)?,
         (None, None) => {
             let reference = around.motion.filter(|_| section.peek("control").is_some());

@@ -17,13 +17,7 @@ pub(super) fn read(root: &Section, site: &mut Site) -> Result<()> {
         section.given("mains_voltage")?,
     );
     let voltage = match (bus, &mains) {
-        (Some(bus), Some(mains)) => {
-            return Err(Problem::new("`bus_voltage` and `mains_voltage` in [supply] are both given")
-                .at(bus.span(), "one")
-                .at(mains.span(), "the other")
-                .help("give one of them: the DC bus behind a rectifier has √2 times the mains voltage, such as 565 V at 400 V"));
-        }
-        (Some(bus), None) => Some((bus.shown(), bus.si)),
+        (Some(bus), _) => Some((bus.shown(), bus.si)),
         (None, Some(mains)) => {
             let shown = format!("√2 times {}", mains.shown());
             check_mains(mains)?;

@@ -23,15 +23,7 @@ pub(super) fn read(root: &Section, mechanism: &AnyMechanism) -> Result<Option<To
     };
     let (point, link) = (section.get("point"), section.get("link"));
     let tool = match (&point, &link) {
-        (Some(point), Some(link)) => {
-            return Err(link
-                .problem("is given together with `point`", "here")
-                .at(point.span(), "and here")
-                .help(
-                    "give either the point whose position matters or the link whose angle matters",
-                ));
-        }
-        (Some(point), None) => of_point(&section, point, mechanism)?,
+        (Some(point), _) => of_point(&section, point, mechanism)?,
         (None, Some(link)) => {
             let index = link.choice(mechanism.link_names())?;
             section.set_slides(false);

@@ -14,9 +14,6 @@ use crate::text::problem::Result;
 use crate::text::section::Section;
 use crate::units::kind::{SHARE, TIME, TORQUE};
 
-/// The most shifts.
-const MAX_SHIFTS: usize = 1000;
-
 /// The laws of a shift: those whose speed has a continuous second derivative.
 const LAWS: [Law; 3] = [Law::Polynomial345, Law::Cycloidal, Law::ModifiedSine];
 
@@ -67,7 +64,7 @@ pub(super) fn read(root: &Section, drive_link: DriveLink) -> Result<Option<Varia
 }
 
 fn ratio(section: &Section) -> Result<f64> {
-    section.need("ratio")?.number(RATIOS, "0.5")
+    section.figure("ratio")
 }
 
 /// `ratio = [["0 s", 0.5], …]`: a curve through points over time.
@@ -75,12 +72,7 @@ fn points(list: &Item) -> Result<Ratio> {
     const EXAMPLE: &str = "[[\"0 s\", 0.5], [\"0.2 s\", 0.6], …]";
     let (mut times, mut ratios): (Vec<f64>, Vec<f64>) = (Vec::new(), Vec::new());
     for point in list.list("point", EXAMPLE)? {
-        let pair = point.list("value", "[\"0.2 s\", 0.6]")?;
-        let [time, ratio] = pair.as_slice() else {
-            return Err(point
-                .problem("must be a time and a ratio", "here")
-                .help(format!("write ratio = {EXAMPLE}")));
-        };
+        let [time, ratio] = point.both("value", EXAMPLE)?;
         let time = time.quantity(&TIME)?;
         if times.last().is_some_and(|last| time.si <= *last) || time.si < 0.0 {
             let what = format!("is {}, not after the one before", time.shown());
@@ -90,13 +82,6 @@ fn points(list: &Item) -> Result<Ratio> {
         }
         times.push(time.si);
         ratios.push(ratio.number(RATIOS, "0.6")?);
-    }
-    if times.len() > MAX_SHIFTS {
-        let what = format!(
-            "has {} points, but at most {MAX_SHIFTS} are possible",
-            times.len()
-        );
-        return Err(list.problem(&what, "points"));
     }
     let (ratio, [at, least]) = Ratio::through(&times, &ratios).map_err(|fault| {
         list.problem(&format!("is no curve: {fault}"), "these points")
@@ -114,7 +99,7 @@ fn points(list: &Item) -> Result<Ratio> {
 }
 
 fn slip(section: &Section) -> Result<Slip> {
-    let given = section.one_of(&["slip", "creep"])?;
+    let given = section.one_of(&["slip", "creep"]);
     let flow = section.get("power_flow");
     if let Some(("slip", constant)) = given {
         return Ok(Slip::Constant {
@@ -173,14 +158,6 @@ pub(super) fn flow(section: &Section, why: &str) -> Result<Flow> {
 fn creep(item: &Item) -> Result<Slip> {
     let section = item.section("`creep` of [variator]".into())?;
     if let Some(curve) = section.get("curve") {
-        for key in ["slip", "torque"] {
-            if let Some(other) = section.peek(key) {
-                return Err(curve
-                    .problem(&format!("is given together with `{key}`"), "the whole curve")
-                    .at(other.key_span(), "a point of a straight line")
-                    .help("keep the curve, whose last point is where the contact begins to slide, or slip and torque of that point alone"));
-            }
-        }
         section.finish()?;
         return adhesion(&curve).map(Slip::Creep);
     }
@@ -225,13 +202,6 @@ fn adhesion(list: &Item) -> Result<Adhesion> {
         }
         slips.push(slip.si);
         torques.push(torque.si);
-    }
-    let count = slips.len();
-    if !(3..=MAX_SHIFTS).contains(&count) {
-        let what = format!("has {count} points, but needs 3 to {MAX_SHIFTS}");
-        return Err(list.problem(&what, "points").help(
-            "from the point alone where it begins to slide: creep = { slip = \"3 %\", torque = \"45 N m\" }, with slip in proportion to the torque",
-        ));
     }
     Adhesion::through(&slips, &torques)
         .map_err(|fault| list.problem(&format!("is no curve: {fault}"), "these points"))

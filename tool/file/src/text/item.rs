@@ -163,11 +163,13 @@ impl<'a> Item<'a> {
 
     /// The kinds of its quantities.
     fn kinds(&self) -> (Kinds, Limit) {
-        match self.form {
-            Some(Form::Quantity(kinds, limit)) => (kinds, limit),
-            Some(Form::Pair(kinds)) => (kinds, Limit::Any),
-            _ => ([&NO_KIND; 2], Limit::Any),
-        }
+        let kinds = |form| match form {
+            Form::Quantity(kinds, limit) => Some((kinds, limit)),
+            Form::Pair(kinds) => Some((kinds, Limit::Any)),
+            _ => None,
+        };
+        let found = self.form.and_then(|form| form.first(kinds));
+        found.unwrap_or(([&NO_KIND; 2], Limit::Any))
     }
 
     /// The quantity that its description asks for, within its limits.
@@ -191,10 +193,12 @@ impl<'a> Item<'a> {
 
     /// The plain number that its description asks for.
     pub(crate) fn figure(&self) -> Result<f64> {
-        let Some(Form::Number(limits)) = self.form else {
-            return self.number([f64::MIN, f64::MAX], "1");
+        let limits = |form| match form {
+            Form::Number(limits) => Some(limits),
+            _ => None,
         };
-        self.number(limits, &self.example())
+        let limits = self.form.and_then(|form| form.first(limits));
+        self.number(limits.unwrap_or([f64::MIN, f64::MAX]), &self.example())
     }
 
     /// The whole number that its description asks for.
@@ -361,15 +365,39 @@ impl<'a> Item<'a> {
         let DeValue::Array(array) = self.value.get_ref() else {
             return Err(self.wrong_type("a list", &format!("{} = {example}", self.key)));
         };
+        let list = |form| match form {
+            Form::List(element, counts) => Some((*element, counts)),
+            _ => None,
+        };
+        let described = self.form.and_then(|form| form.first(list));
+        if let Some((_, [least, most])) = described
+            && !(least..=most).contains(&array.len())
+        {
+            let counts = match (least, most) {
+                (2, 2) => "two".to_owned(),
+                (least, usize::MAX) => format!("at least {least}"),
+                _ => format!("{least} to {most}"),
+            };
+            let what = format!("must have {counts} {word}s, but has {}", array.len());
+            let problem = self.problem(&what, "here");
+            return Err(problem.help(format!("write {} = {example}", self.key)));
+        }
         let element = |(k, value): (usize, &'a Spanned<DeValue<'a>>)| {
             let name = format!("{word} {} of {}", k + 1, self.name);
-            let element = match self.form {
-                Some(Form::List(element, _)) => Some(*element),
-                _ => None,
-            };
+            let element = described.map(|(element, _)| element);
             Self::new(name, self.key, value.span(), value).described(element, "", self.slides)
         };
         Ok(array.iter().enumerate().map(element).collect())
+    }
+
+    /// The two elements of a list.
+    pub(crate) fn both(&self, word: &str, example: &str) -> Result<[Self; 2]> {
+        let list = self.list(word, example)?;
+        list.try_into().map_err(|list: Vec<Self>| {
+            let what = format!("must have two {word}s, but has {}", list.len());
+            let problem = self.problem(&what, "here");
+            problem.help(format!("write {} = {example}", self.key))
+        })
     }
 
     /// Two quantities.
@@ -381,13 +409,7 @@ impl<'a> Item<'a> {
         } else {
             format!("[\"{}\", \"{}\"]", first.example, second.example)
         };
-        let list = self.list("value", &example)?;
-        let [first, second] = list.as_slice() else {
-            let count = list.len();
-            return Err(self
-                .problem(&format!("must have two values, but has {count}"), "here")
-                .help(format!("write {} = {example}", self.key)));
-        };
+        let [first, second] = self.both("value", &example)?;
         Ok([first.quantity(kinds[0])?, second.quantity(kinds[1])?])
     }
 
@@ -399,6 +421,7 @@ impl<'a> Item<'a> {
         };
         let keys = self.form.and_then(Form::table).unwrap_or(&OPEN);
         let section = Section::described(title, self.span(), table, (keys, self.slides));
+        section.not_both(keys)?;
         Ok(match self.form {
             Some(Form::Named(entry)) => section.of_entries(*entry),
             _ => section,
@@ -490,11 +513,6 @@ impl Value {
     /// The value if it is greater than zero.
     pub(crate) fn positive(self) -> Result<f64> {
         self.check_positive().map(|()| self.si)
-    }
-
-    /// The value if it is greater than zero and at most `max` (SI).
-    pub(crate) fn up_to(self, max: f64) -> Result<f64> {
-        self.check(Limit::UpTo(max)).map(|()| self.si)
     }
 
     fn check_most(&self, max: f64) -> Result<()> {

@@ -107,13 +107,20 @@ impl Form {
         }
     }
 
+    /// The first form that it may be of which `of` gives something.
+    pub(crate) fn first<T>(self, of: impl Fn(Self) -> Option<T> + Copy) -> Option<T> {
+        match self {
+            Self::Any(forms) => forms.iter().find_map(|form| form.first(of)),
+            form => of(form),
+        }
+    }
+
     /// The keys of the table that it may be.
     pub(crate) fn table(self) -> Option<&'static Table> {
-        match self {
+        self.first(|form| match form {
             Self::Table(table) | Self::Tables(table, ..) => Some(table),
-            Self::Any(forms) => forms.iter().find_map(|form| form.table()),
             _ => None,
-        }
+        })
     }
 
     /// The same quantity within limits.
@@ -231,7 +238,12 @@ pub struct Table {
     pub variants: &'static [&'static Table],
     /// Keys that users look for here, and where they belong.
     pub elsewhere: &'static [(&'static str, &'static str)],
+    /// Keys of which at most one is given, and what to do if more are.
+    pub either: &'static [(&'static [&'static str], &'static str)],
 }
+
+/// What to do with one key too many.
+pub const KEEP_ONE: &str = "keep one of them";
 
 /// A table without descriptions: any key may be asked for.
 pub static OPEN: Table = Table::of("", &[]);
@@ -245,6 +257,7 @@ impl Table {
             by: "",
             variants: &[],
             elsewhere: &[],
+            either: &[],
         }
     }
 
@@ -268,6 +281,12 @@ impl Table {
     #[must_use]
     pub const fn elsewhere(self, elsewhere: &'static [(&'static str, &'static str)]) -> Self {
         Self { elsewhere, ..self }
+    }
+
+    /// Keys of which at most one is given, and what to do if more are.
+    #[must_use]
+    pub const fn either(self, either: &'static [(&'static [&'static str], &'static str)]) -> Self {
+        Self { either, ..self }
     }
 
     /// Whether nothing is known of its keys.

@@ -87,8 +87,28 @@ impl<'a> Section<'a> {
     }
 
     /// Adds the keys of a variant.
-    pub(crate) fn vary(&self, variant: &'static Table) {
+    pub(crate) fn vary(&self, variant: &'static Table) -> Result<()> {
         self.variant.set(Some(variant));
+        self.not_both(variant)
+    }
+
+    /// Refuses keys that exclude one another.
+    pub(crate) fn not_both(&self, table: &Table) -> Result<()> {
+        for (keys, cure) in table.either {
+            let mut given = keys
+                .iter()
+                .filter_map(|key| Some((key, self.table.get_key_value(*key)?.0.span())));
+            if let (Some((first, one)), Some((second, other))) = (given.next(), given.next()) {
+                return Err(Problem::new(format!(
+                    "{} has both `{first}` and `{second}`",
+                    self.title
+                ))
+                .at(one, "one")
+                .at(other, "the other")
+                .help(*cure));
+            }
+        }
+        Ok(())
     }
 
     /// The name of the variant.
@@ -471,26 +491,10 @@ impl<'a> Section<'a> {
         Ok(tables)
     }
 
-    /// The one of some keys that is given, if any is.
-    pub(crate) fn one_of(
-        &self,
-        names: &[&'static str],
-    ) -> Result<Option<(&'static str, Item<'a>)>> {
-        let mut given = names
-            .iter()
-            .filter_map(|name| Some((*name, self.get(name)?)));
-        let Some((first, one)) = given.next() else {
-            return Ok(None);
-        };
-        if let Some((second, other)) = given.next() {
-            return Err(
-                Problem::new(format!("{} has both `{first}` and `{second}`", self.title))
-                    .at(one.key_span(), "one")
-                    .at(other.key_span(), "the other")
-                    .help("keep one of them"),
-            );
-        }
-        Ok(Some((first, one)))
+    /// The one of some keys that is given, if any is; all are known here.
+    pub(crate) fn one_of(&self, names: &[&'static str]) -> Option<(&'static str, Item<'a>)> {
+        self.expects(names);
+        names.iter().find_map(|name| Some((*name, self.get(name)?)))
     }
 
     fn default(&self, name: &str) -> Option<&'static str> {

@@ -68,7 +68,13 @@ fn every_key_is_read() {
                     continue;
                 }
                 let mut changed = machine.clone();
-                changed.pointer_mut(&place.path).unwrap()[key.name] = match key.form {
+                let table = changed.pointer_mut(&place.path).unwrap();
+                let object = table.as_object_mut().unwrap();
+                let others = place.either.iter().filter(|keys| keys.contains(&key.name));
+                for other in others.flat_map(|keys| *keys) {
+                    object.remove(*other);
+                }
+                table[key.name] = match key.form {
                     Form::Flag => json!(7),
                     _ => json!(true),
                 };

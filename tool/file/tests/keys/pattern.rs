@@ -125,14 +125,13 @@ fn written((above, below): &(Vec<Factor>, Vec<Factor>), free: bool) -> String {
     let mut unit = above;
     for factor @ (dimension, power) in below {
         let behind = word(*dimension) + &raised(*power, true);
-        let start = unit.clone();
-        unit += &format!("(?: */ *{}|{BETWEEN}{behind})", one(factor));
-        if free && dimension.angle != 0 && dimension.time == 0 {
-            unit += "?";
-        }
-        if start == "1" {
+        if unit == "1" {
             unit = format!("1 */ *{}|{behind}", one(factor));
+            continue;
         }
+        let left_out = free && dimension.angle != 0 && dimension.time == 0;
+        let mark = if left_out { "?" } else { "" };
+        unit = format!("{unit}(?: */ *{}|{BETWEEN}{behind}){mark}", one(factor));
     }
     unit
 }

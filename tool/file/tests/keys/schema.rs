@@ -110,7 +110,7 @@ impl Maker {
             Form::Table(table) => self.table(table),
             Form::Tables(table, counts, _) => {
                 let item = self.table(table);
-                Self::list(item, counts)
+                Self::list(&item, counts)
             }
             Form::Named(inner) => {
                 let inner = self.form(*inner, &[]);
@@ -118,7 +118,7 @@ impl Maker {
             }
             Form::List(inner, counts) => {
                 let item = self.form(*inner, &[]);
-                Self::list(item, counts)
+                Self::list(&item, counts)
             }
             Form::Tuple(forms) => {
                 let items: Vec<_> = forms.iter().map(|form| self.form(*form, &[])).collect();
@@ -138,7 +138,7 @@ impl Maker {
         }
     }
 
-    fn list(item: Value, [least, most]: [usize; 2]) -> Value {
+    fn list(item: &Value, [least, most]: [usize; 2]) -> Value {
         let mut list = json!({ "type": "array", "items": item });
         bound(&mut list, "minItems", (least > 0).then(|| json!(least)));
         bound(
@@ -153,12 +153,12 @@ impl Maker {
     fn table(&mut self, table: &'static Table) -> Value {
         let own: Vec<Key> = table.keys().copied().collect();
         if table.name.is_empty() {
-            return self.object(table, &own, table.by);
+            return self.object(&[table], &own, table.by);
         }
         if !self.tables.contains_key(table.name) {
             self.tables.insert(table.name.to_owned(), Value::Null);
             let definition = if table.variants.is_empty() {
-                self.object(table, &own, table.by)
+                self.object(&[table], &own, table.by)
             } else {
                 self.one_of(table, &own)
             };
@@ -172,14 +172,14 @@ impl Maker {
         let mut objects = Vec::new();
         let by_word = own.iter().any(|key| key.name == table.by);
         if !by_word {
-            objects.push(self.object(table, own, ""));
+            objects.push(self.object(&[table], own, ""));
         }
         for variant in table.variants {
             let elsewhere =
                 |key: &&Key| !variant.elsewhere.iter().any(|(name, _)| *name == key.name);
             let mut keys: Vec<Key> = own.iter().filter(elsewhere).copied().collect();
             keys.extend(variant.keys());
-            let mut object = self.object(table, &keys, variant.by);
+            let mut object = self.object(&[table, variant], &keys, variant.by);
             if by_word {
                 object["title"] = json!(variant.name);
                 object["properties"][table.by]["enum"] = json!([variant.name]);
@@ -189,7 +189,9 @@ impl Maker {
         json!({ "oneOf": objects })
     }
 
-    fn object(&mut self, table: &Table, keys: &[Key], by: &str) -> Value {
+    /// A table with these keys; the key `by` decides which are used.
+    fn object(&mut self, tables: &[&Table], keys: &[Key], by: &str) -> Value {
+        let table = tables[0];
         let mut properties = Map::new();
         for key in keys {
             properties.insert(key.name.to_owned(), self.property(table, key));
@@ -201,7 +203,19 @@ impl Maker {
         if !required.is_empty() {
             object["required"] = json!(required);
         }
-        let choices = choices(keys, by);
+        let mut choices = choices(keys, by);
+        let known = |name: &&&str| keys.iter().any(|key| key.name == **name);
+        for (names, _) in tables.iter().flat_map(|table| table.either) {
+            let names: Vec<_> = names.iter().filter(known).collect();
+            let pairs = names.iter().enumerate().flat_map(|(k, one)| {
+                let others = names.iter().skip(k + 1);
+                others.map(move |other| json!({ "required": [one, other] }))
+            });
+            let pairs: Vec<_> = pairs.collect();
+            if !pairs.is_empty() {
+                choices.push(json!({ "not": { "anyOf": pairs } }));
+            }
+        }
         if !choices.is_empty() {
             object["allOf"] = json!(choices);
         }
@@ -290,7 +304,7 @@ pub(super) fn schema() -> Value {
         "title": "Machine file of jred",
         "description": "A machine with its motion and drive train; docs/machine-file.md explains it. The schema knows keys, words and units; `jred check` checks the machine.",
     });
-    let top = maker.object(&MACHINE, &keys, "");
+    let top = maker.object(&[&MACHINE], &keys, "");
     schema
         .as_object_mut()
         .unwrap()

@@ -170,6 +170,7 @@ fn a_word_decides_which_keys_are_used() {
     assert_ne!(change("/mechanism/type", json!("scotch-yoke")).len(), 0);
     assert_ne!(change("/mechanism/type", json!("slider-krank")).len(), 0);
     assert_ne!(change("/mechanism/crank/length", json!("-80 mm")).len(), 0);
+    assert_ne!(change("/load/1/moment", json!("1 N m")).len(), 0);
     assert_ne!(change("/drive_train/0/efficiency", json!("-4 %")).len(), 0);
 }
 

@@ -48,14 +48,8 @@ fn element(
 ) -> Result<NamedElement> {
     let name = section.text("name")?;
     let between = section.need("between")?;
-    let list = between.list("end", "[\"slider\", \"ground\"]")?;
-    let [first, second] = list.as_slice() else {
-        let count = list.len();
-        return Err(between
-            .problem(&format!("has {count} ends, but must have two"), "here")
-            .help(format!("a {key} acts between two points or two bodies")));
-    };
-    let ends = [end(first, mechanism)?, end(second, mechanism)?];
+    let list = between.both("end", "[\"slider\", \"ground\"]")?;
+    let ends = [end(&list[0], mechanism)?, end(&list[1], mechanism)?];
     if ends[0].marker.body == ends[1].marker.body {
         return Err(between
             .problem(
@@ -128,7 +122,7 @@ impl Law {
 
 /// The spring, and whether it is one in torsion.
 fn spring(section: &Section) -> Result<(Law, bool)> {
-    let given = section.one_of(&["free_length", "free_angle"])?;
+    let given = section.one_of(&["free_length", "free_angle"]);
     let Some((key, free)) = given else {
         return Err(section.missing(
             "free_length",
@@ -156,7 +150,7 @@ fn spring(section: &Section) -> Result<(Law, bool)> {
 
 /// The damper, and whether it is one in torsion.
 fn damper(section: &Section) -> Result<(Law, bool)> {
-    match section.one_of(&["viscous_force", "viscous_moment"])? {
+    match section.one_of(&["viscous_force", "viscous_moment"]) {
         Some(("viscous_force", force)) => Ok((Law::Damper(force.value()?.si), false)),
         Some((_, moment)) => Ok((Law::TorsionDamper(moment.value()?.si), true)),
         None => Err(section.missing(

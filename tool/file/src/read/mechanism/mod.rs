@@ -98,7 +98,7 @@ pub(super) fn read(
         .need("type")?
         .choice(&TYPES.map(|(table, _)| table.name))?;
     let (table, reader) = TYPES[kind];
-    section.vary(table);
+    section.vary(table)?;
     let flywheel = section.si("flywheel")?;
     let mechanism = match reader {
         Reader::Text(read) => read(section)?,

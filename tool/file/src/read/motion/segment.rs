@@ -72,16 +72,6 @@ pub(super) fn read(section: &Section, prescribed: &Prescribed) -> Result<(Writte
     let drive = prescribed.axis;
     let law_key = section.get("law");
     let (way, dwell) = (section.get("move"), section.get("dwell"));
-    if let (Some(way), Some(dwell)) = (&way, &dwell) {
-        return Err(
-            Problem::new(format!("{} has both `move` and `dwell`", section.title()))
-                .at(way.key_span(), "a move")
-                .at(dwell.key_span(), "a pause")
-                .help(
-                    "write two [[motion.segment]] tables, one for the move and one for the dwell",
-                ),
-        );
-    }
     if let Some(dwell) = dwell {
         let segment = pause(section, &dwell, law_key)?;
         return Ok((Written::Known(segment), Ends::default()));

@@ -7,6 +7,7 @@ use jred::Domain;
 use jred::machine::motion::State;
 use jred::machine::{Joint, Jointed as _, Machine, Mechanism as _};
 
+use crate::keys::motion::SUCH_AS;
 use crate::model::mechanism::{AnyMechanism, NamedLoad};
 use crate::model::motion::{Measure, Motion, Reach, Standstill, ToolCoordinate};
 use crate::number::numerics;
@@ -291,11 +292,9 @@ impl<'a> Prescribed<'a> {
 /// The measure that `of` defines, and its name.
 fn measure(of: &Item, mechanism: &AnyMechanism) -> Result<(Measure, String)> {
     let section = of.section("[motion.of]".into())?;
-    let example = "write of = { point = \"slider\", along = \"x\" }, of = { link = \"table\" } or of = { slide = \"guide\" }";
-    let given = section.one_of(&["point", "link", "slide"]);
-    let Some((key, item)) = given.map_err(|problem| problem.help(example))? else {
+    let Some((key, item)) = section.one_of(&["point", "link", "slide"]) else {
         let problem = of.problem("names neither `point` nor `link` nor `slide`", "incomplete");
-        return Err(problem.help(example));
+        return Err(problem.help(SUCH_AS));
     };
     let found = match key {
         "link" => {

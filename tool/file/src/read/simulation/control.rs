@@ -157,19 +157,10 @@ pub(super) fn end_stops(
     let section = around.part(&item, "[simulation.end_stops]")?;
     let places = Places::of(around);
     let kind = if places.is_length() { &LENGTH } else { &ANGLE };
-    let example = format!("at = [\"{}\", \"{}\"]", kind.example, kind.example);
-    let at = section.get("at");
-    let at = at.ok_or_else(|| section.missing("at", &example))?;
-    let ends = at.list("position", &example)?;
-    let [first, second] = ends.as_slice() else {
-        return Err(at
-            .problem(
-                &format!("has {} positions, but must have 2", ends.len()),
-                "here",
-            )
-            .help(format!("give the lower and the upper stop: {example}")));
-    };
-    let [first, second] = [places.position(first)?, places.position(second)?];
+    let example = format!("[\"{}\", \"{}\"]", kind.example, kind.example);
+    let at = section.require("at", &format!("at = {example}"))?;
+    let [first, second] = at.both("position", &example)?;
+    let [first, second] = [places.position(&first)?, places.position(&second)?];
     if first.value.si >= second.value.si {
         return Err(at
             .problem(

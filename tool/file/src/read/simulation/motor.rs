@@ -5,11 +5,8 @@ use crate::model::characteristic::Characteristic;
 use crate::model::simulation::Winding;
 use crate::number::rounding::{percent, short};
 use crate::text::item::{Item, Value};
-use crate::text::problem::{Problem, Result};
+use crate::text::problem::Result;
 use crate::text::section::Section;
-
-/// The most points of a torque-speed curve.
-const MAX_POINTS: usize = 1000;
 
 /// Motor data of a file.
 pub(super) struct Given {
@@ -45,7 +42,7 @@ pub(super) fn effort(
         &["dc_motor", "induction_motor"]
     };
     let keys: Vec<&str> = [key, curve_key].iter().chain(formulas).copied().collect();
-    let Some((found, item)) = section.one_of(&keys)? else {
+    let Some((found, item)) = section.one_of(&keys) else {
         return Ok(None);
     };
     Ok(Some(match found {
@@ -122,14 +119,7 @@ fn induction_motor(item: &Item) -> Result<Characteristic> {
                 synchronous_speed: speed.si,
             });
         }
-        (Some(slip), Some(_)) => {
-            return Err(Problem::new(
-                "the breakdown slip is given, and follows from the name plate".to_owned(),
-            )
-            .at(slip.key_span(), "the slip")
-            .help("keep `breakdown_slip`, or `rated_speed` with `rated_torque` or `rated_power`"));
-        }
-        (Some(slip), None) => slip.value()?,
+        (Some(slip), _) => slip.value()?,
         (None, None) => {
             let example = "breakdown_slip = \"20 %\", or rated_speed = \"950 rpm\" and rated_power = \"2.2 kW\" of the name plate";
             return Err(section.missing("breakdown_slip", example));
@@ -162,7 +152,7 @@ fn name_plate(section: &Section, synchronous: &Value, breakdown: &Value) -> Resu
         };
     };
     let (given, rated) = match (torque, power) {
-        (Some(torque), None) => {
+        (Some(torque), _) => {
             let si = torque.si;
             (torque, si)
         }
@@ -173,12 +163,6 @@ fn name_plate(section: &Section, synchronous: &Value, breakdown: &Value) -> Resu
         (None, None) => {
             let example = "rated_power = \"2.2 kW\", or rated_torque";
             return Err(section.missing("rated_power", example));
-        }
-        (Some(torque), Some(power)) => {
-            return Err(torque
-                .problem("and the rated power are both given", "this torque")
-                .at(power.span(), "this power")
-                .help("keep one of them"));
         }
     };
     let slip = 1.0 - speed.si / synchronous.si;
@@ -250,12 +234,6 @@ fn same_way(speed: &Value, torque: &Value) -> Result<()> {
 
 fn points(curve: &Item, drive: DriveLink, example: &str) -> Result<Vec<(f64, f64)>> {
     let list = curve.list("point", example)?;
-    if list.is_empty() || list.len() > MAX_POINTS {
-        let what = format!("has {} points, but must have 1 to {MAX_POINTS}", list.len());
-        return Err(curve.problem(&what, "here").help(format!(
-            "a point is [speed, torque or force], as in {example}"
-        )));
-    }
     let mut points: Vec<(f64, f64)> = Vec::with_capacity(list.len());
     for item in list {
         let [speed, effort] = item.pair([drive.speed(), drive.effort()])?;

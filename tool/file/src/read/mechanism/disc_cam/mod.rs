@@ -37,12 +37,7 @@ pub(super) fn read(section: &Section, files: &dyn Files) -> Result<AnyMechanism>
     section.set_slides(!oscillating);
     let (program, about) = match section.get("lift") {
         Some(item) => {
-            if let Some(segment) = section.get("segment") {
-                return Err(segment
-                    .problem("is given together with `lift`", "here")
-                    .at(item.key_span(), "and here")
-                    .help("give either the segments or the table of the lift"));
-            }
+            section.expects(&["segment"]);
             let (program, about) = table::read(section, &item, oscillating, files)?;
             (program, Some(about))
         }

@@ -40,28 +40,13 @@ pub(in crate::read::mechanism) fn read(section: &Section) -> Result<Program> {
 }
 
 fn segment<'a>(section: &Section<'a>) -> Result<Written<'a>> {
-    let given = ["dwell", "rise", "return"].into_iter();
-    let given = given.filter_map(|key| section.get(key).map(|item| (key, item)));
-    let given: Vec<_> = given.collect();
-    let (key, item) = match given.as_slice() {
-        [one] => one,
-        [] => {
-            return Err(section.missing(
-                "rise",
-                "rise = \"…\" or return = \"…\" with law and angle, or dwell = \"60 deg\"",
-            ));
-        }
-        [(first, one), (second, other), ..] => {
-            return Err(Problem::new(format!(
-                "{} has both `{first}` and `{second}`",
-                section.title()
-            ))
-            .at(one.key_span(), *first)
-            .at(other.key_span(), *second)
-            .help("write a separate segment for each"));
-        }
+    let Some((key, item)) = section.one_of(&["dwell", "rise", "return"]) else {
+        return Err(section.missing(
+            "rise",
+            "rise = \"…\" or return = \"…\" with law and angle, or dwell = \"60 deg\"",
+        ));
     };
-    if *key == "dwell" {
+    if key == "dwell" {
         let angle = item.value()?.si;
         section.finish_with(|key| match key {
             "angle" => Some("give the angle of a dwell as dwell = \"60 deg\""),
@@ -71,7 +56,7 @@ fn segment<'a>(section: &Section<'a>) -> Result<Written<'a>> {
         return Ok(Written::Known(Segment::dwell(angle)));
     }
     let size = item.value()?;
-    let rise = if *key == "rise" { size.si } else { -size.si };
+    let rise = if key == "rise" { size.si } else { -size.si };
     let angle = section.value("angle")?.si;
     let law = section.need("law")?;
     if law.is_word("table") {

@@ -60,16 +60,14 @@ fn joint(section: &Section, bodies: &Bodies, cams: usize) -> Result<Held> {
     let kind = JOINTS[section.word("type")?];
     section.choose(kind);
     let between = section.need("between")?;
-    let list = between.list("end", "[\"ground.O\", \"crank\"]")?;
-    let [first, second] = list.as_slice() else {
-        let count = list.len();
-        return Err(between
-            .problem(
-                &format!("has {count} ends, but a joint connects two"),
-                "here",
-            )
-            .help("a pin that connects three bodies is two joints at the same point"));
-    };
+    let two = between.both("end", "[\"ground.O\", \"crank\"]");
+    let [first, second] = &two.map_err(|problem| {
+        if between.is_list() {
+            problem.help("a pin that connects three bodies is two joints at the same point")
+        } else {
+            problem
+        }
+    })?;
     let ends = [bodies.end(first)?, bodies.end(second)?];
     if ends[0].body == ends[1].body {
         return Err(between
