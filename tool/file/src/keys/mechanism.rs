@@ -198,7 +198,9 @@ const fn pulley(diameter: &'static str) -> [Key; 5] {
     ]
 }
 
-const PULLEY: Form = inner!(&pulley("effective diameter d; required without pitch and teeth"));
+const PULLEY: Form = Form::Table(&Table::of("", &[&pulley("effective diameter d; required without pitch and teeth")])
+    .either(&[(&["diameter", "pitch"], OR_PITCH), (&["diameter", "teeth"], OR_PITCH)]));
+const OR_PITCH: &str = "give the diameter, or pitch and teeth";
 
 const IDLER: Table = Table::of("", &[&[
     key("inertia", quantity(&INERTIA).not_negative(), "J_k of one of the other wheels that turn with the belt or strip"),

@@ -111,24 +111,17 @@ fn read(section: &Section, words: &Words) -> Result<AnyMechanism> {
 
 /// The effective diameter (m): as given, or pitch · teeth / π.
 fn diameter(wheel: &Section) -> Result<f64> {
-    let (pitch, teeth) = (wheel.get("pitch"), wheel.get("teeth"));
-    let Some(item) = wheel.get("diameter") else {
-        if pitch.is_none() && teeth.is_none() {
-            return Err(wheel.missing(
-                "diameter",
-                "diameter = \"60 mm\", the pitch diameter, or pitch = \"5 mm\" and teeth = 40",
-            ));
+    match wheel.one_of(&["diameter", "pitch", "teeth"]) {
+        Some(("diameter", item)) => Ok(item.value()?.si),
+        Some(_) => {
+            let pitch = wheel.value("pitch")?.si;
+            Ok(pitch * f64::from(wheel.whole("teeth")?) / PI)
         }
-        let pitch = wheel.value("pitch")?.si;
-        let teeth = wheel.need("teeth")?.whole()?;
-        return Ok(pitch * f64::from(teeth) / PI);
-    };
-    if let Some(other) = pitch.or(teeth) {
-        return Err(other
-            .problem("is not used: the diameter is given", "remove this")
-            .help("give the diameter, or pitch and teeth"));
+        None => Err(wheel.missing(
+            "diameter",
+            "diameter = \"60 mm\", the pitch diameter, or pitch = \"5 mm\" and teeth = 40",
+        )),
     }
-    Ok(item.value()?.si)
 }
 
 /// The moment of inertia of other wheels (kg·m²), referred to the driven wheel of this `diameter`; by default they have the same diameter.
