@@ -157,7 +157,7 @@ const TOOL: [(&str, &[&str]); 8] = [
     (
         "file",
         &[
-            "plain", "number", "units", "text", "model", "argument", "read",
+            "plain", "number", "units", "text", "model", "argument", "keys", "read",
         ],
     ),
     (

@@ -30,7 +30,7 @@ use jred_analysis::checked;
 use jred_analysis::contact::OneWay;
 use jred_analysis::inspect::Findings;
 use jred_analysis::warnings::of_motion;
-use jred_file::argument;
+use jred_file::argument::Argument;
 use jred_file::model::axis::Axis;
 use jred_file::model::coordinate::Coordinate;
 use jred_file::model::machine::MachineFile;
@@ -197,24 +197,20 @@ fn warn_of_supply(drive: &Drive, file: &MachineFile) {
 fn quantity(
     name: &str,
     text: Option<&str>,
-    read: argument::Reader,
+    argument: Argument,
     coordinate: Coordinate,
 ) -> Result<Option<f64>> {
     let value = text.map(|text| {
-        read(text, coordinate)
+        argument
+            .read(text, coordinate)
             .map_err(|why| miette!("--{name} {} cannot be used: {why}", plain::quoted(text)))
     });
     value.transpose()
 }
 
 /// A speed or an acceleration of the drive link, given for the axis.
-fn rate(
-    name: &str,
-    text: Option<&str>,
-    read: argument::Reader,
-    axis: &Axis,
-) -> Result<Option<f64>> {
-    let given = quantity(name, text, read, axis.coordinate)?;
+fn rate(name: &str, text: Option<&str>, argument: Argument, axis: &Axis) -> Result<Option<f64>> {
+    let given = quantity(name, text, argument, axis.coordinate)?;
     Ok(given.map(|rate| axis.drive_rate(rate)))
 }
 

@@ -278,13 +278,13 @@ pub struct Steady {
     #[arg(required = true, value_name = "FILE")]
     pub files: Vec<PathBuf>,
     /// Lead of a further machine's drive link over the start in its `[simulation]`, e.g. "180 deg"; one for each of them, in order.
-    #[arg(long, value_name = "ANGLE", allow_hyphen_values = true, value_parser = jred_file::argument::angle_argument)]
+    #[arg(long, value_name = "ANGLE", allow_hyphen_values = true, value_parser = jred_file::argument::any(&jred_file::units::kind::ANGLE))]
     pub phase: Vec<f64>,
     /// Coefficient of speed fluctuation that a flywheel is to reach, e.g. 0.02 or 2%: find its inertia.
     #[arg(long, value_parser = fluctuation)]
     pub delta: Option<f64>,
     /// Constant torque of the motor instead of that in `[simulation]`, e.g. "20 N m".
-    #[arg(long, allow_hyphen_values = true, value_parser = jred_file::argument::torque_argument)]
+    #[arg(long, allow_hyphen_values = true, value_parser = jred_file::argument::any(&jred_file::units::kind::TORQUE))]
     pub torque: Option<f64>,
     /// Mean speed of the drive link over the time, e.g. "300 rpm": find the size of the motor torque for it, or a constant torque if `[simulation]`
     /// gives no motor. A torque below zero brakes a machine that the process drives. A negative speed turns the machine backwards.
@@ -366,7 +366,7 @@ pub struct Export {
     #[arg(long, allow_hyphen_values = true)]
     pub alpha: Option<String>,
     /// Include this inertia of rotor and gearbox at the input of the drive train, e.g. "90 kg cm^2".
-    #[arg(long, value_parser = jred_file::argument::inertia_argument)]
+    #[arg(long, value_parser = jred_file::argument::positive(&jred_file::units::kind::INERTIA))]
     pub rotor_inertia: Option<f64>,
     /// Largest number of cells to try.
     #[arg(long, default_value_t = 4096, value_parser = clap::value_parser!(u32).range(4..=65535))]
@@ -438,14 +438,14 @@ pub struct Split {
     #[arg(long, value_parser = clap::value_parser!(u8).range(2..=jred::mechanism::synthesis::MOST_STAGES as i64))]
     pub stages: u8,
     /// Inertia of the driver of a stage, e.g. "0.2 kg cm^2": once for all stages, or once for each.
-    #[arg(long, required = true, value_parser = jred_file::argument::inertia_argument)]
+    #[arg(long, required = true, value_parser = jred_file::argument::positive(&jred_file::units::kind::INERTIA))]
     pub pinion: Vec<f64>,
     /// Inertia of the driven wheel of a stage, once for all stages or once for each; if not given, it grows with the ratio
     /// like that of a wheel with the module and width of the pinion.
-    #[arg(long, value_parser = jred_file::argument::inertia_argument)]
+    #[arg(long, value_parser = jred_file::argument::positive(&jred_file::units::kind::INERTIA))]
     pub driven: Vec<f64>,
     /// Inertia of the load at the output, e.g. "0.5 kg m^2".
-    #[arg(long, value_parser = jred_file::argument::inertia_argument)]
+    #[arg(long, value_parser = jred_file::argument::positive(&jred_file::units::kind::INERTIA))]
     pub load: Option<f64>,
     /// Smallest ratio of a stage.
     #[arg(long, default_value_t = 1.0, value_parser = ratio)]

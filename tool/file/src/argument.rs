@@ -6,168 +6,72 @@ use crate::model::axis::At;
 use crate::model::axis::Axis;
 use crate::model::coordinate::Coordinate;
 use crate::number::rounding::rounded;
-use crate::units::kind::{
-    ACCELERATION, ANGLE, ANGULAR_ACCELERATION, ANGULAR_JERK, ANGULAR_SPEED, FORCE, FORCE_RATE,
-    INERTIA, JERK, Kind, LENGTH, MASS, SHARE, TEMPERATURE, TORQUE, TORQUE_RATE, VELOCITY,
-};
+use crate::text::key::{ACCELERATIONS, Kinds, POSITION, SPEED};
+use crate::units::kind::Kind;
 use crate::units::quantity;
 
 /// Share of a stroke by which a position may lie beyond its ends: rounding.
 const ROUNDING: f64 = 1e-9;
 
-/// Reads a quantity of a turning or sliding drive link.
-pub type Reader = fn(&str, Coordinate) -> Result<f64, String>;
-
-/// A torque at the drive link greater than zero, such as "0.5 N m", or a force, "5 N", for a sliding one.
-///
-/// # Errors
-/// A message for the command line.
-pub fn drive_effort(text: &str, coordinate: Coordinate) -> Result<f64, String> {
-    positive(
-        text,
-        match coordinate {
-            Coordinate::Angle => &TORQUE,
-            Coordinate::Length => &FORCE,
-        },
-    )
+/// A quantity: its kinds, where the coordinate is an angle and where it is a length, and whether it must be greater than zero.
+#[derive(Clone, Copy, Debug)]
+pub struct Argument {
+    kinds: Kinds,
+    positive: bool,
 }
 
-/// A speed of the drive link greater than zero.
-///
-/// # Errors
-/// A message for the command line.
-pub fn largest_speed(text: &str, coordinate: Coordinate) -> Result<f64, String> {
-    above_zero(drive_speed(text, coordinate)?)
-}
+impl Argument {
+    /// Of either sign.
+    pub const fn any(kinds: Kinds) -> Self {
+        Self {
+            kinds,
+            positive: false,
+        }
+    }
 
-/// An acceleration of the drive link greater than zero.
-///
-/// # Errors
-/// A message for the command line.
-pub fn largest_acceleration(text: &str, coordinate: Coordinate) -> Result<f64, String> {
-    above_zero(drive_acceleration(text, coordinate)?)
-}
+    /// Greater than zero.
+    pub const fn positive(kinds: Kinds) -> Self {
+        Self {
+            kinds,
+            positive: true,
+        }
+    }
 
-/// A rate of the acceleration of the drive link greater than zero.
-///
-/// # Errors
-/// A message for the command line.
-pub fn largest_jerk(text: &str, coordinate: Coordinate) -> Result<f64, String> {
-    positive(
-        text,
-        match coordinate {
-            Coordinate::Angle => &ANGULAR_JERK,
-            Coordinate::Length => &JERK,
-        },
-    )
-}
-
-/// A rate of a torque greater than zero, such as "500 N m/s", or of a force, "5 kN/s".
-///
-/// # Errors
-/// A message for the command line.
-pub fn largest_effort_rate(text: &str, coordinate: Coordinate) -> Result<f64, String> {
-    positive(
-        text,
-        match coordinate {
-            Coordinate::Angle => &TORQUE_RATE,
-            Coordinate::Length => &FORCE_RATE,
-        },
-    )
-}
-
-/// An inertia greater than zero, such as "8.5 kg cm^2" (kg·m²).
-///
-/// # Errors
-/// A message for the command line.
-pub fn inertia_argument(text: &str) -> Result<f64, String> {
-    positive(text, &INERTIA)
-}
-
-/// A temperature, such as "120 degC".
-///
-/// # Errors
-/// A message for the command line.
-pub fn temperature_argument(text: &str) -> Result<f64, String> {
-    any(text, &TEMPERATURE)
-}
-
-/// A share from zero up to less than one, such as "10 %".
-///
-/// # Errors
-/// A message for the command line.
-pub fn reserve_argument(text: &str) -> Result<f64, String> {
-    let share = share_argument(text)?;
-    if (0.0..1.0).contains(&share) {
-        Ok(share)
-    } else {
-        Err(
-            "it must be at least 0 % and less than 100 %, such as \"10 %\", or \"rules\""
-                .to_owned(),
-        )
+    /// Its value in SI.
+    ///
+    /// # Errors
+    /// A message for the command line.
+    pub fn read(self, text: &str, coordinate: Coordinate) -> Result<f64, String> {
+        let quantity = quantity::read(text, of(self.kinds, coordinate));
+        let value = quantity.map_err(|fault| format!("it {}; {}", fault.message, fault.help))?;
+        if self.positive && value.si <= 0.0 {
+            return Err("it must be greater than zero".to_owned());
+        }
+        Ok(value.si)
     }
 }
 
-/// A share, such as "10 %" or 0.1.
-///
-/// # Errors
-/// A message for the command line.
-pub fn share_argument(text: &str) -> Result<f64, String> {
-    any(text, &SHARE)
+/// Reads a quantity of either sign in SI.
+pub fn any(kind: &'static Kind) -> impl Fn(&str) -> Result<f64, String> + Clone {
+    move |text| Argument::any([kind; 2]).read(text, Coordinate::Angle)
 }
 
-/// A torque of either sign, such as "20 N m" (N·m).
-///
-/// # Errors
-/// A message for the command line.
-pub fn torque_argument(text: &str) -> Result<f64, String> {
-    any(text, &TORQUE)
+/// Reads a quantity greater than zero in SI.
+pub fn positive(kind: &'static Kind) -> impl Fn(&str) -> Result<f64, String> + Clone {
+    move |text| Argument::positive([kind; 2]).read(text, Coordinate::Angle)
 }
 
-/// An angle of either sign, such as "90 deg" (rad).
-///
-/// # Errors
-/// A message for the command line.
-pub fn angle_argument(text: &str) -> Result<f64, String> {
-    any(text, &ANGLE)
-}
-
-/// A mass greater than zero, such as "12 kg" (kg).
-///
-/// # Errors
-/// A message for the command line.
-pub fn mass_argument(text: &str) -> Result<f64, String> {
-    positive(text, &MASS)
-}
-
-/// A length greater than zero, such as "250 mm" (m).
-///
-/// # Errors
-/// A message for the command line.
-pub fn length_argument(text: &str) -> Result<f64, String> {
-    positive(text, &LENGTH)
-}
-
-/// A speed of the drive link of either sign, such as "-60 rpm", or "0.2 m/s" for a sliding one.
-///
-/// # Errors
-/// A message for the command line.
-pub fn drive_speed(text: &str, coordinate: Coordinate) -> Result<f64, String> {
-    any(text, speed_kind(coordinate))
-}
-
-/// An acceleration of the drive link of either sign, such as "120 rad/s^2", or "3 m/s^2" for a sliding one.
-///
-/// # Errors
-/// A message for the command line.
-pub fn drive_acceleration(text: &str, coordinate: Coordinate) -> Result<f64, String> {
-    any(text, acceleration_kind(coordinate))
+const fn of(kinds: Kinds, coordinate: Coordinate) -> &'static Kind {
+    match coordinate {
+        Coordinate::Angle => kinds[0],
+        Coordinate::Length => kinds[1],
+    }
 }
 
 /// A position of the drive link, which must lie within its stroke.
 fn drive_position(part: &str, domain: Domain, coordinate: Coordinate) -> Result<f64, String> {
-    let kind = position_kind(coordinate);
-    let position = any(part.trim(), kind).map_err(|why| format!("{:?}: {why}", part.trim()))?;
+    let position = Argument::any(POSITION).read(part.trim(), coordinate);
+    let position = position.map_err(|why| format!("{:?}: {why}", part.trim()))?;
     match domain {
         Domain::Stroke { from, to } if !(from..=to).contains(&position) => Err(format!(
             "{:?}: it must lie within the stroke, {} to {} {}",
@@ -185,7 +89,7 @@ fn drive_position(part: &str, domain: Domain, coordinate: Coordinate) -> Result<
 /// # Errors
 /// A message for the command line.
 pub fn axis_position(text: &str, domain: Domain, axis: &Axis) -> Result<f64, String> {
-    let phi = axis.drive_position(any(text.trim(), position_kind(axis.coordinate))?);
+    let phi = axis.drive_position(Argument::any(POSITION).read(text.trim(), axis.coordinate)?);
     let Domain::Stroke { from, to } = domain else {
         return Ok(phi);
     };
@@ -202,27 +106,6 @@ pub fn axis_position(text: &str, domain: Domain, axis: &Axis) -> Result<f64, Str
     ))
 }
 
-const fn speed_kind(coordinate: Coordinate) -> &'static Kind {
-    match coordinate {
-        Coordinate::Angle => &ANGULAR_SPEED,
-        Coordinate::Length => &VELOCITY,
-    }
-}
-
-const fn acceleration_kind(coordinate: Coordinate) -> &'static Kind {
-    match coordinate {
-        Coordinate::Angle => &ANGULAR_ACCELERATION,
-        Coordinate::Length => &ACCELERATION,
-    }
-}
-
-const fn position_kind(coordinate: Coordinate) -> &'static Kind {
-    match coordinate {
-        Coordinate::Angle => &ANGLE,
-        Coordinate::Length => &LENGTH,
-    }
-}
-
 /// Positions of the drive link, each optionally followed by its speed and its acceleration, separated by commas, such as "30 deg, 60 deg" or "30 deg,
 /// 60 rpm, 5 rad/s^2, 60 deg, 90 rpm". If the drive link turns but the axis is a length, lengths are accepted too: "250 mm, 0.5 m/s".
 ///
@@ -233,9 +116,9 @@ pub fn drive_states(text: &str, domain: Domain, axis: [&Axis; 2]) -> Result<Vec<
     // If the kinds are equal, all values are the drive link's.
     let other = (spoken.coordinate != drive.coordinate).then_some(spoken);
     let axes = std::iter::once(drive).chain(other);
-    let read = |part: &str, kinds: fn(Coordinate) -> &'static Kind| {
+    let read = |part: &str, kinds: Kinds| {
         let mut found = axes.clone().filter_map(|axis| {
-            let value = quantity::read(part.trim(), kinds(axis.coordinate)).ok()?;
+            let value = quantity::read(part.trim(), of(kinds, axis.coordinate)).ok()?;
             Some((axis, value.si))
         });
         found.next()
@@ -244,8 +127,8 @@ pub fn drive_states(text: &str, domain: Domain, axis: [&Axis; 2]) -> Result<Vec<
     // Number of known values of the last row: its position, its speed, its acceleration.
     let mut known = 0;
     for part in text.split(',') {
-        let speed = read(part, speed_kind);
-        let acceleration = read(part, acceleration_kind);
+        let speed = read(part, SPEED);
+        let acceleration = read(part, ACCELERATIONS);
         if let (Some((axis, value)), 1, Some(row)) = (speed, known, rows.last_mut()) {
             row.state = Some([axis.drive_speed(value), 0.0]);
             known = 2;
@@ -269,7 +152,7 @@ pub fn drive_states(text: &str, domain: Domain, axis: [&Axis; 2]) -> Result<Vec<
 /// A position of the drive link, or of an axis of another kind.
 fn position_of(part: &str, domain: Domain, [drive, spoken]: [&Axis; 2]) -> Result<f64, String> {
     let is_spoken = spoken.coordinate != drive.coordinate
-        && quantity::read(part.trim(), position_kind(spoken.coordinate)).is_ok();
+        && quantity::read(part.trim(), of(POSITION, spoken.coordinate)).is_ok();
     if is_spoken {
         let read = axis_position(part, domain, spoken);
         return read.map_err(|why| format!("{:?}: {why}", part.trim()));
@@ -299,22 +182,4 @@ pub fn drive_positions(text: &str, domain: Domain, axis: [&Axis; 2]) -> Result<V
         }
     }
     Ok(positions)
-}
-
-fn positive(text: &str, kind: &'static Kind) -> Result<f64, String> {
-    above_zero(any(text, kind)?)
-}
-
-fn above_zero(value: f64) -> Result<f64, String> {
-    if value > 0.0 {
-        Ok(value)
-    } else {
-        Err("it must be greater than zero".to_owned())
-    }
-}
-
-fn any(text: &str, kind: &'static Kind) -> Result<f64, String> {
-    quantity::read(text, kind)
-        .map(|quantity| quantity.si)
-        .map_err(|fault| format!("it {}; {}", fault.message, fault.help))
 }

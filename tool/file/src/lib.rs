@@ -15,10 +15,12 @@
 //! 2. [`units`] and [`text`]: quantities with units, TOML and CSV with positions.
 //! 3. [`model`]: a machine as described by a machine file.
 //! 4. [`argument`]: quantities of a command line, with the units of machine files.
-//! 5. [`read`]: a text in, a [`model::machine::MachineFile`] out. Its mechanics are checked by `jred-analysis`.
+//! 5. [`keys`]: every key of a machine file, described once: reading, hints, documentation and the schema for editors follow.
+//! 6. [`read`]: a text in, a [`model::machine::MachineFile`] out. Its mechanics are checked by `jred-analysis`.
 #![forbid(unsafe_code)]
 
 pub mod argument;
+pub mod keys;
 pub mod model;
 pub mod number;
 pub mod plain;

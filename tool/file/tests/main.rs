@@ -3,6 +3,7 @@
 
 mod formula;
 mod import;
+mod keys;
 mod linkage_file;
 mod machine_file;
 mod mechanisms;

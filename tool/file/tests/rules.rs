@@ -58,7 +58,7 @@ fn a_wrong_tool_is_refused() {
         ),
         (
             "[tool]\npoint = \"slider\"\nlink = \"rod\"\nplay = \"0.1 mm\"",
-            &["together with `point`"],
+            &["has both `point` and `link`"],
         ),
     ] {
         refuses(&format!("{}\n{section}\n", press_text()), words);

@@ -134,7 +134,7 @@ fn what_cannot_be_is_refused() {
             "always be on",
         ],
     );
-    refuses(&supply("mains_voltage = \"400 V\""), &["both given", "√2"]);
+    refuses(&supply("mains_voltage = \"400 V\""), &["has both", "√2"]);
     refuses(
         &supply("max_voltage = \"820 A\""),
         &["must be a voltage", "is a current"],

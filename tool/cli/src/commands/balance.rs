@@ -140,13 +140,11 @@ fn counterweight(text: &str, file: &MachineFile) -> Result<Counterweight> {
             "{given}: the mechanism has no link {link:?}"
         ));
     };
-    let quantity = |read: fn(&str) -> Result<f64, String>, text: &str| {
-        read(text).map_err(|why| miette!("{given}: {why}"))
-    };
+    let refused = |why| miette!("{given}: {why}");
     Ok(Counterweight {
         link: number,
-        most: quantity(argument::mass_argument, most)?,
-        reach: quantity(argument::length_argument, reach)?,
+        most: argument::positive(&jred_file::units::kind::MASS)(most).map_err(refused)?,
+        reach: argument::positive(&jred_file::units::kind::LENGTH)(reach).map_err(refused)?,
     })
 }
 

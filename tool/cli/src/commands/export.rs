@@ -10,11 +10,12 @@ use crate::output;
 use jred::machine::Reducible as _;
 use jred_analysis::duty::Duty;
 use jred_export::{Choice, Export, Failure, Form, LayoutChoice, Name, Number, Proven, Task};
-use jred_file::argument;
+use jred_file::argument::{self, Argument};
 use jred_file::model::axis::Axis;
 use jred_file::model::machine::MachineFile;
 use jred_file::model::variator;
 use jred_file::plain;
+use jred_file::text::key::{ACCELERATIONS, EFFORT, SPEED};
 use jred_report::list;
 use jred_report::table::output::Format;
 
@@ -114,9 +115,10 @@ pub(super) fn run(options: &options::Export) -> Result<Done> {
     variator::refuse(&file, "export")?;
     let reciprocal = reciprocal(options)?;
     let coordinate = file.machine.mechanism().coordinate();
-    let quantity = |name: &str, text: &Option<String>, read: argument::Reader| {
+    let quantity = |name: &str, text: &Option<String>, argument: Argument| {
         let value = text.as_deref().map(|text| {
-            read(text, coordinate)
+            argument
+                .read(text, coordinate)
                 .map_err(|why| miette!("--{name} {} cannot be used: {why}", plain::quoted(text)))
         });
         value.transpose()
@@ -124,10 +126,10 @@ pub(super) fn run(options: &options::Export) -> Result<Done> {
     let torque_error = quantity(
         "torque-error",
         &options.torque_error,
-        argument::drive_effort,
+        Argument::positive(EFFORT),
     )?;
-    let omega = quantity("omega", &options.omega, argument::largest_speed)?;
-    let alpha = quantity("alpha", &options.alpha, argument::largest_acceleration)?;
+    let omega = quantity("omega", &options.omega, Argument::positive(SPEED))?;
+    let alpha = quantity("alpha", &options.alpha, Argument::positive(ACCELERATIONS))?;
     let (omega, alpha) = range([omega, alpha], &file)?;
     let task = Task {
         number: options.number,

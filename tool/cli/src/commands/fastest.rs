@@ -17,13 +17,14 @@ use crate::commands::{
 use crate::options::fastest::{Asked, Fastest as Options};
 use crate::output::{self, Files};
 use jred::machine::Reducible as _;
-use jred_file::argument;
+use jred_file::argument::{self, Argument};
 use jred_file::model::coordinate::Coordinate;
 use jred_file::model::drive_train;
 use jred_file::model::machine::MachineFile;
 use jred_file::model::variator;
 use jred_file::number::rounding::short;
 use jred_file::plain;
+use jred_file::text::key::{EFFORT, SPEED};
 use jred_motion::contact::broken;
 use jred_motion::fastest::field::Field;
 use jred_motion::fastest::joint_force::reached;
@@ -217,7 +218,7 @@ fn task(options: &Options, file: &MachineFile) -> Result<Option<Task>> {
         argument::axis_position(text, domain, &axis).map_err(refused)
     };
     let speed = |name: &str, text: &Option<String>| {
-        let speed = rate(name, text.as_deref(), argument::drive_speed, &axis)?.unwrap_or(0.0);
+        let speed = rate(name, text.as_deref(), Argument::any(SPEED), &axis)?.unwrap_or(0.0);
         if speed < 0.0 {
             return Err(miette!(
                 help = "speeds count in the direction of the move",
@@ -295,7 +296,7 @@ fn rms(options: &Options, file: &MachineFile, chosen: &Chosen) -> Result<Option<
             let torque = quantity(
                 "max-rms",
                 Some(text),
-                argument::drive_effort,
+                Argument::positive(EFFORT),
                 motor_coordinate(file),
             )?;
             Ok(torque.map(Rms::Torque))
@@ -340,11 +341,16 @@ fn chosen(options: &Options, file: &MachineFile) -> Result<Chosen> {
 fn plain_motor(options: &Options, file: &MachineFile, torque: &str) -> Result<Chosen> {
     let kind = fit::input_kind(file);
     let coordinate = motor_coordinate(file);
-    let effort = quantity("torque", Some(torque), argument::drive_effort, coordinate)?;
+    let effort = quantity(
+        "torque",
+        Some(torque),
+        Argument::positive(EFFORT),
+        coordinate,
+    )?;
     let speed = quantity(
         "motor-speed",
         options.motor_speed.as_deref(),
-        argument::largest_speed,
+        Argument::positive(SPEED),
         coordinate,
     )?;
     let motor = Motor {

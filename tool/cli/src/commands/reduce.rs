@@ -10,11 +10,12 @@ use jred::machine::Reducible as _;
 use jred_analysis::checked;
 use jred_analysis::reduce;
 use jred_analysis::reduce::{Over, Sets, reduce};
-use jred_file::argument;
+use jred_file::argument::{self, Argument};
 use jred_file::model::axis::Axis;
 use jred_file::model::machine::MachineFile;
 use jred_file::model::variator;
 use jred_file::plain;
+use jred_file::text::key::{ACCELERATIONS, SPEED};
 use jred_report::list::{self, reduction::not_contained};
 use jred_report::page;
 use jred_report::table::output::Format;
@@ -137,10 +138,12 @@ fn state(options: &options::Reduce, file: &MachineFile) -> Result<Option<[f64; 2
     let refused = |name: &str, text: &str, why: &str| {
         miette!("--{name} {} cannot be used: {why}", plain::quoted(text))
     };
-    let omega =
-        argument::drive_speed(speed, coordinate).map_err(|why| refused("speed", speed, &why))?;
+    let omega = Argument::any(SPEED)
+        .read(speed, coordinate)
+        .map_err(|why| refused("speed", speed, &why))?;
     let alpha = match &options.accel {
-        Some(accel) => argument::drive_acceleration(accel, coordinate)
+        Some(accel) => Argument::any(ACCELERATIONS)
+            .read(accel, coordinate)
             .map_err(|why| refused("accel", accel, &why))?,
         None => 0.0,
     };

@@ -11,13 +11,14 @@ use crate::output;
 use jred_analysis::checked;
 use jred_analysis::reduce::{Sets, add_columns};
 use jred_analysis::simulate::{self, Simulated, Together, beside_name};
-use jred_file::argument;
+use jred_file::argument::Argument;
 use jred_file::model::coordinate::Coordinate;
 use jred_file::model::machine::MachineFile;
 use jred_file::model::simulation::Simulation;
 use jred_file::model::variator;
 use jred_file::number::words::counted;
 use jred_file::plain;
+use jred_file::text::key::SPEED;
 use jred_motion::driven::{Loads, Unfit, driven};
 use jred_report::list;
 use jred_report::page;
@@ -57,7 +58,7 @@ pub(super) fn run(options: &Simulate) -> Result<Done> {
     let to_speed = rate(
         "to-speed",
         options.to_speed.as_deref(),
-        argument::drive_speed,
+        Argument::any(SPEED),
         &file.axis(),
     )?;
     let simulation = &Simulation {

@@ -9,12 +9,13 @@ use crate::output::{self, print};
 use jred_analysis::checked;
 use jred_analysis::simulate::Together;
 use jred_analysis::steady::{self, Level, MeanSpeed, Request};
-use jred_file::argument;
+use jred_file::argument::Argument;
 use jred_file::model::characteristic::Characteristic;
 use jred_file::model::machine::MachineFile;
 use jred_file::model::simulation::Simulation;
 use jred_file::model::variator;
 use jred_file::plain;
+use jred_file::text::key::SPEED;
 use jred_report::list;
 use jred_report::page;
 use jred_report::table::output::Format;
@@ -37,7 +38,7 @@ pub fn steady(options: &options::Steady) -> Result<Done> {
     let starts = starts(&others, &options.phase)?;
     let machines = Together::alone(&file).with(others.iter().zip(starts), &simulation)?;
     let asked = options.mean_speed.as_deref();
-    let speed = rate("mean-speed", asked, argument::drive_speed, &file.axis())?;
+    let speed = rate("mean-speed", asked, Argument::any(SPEED), &file.axis())?;
     let request = Request {
         delta: options.delta,
         mean_speed: mean_speed(speed, options)?,

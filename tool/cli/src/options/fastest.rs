@@ -25,7 +25,11 @@ fn asked(text: &str) -> Result<Asked, String> {
     if text.eq_ignore_ascii_case("rules") {
         return Ok(Asked::Rules);
     }
-    argument::reserve_argument(text).map(Asked::Share)
+    let share = argument::any(&jred_file::units::kind::SHARE)(text)?;
+    if (0.0..1.0).contains(&share) {
+        return Ok(Asked::Share(share));
+    }
+    Err("it must be at least 0 % and less than 100 %, such as \"10 %\", or \"rules\"".to_owned())
 }
 
 /// `jred fastest`
@@ -77,7 +81,7 @@ pub struct Fastest {
     )]
     pub motor_speed: Option<String>,
     /// Inertia of its rotor, e.g. "2 kg cm^2"; zero if not given.
-    #[arg(long, requires = "torque", value_parser = jred_file::argument::inertia_argument)]
+    #[arg(long, requires = "torque", value_parser = jred_file::argument::positive(&jred_file::units::kind::INERTIA))]
     pub rotor_inertia: Option<f64>,
     /// Share of the motor's torque and of its largest speed that stays unused, e.g. "10 %"; "rules": the motion satisfies the rules of `jred size`
     /// for motor, gearbox and amplifier (`[rules]` of the file), the motor's heat with --max-rms or --max-winding-temperature; no reserve if not

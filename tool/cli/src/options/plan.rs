@@ -55,7 +55,7 @@ fn plan_file() -> impl TypedValueParser<Value = PathBuf> {
 }
 
 fn share(text: &str) -> Result<f64, String> {
-    let share = jred_file::argument::share_argument(text)?;
+    let share = jred_file::argument::any(&jred_file::units::kind::SHARE)(text)?;
     if (1e-6..=0.1).contains(&share) {
         Ok(share)
     } else {

@@ -59,7 +59,7 @@ pub struct Search {
     #[arg(long, conflicts_with = "gearbox")]
     pub direct_only: bool,
     /// Only drives up to this mass, e.g. "12 kg".
-    #[arg(long, value_name = "MASS", value_parser = jred_file::argument::mass_argument)]
+    #[arg(long, value_name = "MASS", value_parser = jred_file::argument::positive(&jred_file::units::kind::MASS))]
     pub max_mass: Option<f64>,
     /// Only drives up to this price, in the currency of the catalogue.
     #[arg(long, value_name = "PRICE", value_parser = price)]
@@ -291,7 +291,7 @@ pub struct Ratio {
     #[arg(long, default_value_t = 1.0, value_parser = efficiency)]
     pub efficiency: f64,
     /// Inertia of the gearbox at its input, e.g. "0.5 kg cm^2"; zero if not given.
-    #[arg(long, value_parser = jred_file::argument::inertia_argument)]
+    #[arg(long, value_parser = jred_file::argument::positive(&jred_file::units::kind::INERTIA))]
     pub gearbox_inertia: Option<f64>,
     /// Only motors whose key matches, e.g. "sgmsh-*"; may be repeated.
     #[arg(long, value_name = "GLOB")]

@@ -16,7 +16,7 @@ pub struct Simulate {
     #[arg(required = true, value_name = "FILE")]
     pub files: Vec<PathBuf>,
     /// Lead of a further machine's drive link over that start, e.g. "180 deg"; one for each of them, in order.
-    #[arg(long, value_name = "ANGLE", allow_hyphen_values = true, value_parser = jred_file::argument::angle_argument)]
+    #[arg(long, value_name = "ANGLE", allow_hyphen_values = true, value_parser = jred_file::argument::any(&jred_file::units::kind::ANGLE))]
     pub phase: Vec<f64>,
     /// The drive instead of the motor in `[simulation]`: MOTOR+GEARBOX, or MOTOR for a direct drive. Without a controller it gives its full torque.
     #[arg(long, value_name = "MOTOR+GEARBOX")]

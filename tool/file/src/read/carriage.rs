@@ -16,10 +16,6 @@ use crate::number::rounding::figure;
 use crate::text::file::Files;
 use crate::text::problem::Result;
 use crate::text::section::Section;
-use crate::units::kind::{ANGLE, LENGTH};
-
-/// The most carriages of a machine.
-const MOST: usize = 4;
 
 /// Share of its stroke, and of its largest speed, by which the motion of a carriage may miss its start: rounding.
 const CLOSED: f64 = 1e-9;
@@ -41,12 +37,7 @@ pub(super) fn read(
     let Some(item) = root.get("carriage") else {
         return Ok((machine, Vec::new()));
     };
-    let sections = item.sections("[[carriage]]")?;
-    if let Some(surplus) = sections.get(MOST) {
-        return Err(surplus
-            .problem(format!("more than {MOST} carriages"), "one too many")
-            .help("combine what moves along the same guide"));
-    }
+    let sections = root.tables("carriage")?;
     let Some(of_machine) = of_machine else {
         return Err(item
             .problem(
@@ -58,11 +49,8 @@ pub(super) fn read(
     let mut carriages: Vec<Carriage> = Vec::new();
     // A carriage is also a load, and reports list it with the loads.
     let mut names = Names::of("carriages or loads");
-    if let Some(item) = root.peek("load") {
-        let sections = item.sections("[[load]]")?;
-        for section in &sections {
-            names.take(section);
-        }
+    for section in &root.tables("load")? {
+        names.take(section);
     }
     for section in &sections {
         let carriage = carriage(section, files, &machine, loads, of_machine)?;
@@ -99,29 +87,16 @@ fn carriage(
 ) -> Result<Carriage> {
     let mechanism = machine.mechanism();
     let (name, mass) = attached(section, mechanism, "carriage")?;
-    let along = match section.optional("direction", &ANGLE)? {
-        Some(angle) => angle.si,
-        None => 0.0,
-    };
-    let stroke = section.require("stroke", "stroke = [\"0 mm\", \"1500 mm\"]")?;
-    let [from, to] = ends(&stroke, &LENGTH, "stroke = [\"0 mm\", \"1500 mm\"]")?;
+    let along = section.si("direction")?;
+    let [from, to] = ends(&section.need("stroke")?)?;
     let axis = DriveLink {
         coordinate: Coordinate::Length,
         domain: Domain::Stroke { from, to },
     };
-    let own = section.require(
-        "motion",
-        "[carriage.motion] with type = \"cycle\" and its segments, as for [motion]",
-    )?;
+    let own = section.need("motion")?;
     let own = own.section("[carriage.motion]".to_owned())?;
     let motion = motion::along(&own, files, axis, (machine, loads))?;
-    section.finish_with(|key| match key {
-        "segment" => Some("segments belong to [carriage.motion]"),
-        "segments" | "during" => {
-            Some("what is there for a part of the motion is a [[payload]]; a carriage stands where its motion has a dwell")
-        }
-        _ => None,
-    })?;
+    section.finish()?;
     fits(&own, &motion, of_machine, to - from)?;
     let link = mechanism.link_names().get(mass.link);
     Ok(Carriage {

@@ -10,11 +10,9 @@ use crate::model::coordinate::Coordinate;
 use crate::model::mechanism::AnyMechanism;
 
 use crate::number::rounding::figure;
+use crate::text::key::{EFFORT, POSITION, SPEED};
 use crate::units::RPM;
-use crate::units::kind::{
-    ACCELERATION, ANGLE, ANGULAR_ACCELERATION, ANGULAR_JERK, ANGULAR_SPEED, FORCE, JERK, Kind,
-    LENGTH, TORQUE, VELOCITY,
-};
+use crate::units::kind::Kind;
 
 /// Share of a stroke by which a motion may pass its ends: rounding.
 const ROUNDING: f64 = 1e-9;
@@ -43,35 +41,13 @@ impl DriveLink {
     }
 
     /// The kind of its positions.
-    pub(super) const fn position(self) -> &'static Kind {
-        match self.coordinate {
-            Coordinate::Angle => &ANGLE,
-            Coordinate::Length => &LENGTH,
-        }
+    pub(super) fn position(self) -> &'static Kind {
+        POSITION[usize::from(self.slides())]
     }
 
     /// The kind of its speeds.
-    pub(super) const fn speed(self) -> &'static Kind {
-        match self.coordinate {
-            Coordinate::Angle => &ANGULAR_SPEED,
-            Coordinate::Length => &VELOCITY,
-        }
-    }
-
-    /// The kind of its accelerations.
-    pub(super) const fn acceleration(self) -> &'static Kind {
-        match self.coordinate {
-            Coordinate::Angle => &ANGULAR_ACCELERATION,
-            Coordinate::Length => &ACCELERATION,
-        }
-    }
-
-    /// The kind of its jerks.
-    pub(super) const fn jerk(self) -> &'static Kind {
-        match self.coordinate {
-            Coordinate::Angle => &ANGULAR_JERK,
-            Coordinate::Length => &JERK,
-        }
+    pub(super) fn speed(self) -> &'static Kind {
+        SPEED[usize::from(self.slides())]
     }
 
     /// A distance (rad or m) with its unit.
@@ -93,11 +69,8 @@ impl DriveLink {
     }
 
     /// The kind of its effort.
-    pub(super) const fn effort(self) -> &'static Kind {
-        match self.coordinate {
-            Coordinate::Angle => &TORQUE,
-            Coordinate::Length => &FORCE,
-        }
+    pub(super) fn effort(self) -> &'static Kind {
+        EFFORT[usize::from(self.slides())]
     }
 
     /// Default start of a motion: at zero, or at the start of the stroke.

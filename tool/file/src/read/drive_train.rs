@@ -7,7 +7,6 @@ use crate::model::drive_train::{Branch, DriveTrain};
 use crate::text::item::Item;
 use crate::text::problem::{Problem, Result};
 use crate::text::section::Section;
-use crate::units::kind::{INERTIA, TORQUE, VISCOUS_MOMENT};
 
 /// The types of stage; the types from `FIRST_LINEAR` convert rotation into displacement.
 const TYPES: [&str; 5] = ["gear-train", "belt", "friction", "ball-screw", "rack"];
@@ -22,9 +21,10 @@ pub(super) fn read(root: &Section, drive: DriveLink) -> Result<DriveTrain> {
     let (mut branches, mut names) = (Vec::new(), Names::of("branches"));
     let mut linear: Option<(Item, &str)> = None;
     if let Some(item) = root.get("drive_train") {
-        for section in item.sections("[[drive_train]]")? {
-            let word = section.require("type", "type = \"belt\"")?;
-            let kind = word.choice(&TYPES)?;
+        for section in root.tables("drive_train")? {
+            let word = section.need("type")?;
+            let kind = word.word()?;
+            section.choose(TYPES[kind]);
             if let Some((before, name)) = &linear {
                 return Err(word
                     .problem(
@@ -42,11 +42,8 @@ pub(super) fn read(root: &Section, drive: DriveLink) -> Result<DriveTrain> {
                 3 => stages.push(stage::screw(&section)?),
                 _ => stages.push(stage::rack(&section)?),
             }
-            let per_stage = |key: &str| {
-                (key == "efficiency").then_some("in a gear train each stage has its own efficiency")
-            };
             if let Some(item) = section.get("branch") {
-                for own in item.sections("[[drive_train.branch]]")? {
+                for own in section.tables("branch")? {
                     names.add(&own)?;
                     let number = branches.len() + 1;
                     branches.push(branch(
@@ -66,9 +63,9 @@ pub(super) fn read(root: &Section, drive: DriveLink) -> Result<DriveTrain> {
                         .help("combine branches: refer their inertias and torques to one shaft"));
                 }
             }
-            section.finish_with(per_stage)?;
+            section.finish()?;
             if kind >= FIRST_LINEAR {
-                linear = Some((word, TYPES.get(kind).copied().unwrap_or_default()));
+                linear = Some((word, TYPES[kind]));
             }
         }
         fits(&item, linear.as_ref(), drive, stages.is_empty())?;
@@ -83,15 +80,11 @@ fn branch(
     [before, behind]: [usize; 2],
     slides: bool,
 ) -> Result<Branch> {
-    let name = match section.get("name") {
-        Some(item) => item.text("coolant pump")?.to_owned(),
+    let name = match section.text("name")? {
+        Some(name) => name.to_owned(),
         None => format!("branch {number}"),
     };
-    let at = section.get("at");
-    let driver = match &at {
-        Some(item) => item.choice(&["driven", "driver"])? == 1,
-        None => false,
-    };
+    let driver = section.word("at")? == 1;
     if slides && !driver {
         return Err(section
             .problem(
@@ -100,19 +93,18 @@ fn branch(
             )
             .help("write at = \"driver\": the screw or the pinion drives the branch"));
     }
-    let word = section.require("type", "type = \"belt\"")?;
-    let stages = match word.choice(&TYPES[..FIRST_LINEAR])? {
+    let kind = section.word("type")?;
+    section.choose(TYPES[kind]);
+    let stages = match kind {
         0 => stage::gears(section, Losses::Allowed)?,
         1 => vec![stage::belt(section, Losses::Allowed)?],
         _ => vec![stage::friction(section)?],
     };
-    let torque = |key, kind| match section.optional(key, kind)? {
-        Some(value) => value.not_negative(),
-        None => Ok(0.0),
-    };
-    let inertia = torque("inertia", &INERTIA)?;
-    let opposing = torque("opposing_moment", &TORQUE)?;
-    let viscous = torque("viscous_moment", &VISCOUS_MOMENT)?;
+    let inertia = section.si("inertia")?;
+    let (opposing, viscous) = (
+        section.si("opposing_moment")?,
+        section.si("viscous_moment")?,
+    );
     section.finish()?;
     Ok(Branch {
         name,

@@ -6,23 +6,14 @@ use crate::model::site::Site;
 use crate::text::item::Value;
 use crate::text::problem::Result;
 use crate::text::section::Section;
-use crate::units::kind::TIME;
-
-/// The named duty types.
-const TYPES: [&str; 9] = ["S1", "S2", "S3", "S4", "S5", "S6", "S7", "S8", "S9"];
 
 /// Reads the operation into the site.
 pub(super) fn read(root: &Section, site: &mut Site) -> Result<()> {
-    let Some(item) = root.get("duty") else {
+    let Some(section) = root.maybe_table("duty")? else {
         return Ok(());
     };
-    let section = item.section("[duty]".into())?;
-    section.expects(&["type", "operating_time", "rest", "at_rest"]);
-    let example = "type = \"S3\"; S1 to S9 of IEC 60034-1";
-    let named = section.require("type", example)?;
-    let number = named.choice(&TYPES)? as u8 + 1;
-    let operating = section.optional("operating_time", &TIME)?;
-    let rest = section.optional("rest", &TIME)?;
+    let number = section.word("type")? as u8 + 1;
+    let (operating, rest) = (section.given("operating_time")?, section.given("rest")?);
     let at_rest = section.get("at_rest");
     let unused = |value: &Value, why: &str| {
         value
@@ -44,20 +35,17 @@ pub(super) fn read(root: &Section, site: &mut Site) -> Result<()> {
                 )
             })?;
             Operation::Short {
-                operating: operating.positive()?,
+                operating: operating.si,
             }
         }
         3..=5 if operating.is_some() || rest.is_some() => {
             let both = "operating_time and rest of a period, such as \"360 s\" and \"240 s\"; neither of them if the motion contains the rests";
             let operating = operating.ok_or_else(|| section.missing("operating_time", both))?;
             let rest = rest.ok_or_else(|| section.missing("rest", both))?;
-            let holding = match &at_rest {
-                Some(item) => item.choice(&["off", "holding"])? == 1,
-                None => false,
-            };
+            let holding = section.word("at_rest")? == 1;
             Operation::Intermittent {
-                operating: operating.positive()?,
-                rest: rest.positive()?,
+                operating: operating.si,
+                rest: rest.si,
                 holding,
             }
         }

@@ -2,38 +2,22 @@
 
 use jred::machine::motion::Law;
 
+use crate::keys::motion::LAWS;
 use crate::number::rounding::figure;
 use crate::text::item::Item;
 use crate::text::problem::{Problem, Result};
 use crate::text::section::Section;
-use crate::units::kind::SHARE;
-
-/// The motion laws, by their names in machine files.
-pub(super) const LAWS: [&str; 10] = [
-    "trapezoid",
-    "polynomial-345",
-    "cycloidal",
-    "modified-sine",
-    "modified-trapezoid",
-    "polynomial-4567",
-    "simple-sine",
-    "parabola",
-    "gutman",
-    "sine-constant-cosine",
-];
 
 /// The law of a segment, with the shares of a trapezoid.
 pub(super) fn read(section: &Section) -> Result<Law> {
-    let law = section.require("law", "law = \"polynomial-345\"")?;
+    let law = section.need("law")?;
     Ok(match law.choice(&LAWS)? {
         0 => {
-            let keys = ["accelerate", "decelerate"];
             let mut shares = [1.0 / 3.0; 2];
             let mut place = law.span();
-            for (key, share) in keys.into_iter().zip(&mut shares) {
-                if let Some(value) = section.optional(key, &SHARE)? {
-                    place = value.span();
-                    *share = value.up_to(1.0)?;
+            for (key, share) in ["accelerate", "decelerate"].into_iter().zip(&mut shares) {
+                if let Some(value) = section.given(key)? {
+                    (*share, place) = (value.si, value.span());
                 }
             }
             let [accelerate, decelerate] = shares;
@@ -75,13 +59,8 @@ pub(super) fn read(section: &Section) -> Result<Law> {
 fn sine_constant_cosine(section: &Section, law: &Item) -> Result<Law> {
     let (mut shares, mut place) = ([0.0; 3], law.span());
     for (key, share) in ["sine", "constant", "cosine"].into_iter().zip(&mut shares) {
-        if let Some(value) = section.optional(key, &SHARE)? {
-            place = value.span();
-            *share = if value.si > 0.0 {
-                value.up_to(1.0)?
-            } else {
-                value.not_negative()?
-            };
+        if let Some(value) = section.given(key)? {
+            (*share, place) = (value.si, value.span());
         }
     }
     let [sine, constant, cosine] = shares;

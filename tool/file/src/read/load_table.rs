@@ -10,6 +10,7 @@ use super::drive_link::DriveLink;
 use super::effect::Effect;
 use super::loads::SCHEDULE;
 use super::{tool, window};
+use crate::keys::loads::LOAD_TABLE;
 use crate::model::coordinate::Coordinate;
 use crate::model::machine::least_common_multiple;
 use crate::model::mechanism::AnyMechanism;
@@ -20,7 +21,6 @@ use crate::text::file::Files;
 use crate::text::item::Item;
 use crate::text::problem::{Problem, Result};
 use crate::text::section::Section;
-use crate::units::kind::{ANGLE, LENGTH};
 
 mod curves;
 
@@ -39,10 +39,8 @@ pub(super) fn read(
 ) -> Result<(AnyMechanism, Vec<Range<usize>>, u32)> {
     let mut loads = Vec::new();
     let mut turns = 1;
-    let Some(item) = root.get("load") else {
-        return Ok((mechanism, loads, turns));
-    };
-    for section in item.sections("[[load]]")?.iter().filter(|s| is_table(s)) {
+    for section in root.tables("load")?.iter().filter(|s| is_table(s)) {
+        section.vary(&LOAD_TABLE)?;
         let own = window::turns(section, drive)?;
         turns = least_common_multiple(turns, own);
         let stand_ins = table(section, &mechanism, drive, (gravity, own), files)?;
@@ -91,11 +89,8 @@ fn table(
     (gravity, turns): ([f64; 2], u32),
     files: &dyn Files,
 ) -> Result<Vec<StandIn>> {
-    let name = match section.get("name") {
-        Some(item) => item.text("pressing force")?,
-        None => "load table",
-    };
-    let item = section.require("table", "table = \"loads.csv\"")?;
+    let name = section.text("name")?.unwrap_or("load table");
+    let item = section.need("table")?;
     let on = place(section, mechanism)?;
     let along = direction(section)?;
     if let (Some(over), None) = (section.peek("over"), &on) {
@@ -112,12 +107,9 @@ fn table(
             )
             .help("give the rows over the drive link's angle, without `over`, or remove `turns`"));
     }
-    let outside = section.get("outside");
-    let outside = outside.map(|item| item.choice(&["error", "zero"]));
-    let way = section.get("curve").map(|item| {
-        let way = [Way::Interpolating, Way::Monotone][item.choice(&["smooth", "monotone"])?];
-        Ok((item, way))
-    });
+    let partly = section.word("outside")? == 1;
+    let way = section.pick("curve", [Way::Interpolating, Way::Monotone])?;
+    let way = section.get("curve").map(|item| (item, way));
     let target = Target {
         mechanism,
         drive,
@@ -129,22 +121,15 @@ fn table(
         rows: Rows {
             domain,
             of,
-            partly: outside.transpose()? == Some(1),
+            partly,
             turns,
         },
-        way: way.transpose()?,
+        way,
         window: window::read(section, drive, turns)?,
         layout: Layout::read(section)?,
     };
     section.expects(&SCHEDULE);
-    section.finish_with(|key| match key {
-        "at_rest" => Some("write at_rest with a plain force or moment"),
-        "force" | "moment" | "opposing_force" | "opposing_moment" | "viscous_force"
-        | "viscous_moment" => {
-            Some("a table already says what acts; write this in a separate [[load]]")
-        }
-        _ => None,
-    })?;
+    section.finish()?;
     let file = CsvFile::open(&item, "loads.csv", files)?;
     curves::read(&file.text, &target).map_err(|fault| file.shows(fault))
 }
@@ -162,7 +147,7 @@ fn place<'t>(section: &Section<'t>, mechanism: &AnyMechanism) -> Result<Option<(
         };
     };
     let link = on.choice(links)?;
-    let at = section.point("at", &LENGTH)?;
+    let at = section.two("at")?;
     Ok(Some((on, Place { link, at })))
 }
 
@@ -170,19 +155,13 @@ fn place<'t>(section: &Section<'t>, mechanism: &AnyMechanism) -> Result<Option<(
 fn direction<'t>(section: &Section<'t>) -> Result<Option<(Item<'t>, Direction)>> {
     let (fixed, turning) = (section.get("angle"), section.get("angle_on_link"));
     let unit = |item: &Item| {
-        let (sin, cos) = item.quantity(&ANGLE)?.si.sin_cos();
+        let (sin, cos) = item.value()?.si.sin_cos();
         // Removes the rounding of the other component at a right angle.
         let clean = |c: f64| if c.abs() < 1e-15 { 0.0 } else { c };
         Ok::<_, Problem>([cos, sin].map(clean))
     };
     Ok(match (fixed, turning) {
-        (Some(fixed), Some(turning)) => {
-            return Err(turning
-                .problem("is given together with `angle`", "here")
-                .at(fixed.key_span(), "and here")
-                .help("write `angle` for a fixed direction, `angle_on_link` for one that turns with the link"));
-        }
-        (Some(item), None) => {
+        (Some(item), _) => {
             let along = Direction::Fixed(unit(&item)?);
             Some((item, along))
         }
@@ -203,19 +182,15 @@ fn over(
     let Some(item) = section.get("over") else {
         return Ok((Over::Drive, drive.domain, "the drive link".to_owned()));
     };
-    let section = item.section("`over` of this [[load]]".into())?;
-    let example = "over = { point = \"slider\", along = \"x\" }";
-    let point = section.require("point", example)?;
-    let (name, link, at) = tool::place(&section, &point, mechanism)?;
-    let along = section.require("along", example)?;
-    let axis = along.choice(&["x", "y"])?;
-    let zero = section.optional("zero", &LENGTH)?;
+    let section = section.table("over")?;
+    let (name, link, at) = tool::place(&section, &section.need("point")?, mechanism)?;
+    let (axis, zero) = (section.word("along")?, section.si("zero")?);
     section.finish()?;
     let over = Over::Point {
         link,
         at,
         axis,
-        zero: zero.map_or(0.0, |zero| zero.si),
+        zero,
     };
     let [from, to] = over.range(mechanism).map_err(|error| {
         item.problem(&format!("cannot be used: {error}"), "this point")

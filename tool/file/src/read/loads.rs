@@ -4,26 +4,18 @@ use std::ops::Range;
 
 use jred::machine::{Action, Load, MAX_LOADS};
 
+use crate::keys::loads::ACTIONS;
 use crate::model::mechanism::{AnyMechanism, NamedLoad};
 
 use super::drive_link::DriveLink;
 use super::effect::Effect;
+use super::mass::link_of;
 use super::schedule::Entry;
 use super::{load_table, window};
 use crate::text::item::Item;
 use crate::text::problem::{Problem, Result};
 use crate::text::section::Section;
-use crate::units::kind::{FORCE, Kind, LENGTH, TORQUE, VISCOUS_FORCE, VISCOUS_MOMENT};
-
-/// Keys for the action of a load.
-const ACTIONS: [&str; 6] = [
-    "force",
-    "moment",
-    "opposing_force",
-    "opposing_moment",
-    "viscous_force",
-    "viscous_moment",
-];
+use crate::units::kind::{FORCE, Kind, TORQUE, VISCOUS_FORCE, VISCOUS_MOMENT};
 
 /// Keys for the times at which a load acts, or a payload is carried.
 pub(super) const SCHEDULE: [&str; 3] = ["segments", "during", "direction"];
@@ -36,10 +28,7 @@ pub(super) fn read(
     tables: &[Range<usize>],
 ) -> Result<(Vec<NamedLoad>, Vec<Entry>)> {
     let mut loads = mechanism.own_loads().to_vec();
-    let Some(item) = root.get("load") else {
-        return Ok((loads, Vec::new()));
-    };
-    let mut sections = item.sections("[[load]]")?;
+    let mut sections = root.tables("load")?;
     let (mut of_tables, mut next) = (tables.iter(), loads.len());
     let mut entry = |section: &Section| {
         let loads = if load_table::is_table(section) {
@@ -98,7 +87,7 @@ pub(super) fn at_rest(section: &Section, load: &Load, item: &Item) -> Result<(Lo
         _ => false,
     };
     let built = Load::new(load.link(), found)
-        .and_then(|rest| rest.at(section.point("at", &LENGTH).unwrap_or_default()));
+        .and_then(|rest| rest.at(section.two("at").unwrap_or_default()));
     let rest = built.map_err(|error| {
         item.problem(&error.to_string(), "here")
             .help(error.cure().to_string())
@@ -111,17 +100,12 @@ pub(super) fn at_rest(section: &Section, load: &Load, item: &Item) -> Result<(Lo
 
 fn load(section: &Section, mechanism: &AnyMechanism, drive: DriveLink) -> Result<NamedLoad> {
     let links = mechanism.link_names();
-    let name = section
-        .get("name")
-        .map(|item| item.text("pressing force"))
-        .transpose()?;
-    let example = format!("on = \"{}\"", links.last().map_or("slider", String::as_str));
-    let on = section.require("on", &example)?;
-    let link = on.choice(links)?;
+    let name = section.text("name")?;
+    let (_, link) = link_of(section, mechanism)?;
     let (key, item) = action_key(section)?;
     let action = action(key, &item)?;
     let at = section.get("at");
-    let point = section.point("at", &LENGTH)?;
+    let point = section.two("at")?;
     let turns = window::turns(section, drive)?;
     let window = window::read(section, drive, turns)?;
     if let (Some(item), None) = (section.peek("turns"), &window) {
@@ -165,33 +149,21 @@ fn load(section: &Section, mechanism: &AnyMechanism, drive: DriveLink) -> Result
 
 /// The one key with the action of the load.
 fn action_key<'a>(section: &Section<'a>) -> Result<(&'static str, Item<'a>)> {
-    let mut found = ACTIONS
-        .into_iter()
-        .filter_map(|key| Some((key, section.get(key)?)));
-    let Some((key, item)) = found.next() else {
-        let missing = format!(
-            "`force` or another action is missing in {}",
-            section.title()
-        );
-        return Err(section.finish().err().unwrap_or_else(|| {
-            section
-                .problem(missing, "what does this load do?")
-                .help(format!(
-                    "add exactly one of {}, such as opposing_force = \"150 N\"",
-                    ACTIONS.join(", ")
-                ))
-        }));
-    };
-    if let Some((second, other)) = found.next() {
-        return Err(Problem::new(format!(
-            "{} has both `{key}` and `{second}`",
-            section.title()
-        ))
-        .at(item.key_span(), "one action")
-        .at(other.key_span(), "another action")
-        .help("write a separate [[load]] for each"));
+    if let Some(given) = section.one_of(&ACTIONS) {
+        return Ok(given);
     }
-    Ok((key, item))
+    let missing = format!(
+        "`force` or another action is missing in {}",
+        section.title()
+    );
+    Err(section.finish().err().unwrap_or_else(|| {
+        section
+            .problem(missing, "what does this load do?")
+            .help(format!(
+                "add exactly one of {}, such as opposing_force = \"150 N\"",
+                ACTIONS.join(", ")
+            ))
+    }))
 }
 
 fn action(key: &str, item: &Item) -> Result<Action> {

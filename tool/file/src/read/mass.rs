@@ -3,34 +3,21 @@
 use super::names::Names;
 use crate::model::laden::{Attached, laden};
 use crate::model::mechanism::AnyMechanism;
+use crate::text::item::Item;
 use crate::text::problem::Result;
 use crate::text::section::Section;
-use crate::units::kind::{INERTIA, LENGTH, MASS};
-
-/// The most masses of a machine.
-const MOST: usize = 16;
 
 /// The mechanism with the masses of the file.
 pub(super) fn read(root: &Section, mechanism: AnyMechanism) -> Result<AnyMechanism> {
     let Some(item) = root.get("mass") else {
         return Ok(mechanism);
     };
-    let sections = item.sections("[[mass]]")?;
-    if let Some(surplus) = sections.get(MOST) {
-        return Err(surplus
-            .problem(format!("more than {MOST} masses"), "one too many")
-            .help("combine what is fixed to the same link"));
-    }
+    let sections = root.tables("mass")?;
     let (mut masses, mut names) = (Vec::new(), Names::of("masses"));
     for section in &sections {
         names.add(section)?;
         let (_, mass) = attached(section, &mechanism, "mass")?;
-        section.finish_with(|key| match key {
-            "segments" | "during" => {
-                Some("what is there for a part of the motion is a [[payload]]")
-            }
-            _ => None,
-        })?;
+        section.finish()?;
         masses.push(mass);
     }
     laden(&mechanism, &masses).map_err(|error| {
@@ -45,20 +32,16 @@ pub(super) fn attached(
     mechanism: &AnyMechanism,
     what: &str,
 ) -> Result<(String, Attached)> {
-    let links = mechanism.link_names();
-    let example = format!("on = \"{}\"", links.last().map_or("slider", String::as_str));
-    let on = section.require("on", &example)?;
-    let link = on.choice(links)?;
-    let name = match section.get("name") {
-        Some(item) => item.text("workpiece")?.to_owned(),
-        None => format!("{what} on {}", on.text("slider")?),
+    let (on, link) = link_of(section, mechanism)?;
+    let name = match section.text("name")? {
+        Some(name) => name.to_owned(),
+        None => format!("{what} on {}", on.words_of_text()?),
     };
-    let at = section.point("at", &LENGTH)?;
-    let mass = section.quantity("mass", &MASS)?.positive()?;
-    let inertia = match section.optional("inertia", &INERTIA)? {
-        Some(value) => value.not_negative()?,
-        None => 0.0,
-    };
+    let (at, mass, inertia) = (
+        section.two("at")?,
+        section.si("mass")?,
+        section.si("inertia")?,
+    );
     Ok((
         name,
         Attached {
@@ -68,4 +51,17 @@ pub(super) fn attached(
             inertia,
         },
     ))
+}
+
+/// `on`: the link of a load or a mass, as its index.
+pub(super) fn link_of<'a>(
+    section: &Section<'a>,
+    mechanism: &AnyMechanism,
+) -> Result<(Item<'a>, usize)> {
+    let links = mechanism.link_names();
+    let last = links.last().map_or("slider", String::as_str);
+    let on = section.get("on");
+    let on = on.ok_or_else(|| section.missing("on", &format!("on = \"{last}\"")))?;
+    let link = on.choice(links)?;
+    Ok((on, link))
 }

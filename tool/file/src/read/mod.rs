@@ -37,13 +37,14 @@ use std::path::Path;
 use crate::problem;
 use jred::machine::Machine;
 
+use crate::keys::MACHINE;
 use crate::model::axis::Axis;
 use crate::model::machine::{MachineFile, OverRange};
 use crate::model::mechanism::{AnyMechanism, NamedElement, NamedLoad};
 use crate::model::rules::RuleSet;
 use crate::plain;
 use crate::text::file::{self, Files};
-use crate::units::kind::{ACCELERATION, ANGLE};
+use crate::units::kind::ACCELERATION;
 
 use crate::text::problem::{Problem, Result};
 use crate::text::section::Section;
@@ -154,27 +155,19 @@ pub fn parse(name: &str, text: &str, files: impl Files) -> Result<Unchecked> {
     machine(name, text, &files).map_err(|problem| problem.in_text(name, text))
 }
 
-/// Gravity (m/s²) for a file that gives only the inclination.
-const GRAVITY: f64 = 9.81;
-
 /// `gravity`: its components, or the inclination of the x axis.
 fn gravity(root: &Section) -> Result<[f64; 2]> {
-    let item = root.require(
-        "gravity",
-        "gravity = [\"9.81 m/s^2\", \"0 m/s^2\"], its x and y components; gravity = [\"0 m/s^2\", \"0 m/s^2\"] for \
-         a machine that moves in a horizontal plane",
-    )?;
+    let item = root.need("gravity")?;
     if !item.is_table() {
         return Ok(item
             .pair([&ACCELERATION, &ACCELERATION])?
             .map(|value| value.si));
     }
-    let section = item.section("gravity".to_owned())?;
-    let inclination = section.quantity("inclination", &ANGLE)?.si;
-    let size = match section.optional("acceleration", &ACCELERATION)? {
-        Some(value) => value.not_negative()?,
-        None => GRAVITY,
-    };
+    let section = item.section("[gravity]".to_owned())?;
+    let (inclination, size) = (
+        section.value("inclination")?.si,
+        section.si("acceleration")?,
+    );
     section.finish()?;
     let (sin, cos) = inclination.sin_cos();
     Ok([-size * sin, -size * cos])
@@ -209,18 +202,19 @@ fn machine(name: &str, text: &str, files: &dyn Files) -> Result<Unchecked> {
             "a machine file needs at least gravity = [\"9.81 m/s^2\", \"0 m/s^2\"] and a [mechanism] with a type, for example type = \"slider-crank\"",
         ));
     }
-    let root = Section::new(String::new(), 0..0, tree.get_ref());
-    let title = match root.get("title") {
-        Some(item) => item.text("Servo press")?.to_owned(),
+    let root = Section::described(String::new(), 0..0, tree.get_ref(), (&MACHINE, false));
+    let title = match root.text("title")? {
+        Some(title) => title.to_owned(),
         None => Path::new(name)
             .file_name()
             .map_or_else(|| name.to_owned(), plain::path),
     };
     let gravity = gravity(&root)?;
-    let section = root.section("mechanism")?;
+    let section = root.table("mechanism")?;
     let (mechanism, flywheel) = mechanism::read(&section, gravity, files)?;
     let drive_link =
         DriveLink::of(&mechanism).map_err(|error| section.error(error, "in this mechanism"))?;
+    root.set_slides(drive_link.slides());
     if let (true, Some(item)) = (
         drive_link.slides() && flywheel > 0.0,
         section.peek("flywheel"),
@@ -285,10 +279,8 @@ fn machine(name: &str, text: &str, files: &dyn Files) -> Result<Unchecked> {
         },
         over_range: OverRange::default(),
     };
-    let motion = match root.peek("motion") {
-        Some(_) => root.section("motion")?.header(),
-        None => root.header(),
-    };
+    let motion = root.maybe_table("motion")?;
+    let motion = motion.map_or_else(|| root.header(), |section| section.header());
     Ok(Unchecked {
         file,
         mechanism: section.header(),

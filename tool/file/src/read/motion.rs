@@ -27,14 +27,11 @@ pub(super) fn read(
     drive: DriveLink,
     loaded: (&Machine<AnyMechanism>, &[NamedLoad]),
 ) -> Result<Option<Motion>> {
-    let Some(item) = root.get("motion") else {
+    let Some(section) = root.maybe_table("motion")? else {
         return Ok(None);
     };
-    let section = item.section("[motion]".into())?;
-    let types = ["constant-speed", "cycle", "point-to-point", "profile"];
-    let kind = section
-        .require("type", "type = \"cycle\"")?
-        .choice(&types)?;
+    let kind = section.word("type")?;
+    section.choose(["constant-speed", "cycle", "point-to-point", "profile"][kind]);
     let prescribed = Prescribed::read(&section, drive, loaded)?;
     let motion = match kind {
         0 => constant_speed(&section, &prescribed)?,
@@ -45,26 +42,9 @@ pub(super) fn read(
     Ok(Some(motion))
 }
 
-/// Reports keys that the type of motion does not have.
-pub(super) fn finish(section: &Section) -> Result<()> {
-    section.finish_with(|key| match key {
-        "segment" => Some("segments are for the types \"cycle\" and \"point-to-point\""),
-        "speed" => Some("a speed is for the type \"constant-speed\""),
-        "file" | "cyclic" | "step" | "smoothing" | "close_within" | "columns" | "header"
-        | "skip_rows" | "counts_per_turn" | "master_speed" => {
-            Some("a file and its options are for the type \"profile\"")
-        }
-        "point" | "link" | "along" | "slide" => {
-            Some("a motion of the tool is written of = { point = \"slider\", along = \"x\" }")
-        }
-        _ => None,
-    })
-}
-
 /// Start position of the motion.
 fn start(section: &Section, prescribed: &Prescribed) -> Result<f64> {
-    let axis = prescribed.axis;
-    let Some(start) = section.optional("start", axis.position())? else {
+    let Some(start) = section.given("start")? else {
         return Ok(prescribed.start());
     };
     prescribed.check_start(&start)?;
@@ -78,10 +58,9 @@ pub(super) fn along(
     axis: DriveLink,
     (machine, loads): (&Machine<AnyMechanism>, &[NamedLoad]),
 ) -> Result<Motion> {
-    let types = ["cycle", "point-to-point", "profile"];
-    let kind = section
-        .require("type", "type = \"cycle\"")?
-        .choice(&types)?;
+    section.set_slides(true);
+    let kind = section.word("type")?;
+    section.choose(["cycle", "point-to-point", "profile"][kind]);
     let prescribed = Prescribed {
         axis,
         drive: axis,
@@ -99,7 +78,7 @@ pub(super) fn along(
 fn constant_speed(section: &Section, prescribed: &Prescribed) -> Result<Motion> {
     let axis = prescribed.axis;
     let Some(per_turn) = prescribed.per_turn() else {
-        let kind = section.require("type", "type = \"cycle\"")?;
+        let kind = section.need("type")?;
         let what = match &prescribed.tool {
             None => format!(
                 "is \"constant-speed\", but the drive link has a stroke, {}: it cannot move on forever",
@@ -116,8 +95,8 @@ fn constant_speed(section: &Section, prescribed: &Prescribed) -> Result<Motion> 
             .help("use type = \"cycle\" with moves forth and back, or \"point-to-point\""));
     };
     let start = start(section, prescribed)?;
-    let speed = section.quantity("speed", axis.speed())?;
-    finish(section)?;
+    let speed = section.value("speed")?;
+    section.finish()?;
     if speed.si.abs() < axis.speed().smallest {
         return Err(speed
             .problem(

@@ -15,7 +15,6 @@ use crate::text::csv;
 use crate::text::item::Value;
 use crate::text::problem::{Problem, Result};
 use crate::text::section::Section;
-use crate::units::kind::{ANGULAR_SPEED, CUTOFF, TIME};
 
 mod closing;
 mod form;
@@ -56,26 +55,17 @@ pub(super) fn read(
     prescribed: &Prescribed,
 ) -> Result<Motion> {
     let drive = prescribed.axis;
-    let item = section.require("file", "file = \"profile.csv\"")?;
+    let item = section.need("file")?;
     let request = Request {
         cyclic: section.get("cyclic").map_or(Ok(true), |item| item.flag())?,
-        start: section.optional("start", drive.position())?,
-        step: section.optional("step", &TIME)?,
-        smoothing: section.optional("smoothing", &CUTOFF)?,
-        close_within: section.optional("close_within", drive.position())?,
-        master_speed: section.optional("master_speed", &ANGULAR_SPEED)?,
+        start: section.given("start")?,
+        step: section.given("step")?,
+        smoothing: section.given("smoothing")?,
+        close_within: section.given("close_within")?,
+        master_speed: section.given("master_speed")?,
     };
     let layout = Layout::read(section)?;
-    motion::finish(section)?;
-    let positive = [
-        &request.step,
-        &request.smoothing,
-        &request.close_within,
-        &request.master_speed,
-    ];
-    for value in positive.into_iter().flatten() {
-        value.check_positive()?;
-    }
+    section.finish()?;
     let file = CsvFile::open(&item, "profile.csv", files)?;
     let columns = read_columns(&file.text, drive.coordinate, &layout, &request);
     let columns = columns.map_err(|fault| {

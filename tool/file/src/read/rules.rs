@@ -4,6 +4,7 @@ use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
 
+use crate::keys::site::RULE_SET;
 use crate::model::rule::Rule;
 use crate::model::rules::{
     Change, Changes, Contradiction, InertiaOf, Limit, MeanTorque, Moves, RuleSet, What,
@@ -16,7 +17,6 @@ use crate::text::problem::{Problem, Result, quoted};
 use crate::text::section::Section;
 use crate::text::tree;
 use crate::units::did_you_mean;
-use crate::units::kind::SHARE;
 
 /// The built-in rule sets: name and file.
 pub(super) const BUILT_IN: [(&str, &str); 9] = [
@@ -52,22 +52,14 @@ pub(super) const BUILT_IN: [(&str, &str); 9] = [
 /// The set on which all others are based.
 const GENERAL: &str = "general";
 
-/// Largest share allowed as a limit.
-const MAX_SHARE: f64 = 2.0;
-/// Largest limit of cycles per hour, as a share; T2B is valid for 1000.
-const MAX_CYCLES: f64 = 1000.0;
-/// Largest limit of a ratio of inertias or frequencies.
-const MAX_RATIO: f64 = 1000.0;
-
 /// The largest file of a rule set (bytes).
 const MAX_SIZE: u64 = 1 << 16;
 
 /// The rule set of a machine file: the set that it names (built in or from `files`), by default the general one, with the file's changes.
 pub(super) fn read(root: &Section, files: &dyn Files) -> Result<RuleSet> {
-    let Some(item) = root.get("rules") else {
+    let Some(section) = root.maybe_table("rules")? else {
         return named(GENERAL);
     };
-    let section = item.section("[rules]".into())?;
     let set = match section.get("set") {
         Some(word) => chosen(&word, files)?,
         None => named(GENERAL)?,
@@ -130,13 +122,10 @@ fn chosen(word: &Item, files: &dyn Files) -> Result<RuleSet> {
 /// Reads a rule set from the text of its file.
 fn parse(name: &str, text: &str) -> Result<RuleSet> {
     let tree = tree::parse(text)?;
-    let root = Section::new(String::new(), 0..0, tree.get_ref());
-    let title = root.require("title", "title = \"Rules of our house\"")?;
-    let title = title.text("Rules of our house")?.to_owned();
-    let source = match root.get("source") {
-        Some(item) => item.text("data sheet, page 4")?.to_owned(),
-        None => format!("rule set {name}"),
-    };
+    let root = Section::described(String::new(), 0..0, tree.get_ref(), (&RULE_SET, false));
+    let title = root.need("title")?.words_of_text()?.to_owned();
+    let source = root.text("source")?;
+    let source = source.map_or_else(|| format!("rule set {name}"), str::to_owned);
     let base = match root.get("based_on") {
         _ if name == GENERAL => RuleSet::empty(name, ""),
         None => named(GENERAL)?,
@@ -152,7 +141,7 @@ fn parse(name: &str, text: &str) -> Result<RuleSet> {
             named(word)?
         }
     };
-    let section = root.section("rules")?;
+    let section = root.table("rules")?;
     let changes = changes(&section, &source)?;
     section.finish_with(explain)?;
     root.finish()?;
@@ -182,7 +171,6 @@ fn explain(key: &str) -> Option<&'static str> {
 
 /// All changes in a table.
 fn changes(section: &Section, source: &str) -> Result<Changes> {
-    section.expects(&Rule::ALL.map(Rule::key));
     let mut changes = Vec::new();
     let mut change = |what: What, source: &str, place: Range<usize>| {
         let source = source.to_owned();
@@ -213,7 +201,7 @@ fn changes(section: &Section, source: &str) -> Result<Changes> {
         }
     }
     if let Some(item) = section.get("inertia_ratio_of") {
-        let word = InertiaOf::WORDS[item.choice(&InertiaOf::WORDS)?];
+        let word = InertiaOf::WORDS[item.word()?];
         change(
             What::InertiaOf(InertiaOf::of(word).unwrap_or_default()),
             source,
@@ -221,7 +209,7 @@ fn changes(section: &Section, source: &str) -> Result<Changes> {
         );
     }
     if let Some(item) = section.get("gearbox_mean_exponent") {
-        let word = MeanTorque::WORDS[item.choice(&MeanTorque::WORDS)?];
+        let word = MeanTorque::WORDS[item.word()?];
         change(
             What::MeanTorque(MeanTorque::of(word).unwrap_or_default()),
             source,
@@ -229,15 +217,7 @@ fn changes(section: &Section, source: &str) -> Result<Changes> {
         );
     }
     if let Some(item) = section.get("inertia_ratio_by_moves") {
-        let bands = by_moves(&item)?;
-        if let Some(other) = section.peek("inertia_ratio") {
-            return Err(item
-                .problem("is given together with `inertia_ratio`", "here")
-                .at(other.span(), "and here")
-                .help(
-                    "limits by moves per minute replace the single limit: remove one of the two",
-                ));
-        }
+        let bands = by_moves(&section.tables("inertia_ratio_by_moves")?)?;
         change(What::InertiaByMoves(bands), source, item.span());
     }
     Ok(Changes(changes))
@@ -245,10 +225,10 @@ fn changes(section: &Section, source: &str) -> Result<Changes> {
 
 /// A limit: a share of the rule's rating, or a plain ratio.
 fn limit(item: &Item, rule: Rule) -> Result<f64> {
-    match rule {
-        _ if rule.is_ratio() => item.number([0.01, MAX_RATIO], "10"),
-        Rule::GearboxCycles => item.quantity(&SHARE)?.up_to(MAX_CYCLES),
-        _ => item.quantity(&SHARE)?.up_to(MAX_SHARE),
+    if rule.is_ratio() {
+        item.figure()
+    } else {
+        Ok(item.value()?.si)
     }
 }
 
@@ -260,10 +240,7 @@ fn both(item: &Item, rule: Rule) -> Result<(Limit, Option<String>)> {
         fail: read("limit")?,
         warn: read("warning")?,
     };
-    let source = section
-        .get("source")
-        .map(|item| item.text("data sheet, page 4").map(str::to_owned));
-    let source = source.transpose()?;
+    let source = section.text("source")?.map(str::to_owned);
     section.finish()?;
     if !limits.is_set() {
         return Err(section
@@ -279,31 +256,14 @@ fn both(item: &Item, rule: Rule) -> Result<(Limit, Option<String>)> {
     Ok((limits, source))
 }
 
-/// The most bands of moves per minute.
-const MAX_BANDS: usize = 20;
-
 /// `[{ above = 60, limit = 5 }, { above = 100, limit = 3 }]`, in moves per minute.
-fn by_moves(item: &Item) -> Result<Vec<Moves>> {
+fn by_moves(sections: &[Section]) -> Result<Vec<Moves>> {
     let mut bands: Vec<Moves> = Vec::new();
-    let list = item.list(
-        "band",
-        "[{ above = 60, limit = 5 }, { above = 100, limit = 3 }]",
-    )?;
-    if list.is_empty() || list.len() > MAX_BANDS {
-        return Err(item
-            .problem(
-                &format!("has {} bands, but must have 1 to {MAX_BANDS}", list.len()),
-                "here",
-            )
-            .help("write [{ above = 60, limit = 5 }, { above = 100, limit = 3 }]"));
-    }
-    for band in list {
-        let section = band.section("band of inertia_ratio_by_moves".into())?;
-        let above = section.require("above", "above = 60, in moves per minute")?;
-        let limit = section.require("limit", "limit = 5")?;
+    for section in sections {
+        let above = section.need("above")?;
         let moves = Moves {
-            above: above.number([0.0, 1e6], "60")?,
-            limit: limit.number([0.01, MAX_RATIO], "5")?,
+            above: above.figure()?,
+            limit: section.figure("limit")?,
         };
         section.finish()?;
         if bands

@@ -5,7 +5,7 @@ use std::ops::Range;
 use jred::machine::Load;
 use jred::machine::Machine;
 
-use super::loads::{self, SCHEDULE};
+use super::loads;
 use crate::model::carriage::Carriage;
 use crate::model::mechanism::{AnyMechanism, NamedLoad};
 use crate::model::motion::Motion;
@@ -14,7 +14,6 @@ use crate::number::rounding::figure;
 use crate::text::item::Item;
 use crate::text::problem::Result;
 use crate::text::section::Section;
-use crate::units::kind::TIME;
 
 use contradictions::{Acting, check_contradictions};
 
@@ -59,11 +58,7 @@ pub(super) fn read(
     let course = Course::of(root, motion)?;
     let mut scheduled = Vec::new();
     let mut acting: Vec<Acting> = Vec::new();
-    let sections = match root.get("load") {
-        Some(item) => item.sections("[[load]]")?,
-        None => Vec::new(),
-    };
-    for (section, entry) in sections.into_iter().zip(entries) {
+    for (section, entry) in root.tables("load")?.into_iter().zip(entries) {
         let part = part(&section, &course)?;
         let at_rest = section.get("at_rest");
         if part.item.is_some() || at_rest.is_some() {
@@ -165,13 +160,10 @@ fn part<'s>(section: &Section<'s>, course: &Course) -> Result<Part<'s>> {
         words: Vec::new(),
         item: None,
     };
-    let [segments, during, direction] = SCHEDULE.map(|key| section.get(key));
-    if let (Some(segments), Some(during)) = (&segments, &during) {
-        return Err(during
-            .problem("is given together with `segments`", "here")
-            .at(segments.key_span(), "and here")
-            .help("give either the segments or the times"));
-    }
+    let (segments, during) = (section.get("segments"), section.get("during"));
+    let direction = section
+        .describes("direction")
+        .then(|| section.get("direction"));
     if let Some(item) = segments {
         let (spans, words) = of_segments(&item, course)?;
         (part.when.spans, part.when.by_segment) = (Some(spans), true);
@@ -184,11 +176,11 @@ fn part<'s>(section: &Section<'s>, course: &Course) -> Result<Part<'s>> {
         part.words.push(words);
         part.item = Some(item);
     }
-    if let Some(item) = direction {
+    if let Some(item) = direction.flatten() {
         course.required(&item)?;
         let travel = [Travel::Forward, Travel::Backward];
         let words = ["forward", "backward"];
-        let chosen = item.choice(&words)?;
+        let chosen = item.word()?;
         part.when.travel = Some(travel[chosen]);
         part.words.push(words[chosen].to_owned());
         part.item.get_or_insert(item);
@@ -230,11 +222,6 @@ fn of_segments(item: &Item, course: &Course) -> Result<(Vec<[f64; 2]>, String)> 
         .iter()
         .filter_map(|k| course.segments.get(k - 1).copied())
         .collect();
-    if spans.is_empty() {
-        return Err(item
-            .problem("names no segment", "empty")
-            .help("write segments = [2, 3], or remove the key"));
-    }
     Ok((joined(spans), in_segments(&numbers)))
 }
 
@@ -263,7 +250,7 @@ fn joined(spans: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
 /// `during = ["0.2 s", "0.5 s"]`; in a cycle it can extend past the end.
 fn of_times(item: &Item, course: &Course) -> Result<(Vec<[f64; 2]>, String)> {
     let motion = course.required(item)?;
-    let times = item.pair([&TIME, &TIME])?;
+    let times = item.values()?;
     let end = motion.duration();
     for time in &times {
         if time.si < 0.0 || time.si > end * (1.0 + 1e-9) {

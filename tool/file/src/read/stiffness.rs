@@ -2,13 +2,8 @@
 
 use super::drive_link::DriveLink;
 use crate::model::drive_train::DriveTrain;
-use crate::text::item::Value;
 use crate::text::problem::Result;
 use crate::text::section::Section;
-use crate::units::kind::{ANGLE, Kind, LENGTH, STIFFNESS, TORSION_STIFFNESS};
-
-/// Reference points for the values.
-const PLACES: [&str; 2] = ["input", "drive-link"];
 
 /// Values of the section.
 #[derive(Clone, Copy, Debug, Default)]
@@ -21,22 +16,12 @@ pub(super) struct Stiffness {
 
 /// The section, if the file has it.
 pub(super) fn read(root: &Section, drive: DriveLink, train: &DriveTrain) -> Result<Stiffness> {
-    let Some(item) = root.get("stiffness") else {
+    let Some(section) = root.maybe_table("stiffness")? else {
         return Ok(Stiffness::default());
     };
-    let section = item.section("[stiffness]".into())?;
-    let at_input = match section.get("at") {
-        Some(word) => word.choice(&PLACES)? == 0,
-        None => true,
-    };
-    let slides = drive.slides() && (!at_input || train.stages().is_empty());
-    let kinds: [&'static Kind; 2] = if slides {
-        [&STIFFNESS, &LENGTH]
-    } else {
-        [&TORSION_STIFFNESS, &ANGLE]
-    };
-    let shaft = section.optional("shaft", kinds[0])?;
-    let play = section.optional("backlash", kinds[1])?;
+    let at_input = section.word("at")? == 0;
+    section.set_slides(drive.slides() && (!at_input || train.stages().is_empty()));
+    let (shaft, play) = (section.maybe("shaft")?, section.maybe("backlash")?);
     section.finish()?;
     if shaft.is_none() && play.is_none() {
         return Err(section
@@ -46,8 +31,6 @@ pub(super) fn read(root: &Section, drive: DriveLink, train: &DriveTrain) -> Resu
             ));
     }
     let ratio = train.ratio().abs();
-    let shaft = shaft.map(Value::positive).transpose()?;
-    let play = play.map(Value::not_negative).transpose()?;
     Ok(Stiffness {
         // ½·c·θ² is equal at both ends.
         shaft: shaft.map(|c| if at_input { c } else { c / (ratio * ratio) }),

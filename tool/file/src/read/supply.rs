@@ -6,24 +6,18 @@ use crate::model::supply::{BrakeResistor, MAINS, Supply, rectified};
 use crate::text::item::Value;
 use crate::text::problem::{Problem, Result};
 use crate::text::section::Section;
-use crate::units::kind::{CAPACITANCE, ENERGY, POWER, RESISTANCE, VOLTAGE};
 
 /// Reads the supply into the site.
 pub(super) fn read(root: &Section, site: &mut Site) -> Result<()> {
-    let Some(item) = root.get("supply") else {
+    let Some(section) = root.maybe_table("supply")? else {
         return Ok(());
     };
-    let section = item.section("[supply]".into())?;
-    let bus = section.optional("bus_voltage", &VOLTAGE)?;
-    let mains = section.optional("mains_voltage", &VOLTAGE)?;
+    let (bus, mains) = (
+        section.given("bus_voltage")?,
+        section.given("mains_voltage")?,
+    );
     let voltage = match (bus, &mains) {
-        (Some(bus), Some(mains)) => {
-            return Err(Problem::new("`bus_voltage` and `mains_voltage` in [supply] are both given")
-                .at(bus.span(), "one")
-                .at(mains.span(), "the other")
-                .help("give one of them: the DC bus behind a rectifier has √2 times the mains voltage, such as 565 V at 400 V"));
-        }
-        (Some(bus), None) => Some((bus.shown(), bus.positive()?)),
+        (Some(bus), _) => Some((bus.shown(), bus.si)),
         (None, Some(mains)) => {
             let shown = format!("√2 times {}", mains.shown());
             check_mains(mains)?;
@@ -31,9 +25,10 @@ pub(super) fn read(root: &Section, site: &mut Site) -> Result<()> {
         }
         (None, None) => None,
     };
-    let positive = |value: Option<Value>| value.map(Value::positive).transpose();
-    let chopper = section.optional("chopper_voltage", &VOLTAGE)?;
-    let max = section.optional("max_voltage", &VOLTAGE)?;
+    let (chopper, max) = (
+        section.given("chopper_voltage")?,
+        section.given("max_voltage")?,
+    );
     above(
         chopper.as_ref(),
         "chopper_voltage",
@@ -59,12 +54,9 @@ pub(super) fn read(root: &Section, site: &mut Site) -> Result<()> {
             .at(max.span(), "here")
             .help("the brake resistor must switch on below the maximum bus voltage: raise max_voltage or lower chopper_voltage to the values in the amplifier's manual"));
     }
-    let capacitance = positive(section.optional("capacitance", &CAPACITANCE)?)?;
-    let least = section.optional("min_resistance", &RESISTANCE)?;
-    let regenerative = match section.get("regenerative") {
-        Some(item) => item.flag()?,
-        None => false,
-    };
+    let capacitance = section.maybe("capacitance")?;
+    let least = section.given("min_resistance")?;
+    let regenerative = section.is("regenerative")?;
     let brake_resistor = resistor(&section, least.as_ref(), regenerative)?;
     section.finish()?;
     site.mains_voltage = mains.map(|mains| mains.si);
@@ -72,9 +64,9 @@ pub(super) fn read(root: &Section, site: &mut Site) -> Result<()> {
     site.supply = Supply {
         given: true,
         capacitance,
-        chopper_voltage: positive(chopper)?,
-        max_voltage: positive(max)?,
-        min_resistance: positive(least)?,
+        chopper_voltage: chopper.map(|value| value.si),
+        max_voltage: max.map(|value| value.si),
+        min_resistance: least.map(|value| value.si),
         regenerative,
         brake_resistor,
     };
@@ -83,7 +75,6 @@ pub(super) fn read(root: &Section, site: &mut Site) -> Result<()> {
 
 /// Checks that the mains voltage is in the range of drives.
 fn check_mains(mains: &Value) -> Result<()> {
-    mains.check_positive()?;
     let [least, most] = MAINS;
     if (least..=most).contains(&mains.si) {
         return Ok(());
@@ -132,9 +123,8 @@ fn resistor(
             .problem("is given, but the supply feeds energy back", "never on")
             .help("remove one of the two: brake_resistor or regenerative = true"));
     }
-    let table = item.section("[supply.brake_resistor]".into())?;
-    let resistance = table.quantity("resistance", &RESISTANCE)?;
-    resistance.check_positive()?;
+    let table = section.table("brake_resistor")?;
+    let resistance = table.value("resistance")?;
     if let Some(least) = least
         && resistance.si < least.si
     {
@@ -147,9 +137,7 @@ fn resistor(
             .problem(&what, "too small")
             .help("the chopper cannot switch the current: use a larger resistance"));
     }
-    let power = table.quantity("power", &POWER)?;
-    power.check_positive()?;
-    let peak = table.optional("peak_power", &POWER)?;
+    let (power, peak) = (table.value("power")?, table.given("peak_power")?);
     if let Some(peak) = &peak
         && peak.si < power.si
     {
@@ -162,12 +150,12 @@ fn resistor(
             .problem(&what, "too small")
             .help("`power` is the continuous power of the resistor, `peak_power` its short-time power: check whether they are interchanged"));
     }
-    let pulse = table.optional("pulse_energy", &ENERGY)?;
+    let pulse_energy = table.maybe("pulse_energy")?;
     table.finish()?;
     Ok(Some(BrakeResistor {
         resistance: resistance.si,
         power: power.si,
-        peak_power: peak.map(Value::positive).transpose()?,
-        pulse_energy: pulse.map(Value::positive).transpose()?,
+        peak_power: peak.map(|value| value.si),
+        pulse_energy,
     }))
 }

@@ -8,10 +8,9 @@ use crate::text::section::Section;
 pub(super) fn read(root: &Section) -> Result<Vec<Tolerance>> {
     const EXAMPLE: &str =
         "write \"±5 %\", \"0.1 mm\", or { normal = \"2 %\" } for a standard deviation";
-    let Some(item) = root.get("tolerance") else {
+    let Some(section) = root.maybe_table("tolerance")? else {
         return Ok(Vec::new());
     };
-    let section = item.section("[tolerance]".into())?;
     let mut tolerances = Vec::new();
     for (path, item) in section.entries() {
         let place = item.key_span();

@@ -9,7 +9,6 @@ use crate::model::site::{Tool, ToolPlace};
 use crate::text::item::Item;
 use crate::text::problem::Result;
 use crate::text::section::Section;
-use crate::units::kind::{ANGLE, LENGTH};
 
 /// A tool slower than this (m or rad per rad or m of the drive link) does not move.
 const STANDS: f64 = 1e-9;
@@ -19,26 +18,18 @@ const POSITIONS: usize = 64;
 
 /// The section, if the file has it.
 pub(super) fn read(root: &Section, mechanism: &AnyMechanism) -> Result<Option<Tool>> {
-    let Some(item) = root.get("tool") else {
+    let Some(section) = root.maybe_table("tool")? else {
         return Ok(None);
     };
-    let section = item.section("[tool]".into())?;
     let (point, link) = (section.get("point"), section.get("link"));
     let tool = match (&point, &link) {
-        (Some(point), Some(link)) => {
-            return Err(link
-                .problem("is given together with `point`", "here")
-                .at(point.span(), "and here")
-                .help(
-                    "give either the point whose position matters or the link whose angle matters",
-                ));
-        }
-        (Some(point), None) => of_point(&section, point, mechanism)?,
+        (Some(point), _) => of_point(&section, point, mechanism)?,
         (None, Some(link)) => {
             let index = link.choice(mechanism.link_names())?;
-            let play = section.quantity("play", &ANGLE)?.positive()?;
+            section.set_slides(false);
+            let play = section.si("play")?;
             Tool {
-                name: link.text("table")?.to_owned(),
+                name: link.words_of_text()?.to_owned(),
                 link: index,
                 place: ToolPlace::Turning,
                 play,
@@ -69,11 +60,12 @@ pub(super) fn read(root: &Section, mechanism: &AnyMechanism) -> Result<Option<To
 
 fn of_point(section: &Section, item: &Item, mechanism: &AnyMechanism) -> Result<Tool> {
     let (name, link, at) = place(section, item, mechanism)?;
+    section.set_slides(true);
     Ok(Tool {
         name,
         link,
         place: ToolPlace::Point(at),
-        play: section.quantity("play", &LENGTH)?.positive()?,
+        play: section.si("play")?,
     })
 }
 
@@ -97,7 +89,7 @@ pub(super) fn place(
                 "remove this",
             )
             .help("`at` gives a point on a link")),
-        (None, _) => Ok((name, index - points.len(), section.point("at", &LENGTH)?)),
+        (None, _) => Ok((name, index - points.len(), section.two("at")?)),
     }
 }
 

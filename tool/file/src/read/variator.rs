@@ -10,25 +10,18 @@ use crate::model::variator::{Adhesion, RATIOS, Ratio, Slip, Variator};
 use super::drive_link::DriveLink;
 use crate::number::rounding::figure;
 use crate::text::item::Item;
-use crate::text::problem::{Problem, Result};
+use crate::text::problem::Result;
 use crate::text::section::Section;
-use crate::units::kind::{INERTIA, SHARE, TIME, TORQUE};
-
-/// The most shifts.
-const MAX_SHIFTS: usize = 1000;
+use crate::units::kind::{SHARE, TIME, TORQUE};
 
 /// The laws of a shift: those whose speed has a continuous second derivative.
-const LAWS: [&str; 3] = ["polynomial-345", "cycloidal", "modified-sine"];
-
-/// Direction of power flow, as written in files.
-pub(super) const FLOWS: [&str; 2] = ["input-drives", "output-drives"];
+const LAWS: [Law; 3] = [Law::Polynomial345, Law::Cycloidal, Law::ModifiedSine];
 
 /// The variator, if the file has one.
 pub(super) fn read(root: &Section, drive_link: DriveLink) -> Result<Option<Variator>> {
-    let Some(item) = root.get("variator") else {
+    let Some(section) = root.maybe_table("variator")? else {
         return Ok(None);
     };
-    let section = item.section("[variator]".into())?;
     if drive_link.slides() {
         return Err(section
             .problem(
@@ -39,29 +32,17 @@ pub(super) fn read(root: &Section, drive_link: DriveLink) -> Result<Option<Varia
                 "make the screw, rack or crank that moves the drive link part of the mechanism",
             ));
     }
-    section.expects(&[
-        "ratio",
-        "input_inertia",
-        "output_inertia",
-        "slip",
-        "creep",
-        "power_flow",
-        "shift",
-    ]);
-    let given = section.peek("ratio");
+    let given = section.get("ratio");
     let whole = given.filter(|item| item.is_list() || item.is_text());
     let mut ratio = match &whole {
         Some(list) if list.is_list() => points(list)?,
         Some(text) => formula::formula(text, root)?,
         None => Ratio::new(ratio(&section)?),
     };
-    let input = section.quantity("input_inertia", &INERTIA)?.positive()?;
-    let output = section
-        .quantity("output_inertia", &INERTIA)?
-        .not_negative()?;
+    let (input, output) = (section.si("input_inertia")?, section.si("output_inertia")?);
     let slip = slip(&section)?;
     if let Some(item) = section.get("shift") {
-        let shifts = item.sections("[[variator.shift]]")?;
+        let shifts = section.tables("shift")?;
         if let Some(whole) = &whole {
             return Err(item
                 .problem("is given together with a `ratio` over time", "shifts")
@@ -69,13 +50,6 @@ pub(super) fn read(root: &Section, drive_link: DriveLink) -> Result<Option<Varia
                 .help(
                     "give one ratio and its shifts, or the whole course of the ratio as a list or as a formula",
                 ));
-        }
-        if shifts.len() > MAX_SHIFTS {
-            let what = format!(
-                "has {} entries, but at most {MAX_SHIFTS} are possible",
-                shifts.len()
-            );
-            return Err(item.problem(&what, "shifts"));
         }
         for shift in &shifts {
             add(&mut ratio, shift)?;
@@ -90,12 +64,7 @@ pub(super) fn read(root: &Section, drive_link: DriveLink) -> Result<Option<Varia
 }
 
 fn ratio(section: &Section) -> Result<f64> {
-    section
-        .require(
-            "ratio",
-            "ratio = 0.5, the output speed over the input speed",
-        )?
-        .number(RATIOS, "0.5")
+    section.figure("ratio")
 }
 
 /// `ratio = [["0 s", 0.5], …]`: a curve through points over time.
@@ -103,12 +72,7 @@ fn points(list: &Item) -> Result<Ratio> {
     const EXAMPLE: &str = "[[\"0 s\", 0.5], [\"0.2 s\", 0.6], …]";
     let (mut times, mut ratios): (Vec<f64>, Vec<f64>) = (Vec::new(), Vec::new());
     for point in list.list("point", EXAMPLE)? {
-        let pair = point.list("value", "[\"0.2 s\", 0.6]")?;
-        let [time, ratio] = pair.as_slice() else {
-            return Err(point
-                .problem("must be a time and a ratio", "here")
-                .help(format!("write ratio = {EXAMPLE}")));
-        };
+        let [time, ratio] = point.both("value", EXAMPLE)?;
         let time = time.quantity(&TIME)?;
         if times.last().is_some_and(|last| time.si <= *last) || time.si < 0.0 {
             let what = format!("is {}, not after the one before", time.shown());
@@ -118,13 +82,6 @@ fn points(list: &Item) -> Result<Ratio> {
         }
         times.push(time.si);
         ratios.push(ratio.number(RATIOS, "0.6")?);
-    }
-    if times.len() > MAX_SHIFTS {
-        let what = format!(
-            "has {} points, but at most {MAX_SHIFTS} are possible",
-            times.len()
-        );
-        return Err(list.problem(&what, "points"));
     }
     let (ratio, [at, least]) = Ratio::through(&times, &ratios).map_err(|fault| {
         list.problem(&format!("is no curve: {fault}"), "these points")
@@ -142,54 +99,46 @@ fn points(list: &Item) -> Result<Ratio> {
 }
 
 fn slip(section: &Section) -> Result<Slip> {
-    let (constant, creep) = (section.get("slip"), section.get("creep"));
+    let given = section.one_of(&["slip", "creep"]);
     let flow = section.get("power_flow");
-    match (constant, creep) {
-        (Some(constant), Some(creep)) => {
-            Err(Problem::new("[variator] has both `slip` and `creep`")
-                .at(constant.key_span(), "a constant slip")
-                .at(creep.key_span(), "a slip that grows with the load")
-                .help("keep one of them"))
-        }
-        (Some(constant), None) => Ok(Slip::Constant {
+    if let Some(("slip", constant)) = given {
+        return Ok(Slip::Constant {
             share: share(&constant)?,
             flow: self::flow(
                 section,
                 "slip always slows down the driven shaft: say which shaft drives",
             )?,
             contact: Contact::Slipping,
+        });
+    }
+    if let Some(flow) = flow {
+        return Err(flow
+            .problem(
+                "is only used together with a constant `slip`",
+                "remove this",
+            )
+            .help("without slip, and with creep, it does not matter which shaft drives"));
+    }
+    match given {
+        Some((_, creep)) => self::creep(&creep),
+        None => Ok(Slip::Constant {
+            share: 0.0,
+            flow: Flow::default(),
+            contact: Contact::Ideal,
         }),
-        (None, other) => {
-            if let Some(flow) = flow {
-                return Err(flow
-                    .problem(
-                        "is only used together with a constant `slip`",
-                        "remove this",
-                    )
-                    .help("without slip, and with creep, it does not matter which shaft drives"));
-            }
-            match other {
-                Some(creep) => self::creep(&creep),
-                None => Ok(Slip::Constant {
-                    share: 0.0,
-                    flow: Flow::default(),
-                    contact: Contact::Ideal,
-                }),
-            }
-        }
     }
 }
 
 /// A slip of at least zero and less than one.
 pub(super) fn share(item: &Item) -> Result<f64> {
-    let value = item.quantity(&SHARE)?;
+    let value = item.value()?;
     if value.si >= 1.0 {
         let what = format!("is {}, but must be below 100 %", value.shown());
         return Err(value
             .problem(&what, "nothing is coupled")
             .help("write the slip of the friction contact, usually 0.5 % to 5 %: \"2 %\""));
     }
-    value.not_negative()
+    Ok(value.si)
 }
 
 /// Direction of power flow; the message about a missing one gives the reason `why`.
@@ -200,7 +149,7 @@ pub(super) fn flow(section: &Section, why: &str) -> Result<Flow> {
             &format!("power_flow = \"input-drives\" or \"output-drives\": {why}"),
         )
     })?;
-    Ok(match item.choice(&FLOWS)? {
+    Ok(match item.word()? {
         0 => Flow::FirstDrives,
         _ => Flow::SecondDrives,
     })
@@ -208,28 +157,18 @@ pub(super) fn flow(section: &Section, why: &str) -> Result<Flow> {
 
 fn creep(item: &Item) -> Result<Slip> {
     let section = item.section("`creep` of [variator]".into())?;
-    section.expects(&["slip", "torque", "curve"]);
     if let Some(curve) = section.get("curve") {
-        for key in ["slip", "torque"] {
-            if let Some(other) = section.peek(key) {
-                return Err(curve
-                    .problem(&format!("is given together with `{key}`"), "the whole curve")
-                    .at(other.key_span(), "a point of a straight line")
-                    .help("keep the curve, whose last point is where the contact begins to slide, or slip and torque of that point alone"));
-            }
-        }
         section.finish()?;
         return adhesion(&curve).map(Slip::Creep);
     }
-    let slip = section.quantity("slip", &SHARE)?;
-    slip.check_positive()?;
+    let slip = section.value("slip")?;
     if slip.si >= 1.0 {
         let what = format!("is {}, but must be below 100 %", slip.shown());
         return Err(slip.problem(&what, "nothing is coupled").help(
             "write the slip at the torque at which the contact starts to slide, usually 1 % to 5 %: \"3 %\"",
         ));
     }
-    let torque = section.quantity("torque", &TORQUE)?.positive()?;
+    let torque = section.value("torque")?.si;
     section.finish()?;
     CreepContact::new(CreepLimit {
         slip: slip.si,
@@ -264,24 +203,15 @@ fn adhesion(list: &Item) -> Result<Adhesion> {
         slips.push(slip.si);
         torques.push(torque.si);
     }
-    let count = slips.len();
-    if !(3..=MAX_SHIFTS).contains(&count) {
-        let what = format!("has {count} points, but needs 3 to {MAX_SHIFTS}");
-        return Err(list.problem(&what, "points").help(
-            "from the point alone where it begins to slide: creep = { slip = \"3 %\", torque = \"45 N m\" }, with slip in proportion to the torque",
-        ));
-    }
     Adhesion::through(&slips, &torques)
         .map_err(|fault| list.problem(&format!("is no curve: {fault}"), "these points"))
 }
 
 /// Adds a shift after those before.
 fn add(course: &mut Ratio, section: &Section) -> Result<()> {
-    section.expects(&["at", "duration", "ratio", "law"]);
-    let at = section.quantity("at", &TIME)?;
-    let duration = section.quantity("duration", &TIME)?.positive()?;
+    let (at, duration) = (section.value("at")?, section.si("duration")?);
     let before = course.end();
-    if at.si < 0.0 || at.si < before {
+    if at.si < before {
         let what = format!(
             "is {}, but must not be before {}",
             at.shown(),
@@ -292,14 +222,7 @@ fn add(course: &mut Ratio, section: &Section) -> Result<()> {
         ));
     }
     let to = ratio(section)?;
-    let law = match section.get("law") {
-        Some(item) => match item.choice(&LAWS)? {
-            1 => Law::Cycloidal,
-            2 => Law::ModifiedSine,
-            _ => Law::Polynomial345,
-        },
-        None => Law::Polynomial345,
-    };
+    let law = section.pick("law", LAWS)?;
     section.finish()?;
     course
         .shift(at.si, duration, to, law)

@@ -9,14 +9,13 @@ use super::drive_link::DriveLink;
 use crate::text::item::{Item, Value};
 use crate::text::problem::Result;
 use crate::text::section::Section;
-use crate::units::kind::ANGLE;
 
 /// `turns`: number of turns of the drive link after which a load repeats.
 pub(super) fn turns(section: &Section, drive: DriveLink) -> Result<u32> {
     let Some(item) = section.get("turns") else {
         return Ok(1);
     };
-    let turns = item.count(Window::MAX_TURNS, "2")?;
+    let turns = item.whole()?;
     if drive.domain == Domain::Turn {
         return Ok(turns);
     }
@@ -44,25 +43,19 @@ fn window(section: &Section, turns: u32) -> Result<Option<Window>> {
     } else {
         format!("{turns} turns")
     };
-    let (between, ramp) = (section.get("between"), section.optional("ramp", &ANGLE)?);
+    let (between, ramp) = (section.get("between"), section.given("ramp")?);
     let (between, ramp) = match (between, ramp) {
         (None, None) => return Ok(None),
         (Some(between), Some(ramp)) => (between, ramp),
         (Some(_), None) => {
-            return Err(section.missing(
-                "ramp",
-                "ramp = \"10 deg\": the angle over which the load rises and falls",
-            ));
+            return Err(section.lacks("ramp"));
         }
         (None, Some(_)) => {
-            return Err(section.missing(
-                "between",
-                "between = [\"315 deg\", \"360 deg\"]: where the load acts",
-            ));
+            return Err(section.lacks("between"));
         }
     };
     long_enough(&ramp, TAU)?;
-    let [from, to] = between.pair([&ANGLE, &ANGLE])?;
+    let [from, to] = between.values()?;
     precise_enough(&between, [&from, &to], ramp.si)?;
     let end = if to.si < from.si {
         to.si + period
@@ -134,7 +127,6 @@ fn precise_enough(between: &Item, [from, to]: [&Value; 2], ramp: f64) -> Result<
 
 /// Checks that a ramp is long enough to differ from a step.
 fn long_enough(ramp: &Value, span: f64) -> Result<()> {
-    ramp.check_positive()?;
     let least = Window::SHORTEST_RAMP * span;
     if ramp.si < least {
         return Err(ramp
@@ -153,7 +145,7 @@ fn long_enough(ramp: &Value, span: f64) -> Result<()> {
 /// The part of the stroke in which the load acts.
 fn stretch(section: &Section, drive: DriveLink) -> Result<Option<Window>> {
     let kind = drive.position();
-    let (between, ramp) = (section.get("between"), section.optional("ramp", kind)?);
+    let (between, ramp) = (section.get("between"), section.given("ramp")?);
     let (between, ramp) = match (between, ramp) {
         (None, None) => return Ok(None),
         (Some(between), Some(ramp)) => (between, ramp),
@@ -174,7 +166,7 @@ fn stretch(section: &Section, drive: DriveLink) -> Result<Option<Window>> {
         }
     };
     long_enough(&ramp, drive.domain.span())?;
-    let [from, to] = between.pair([kind, kind])?;
+    let [from, to] = between.values()?;
     precise_enough(&between, [&from, &to], ramp.si)?;
     let width = to.si - from.si;
     if width <= 0.0 {

@@ -6,11 +6,12 @@ use std::ops::Range;
 use toml::Spanned;
 use toml::de::DeValue;
 
+use super::key::{Form, Kinds, Limit, OPEN};
 use super::problem::{Problem, Result, quoted};
 use super::section::Section;
 use crate::number::rounding::figure;
 use crate::plain;
-use crate::units::kind::Kind;
+use crate::units::kind::{Kind, SHARE};
 use crate::units::quantity::{self, Quantity};
 use crate::units::{Fault, did_you_mean};
 
@@ -23,14 +24,26 @@ pub struct Item<'a> {
     /// The key in the text; for the elements of a list, the value.
     key_span: Range<usize>,
     value: &'a Spanned<DeValue<'a>>,
+    /// What it holds, and what messages propose, if its key is described.
+    form: Option<Form>,
+    example: &'static str,
+    /// Whether the coordinate of its quantities is a length.
+    slides: bool,
 }
+
+/// The kind of a value whose description is not that of a quantity, which is a fault of this program: a test reads every key.
+const NO_KIND: Kind = Kind {
+    name: "a value that is described",
+    ..SHARE
+};
 
 /// A quantity in SI with its place in the file.
 pub(crate) struct Value {
     /// The value in SI.
     pub(crate) si: f64,
     quantity: Quantity,
-    kind: &'static Kind,
+    /// Its kind.
+    pub(crate) kind: &'static Kind,
     name: String,
     span: Range<usize>,
 }
@@ -47,6 +60,19 @@ impl<'a> Item<'a> {
             key,
             key_span,
             value,
+            form: None,
+            example: "",
+            slides: false,
+        }
+    }
+
+    /// The same with a description.
+    pub(crate) fn described(self, form: Option<Form>, example: &'static str, slides: bool) -> Self {
+        Self {
+            form,
+            example,
+            slides,
+            ..self
         }
     }
 
@@ -124,6 +150,78 @@ impl<'a> Item<'a> {
         }
     }
 
+    /// What messages propose.
+    fn example(&self) -> String {
+        let form = self.form;
+        form.map_or_else(String::new, |form| form.example(self.example, self.slides))
+    }
+
+    /// The line that messages propose.
+    pub(crate) fn line(&self) -> String {
+        format!("{} = {}", self.key, self.example())
+    }
+
+    /// The kinds of its quantities.
+    fn kinds(&self) -> (Kinds, Limit) {
+        let kinds = |form| match form {
+            Form::Quantity(kinds, limit) => Some((kinds, limit)),
+            Form::Pair(kinds) => Some((kinds, Limit::Any)),
+            _ => None,
+        };
+        let found = self.form.and_then(|form| form.first(kinds));
+        found.unwrap_or(([&NO_KIND; 2], Limit::Any))
+    }
+
+    /// The quantity that its description asks for, within its limits.
+    pub(crate) fn value(&self) -> Result<Value> {
+        let (kinds, limit) = self.kinds();
+        let value = self.quantity(kinds[usize::from(self.slides)])?;
+        value.check(limit)?;
+        Ok(value)
+    }
+
+    /// The two quantities that its description asks for, with their places.
+    pub(crate) fn values(&self) -> Result<[Value; 2]> {
+        let (kinds, _) = self.kinds();
+        self.pair([kinds[usize::from(self.slides)]; 2])
+    }
+
+    /// The same in SI.
+    pub(crate) fn two(&self) -> Result<[f64; 2]> {
+        Ok(self.values()?.map(|value| value.si))
+    }
+
+    /// The plain number that its description asks for.
+    pub(crate) fn figure(&self) -> Result<f64> {
+        let limits = |form| match form {
+            Form::Number(limits) => Some(limits),
+            _ => None,
+        };
+        let limits = self.form.and_then(|form| form.first(limits));
+        self.number(limits.unwrap_or([f64::MIN, f64::MAX]), &self.example())
+    }
+
+    /// The whole number that its description asks for.
+    pub(crate) fn whole(&self) -> Result<u32> {
+        let Some(Form::Count(limits)) = self.form else {
+            return self.count(u32::MAX, "1");
+        };
+        self.count_within(limits, &self.example())
+    }
+
+    /// The index of the word that its description knows.
+    pub(crate) fn word(&self) -> Result<usize> {
+        let Some(Form::Words(words)) = self.form else {
+            return Ok(0);
+        };
+        self.choice(words)
+    }
+
+    /// The text that its description asks for.
+    pub(crate) fn words_of_text(&self) -> Result<&'a str> {
+        self.text(self.example().trim_matches('"'))
+    }
+
     /// A plain number from `min` to `max`.
     pub(crate) fn number(&self, [min, max]: [f64; 2], example: &str) -> Result<f64> {
         let example = format!("{} = {example}", self.key);
@@ -154,16 +252,20 @@ impl<'a> Item<'a> {
 
     /// A whole number from 1 to `max`.
     pub(crate) fn count(&self, max: u32, example: &str) -> Result<u32> {
+        self.count_within([1, max], example)
+    }
+
+    fn count_within(&self, [min, max]: [u32; 2], example: &str) -> Result<u32> {
         let example = format!("{} = {example}", self.key);
         let DeValue::Integer(integer) = self.value.get_ref() else {
             return Err(self.wrong_type("a whole number without quotes", &example));
         };
         match u32::from_str_radix(integer.as_str(), integer.radix()) {
-            Ok(count) if (1..=max).contains(&count) => Ok(count),
+            Ok(count) if (min..=max).contains(&count) => Ok(count),
             _ => Err(self
                 .problem(
                     &format!(
-                        "is {}, but must be between 1 and {max}",
+                        "is {}, but must be between {min} and {max}",
                         plain::cut(integer.as_str())
                     ),
                     "here",
@@ -263,11 +365,39 @@ impl<'a> Item<'a> {
         let DeValue::Array(array) = self.value.get_ref() else {
             return Err(self.wrong_type("a list", &format!("{} = {example}", self.key)));
         };
+        let list = |form| match form {
+            Form::List(element, counts) => Some((*element, counts)),
+            _ => None,
+        };
+        let described = self.form.and_then(|form| form.first(list));
+        if let Some((_, [least, most])) = described
+            && !(least..=most).contains(&array.len())
+        {
+            let counts = match (least, most) {
+                (2, 2) => "two".to_owned(),
+                (least, usize::MAX) => format!("at least {least}"),
+                _ => format!("{least} to {most}"),
+            };
+            let what = format!("must have {counts} {word}s, but has {}", array.len());
+            let problem = self.problem(&what, "here");
+            return Err(problem.help(format!("write {} = {example}", self.key)));
+        }
         let element = |(k, value): (usize, &'a Spanned<DeValue<'a>>)| {
             let name = format!("{word} {} of {}", k + 1, self.name);
-            Self::new(name, self.key, value.span(), value)
+            let element = described.map(|(element, _)| element);
+            Self::new(name, self.key, value.span(), value).described(element, "", self.slides)
         };
         Ok(array.iter().enumerate().map(element).collect())
+    }
+
+    /// The two elements of a list.
+    pub(crate) fn both(&self, word: &str, example: &str) -> Result<[Self; 2]> {
+        let list = self.list(word, example)?;
+        list.try_into().map_err(|list: Vec<Self>| {
+            let what = format!("must have two {word}s, but has {}", list.len());
+            let problem = self.problem(&what, "here");
+            problem.help(format!("write {} = {example}", self.key))
+        })
     }
 
     /// Two quantities.
@@ -279,13 +409,7 @@ impl<'a> Item<'a> {
         } else {
             format!("[\"{}\", \"{}\"]", first.example, second.example)
         };
-        let list = self.list("value", &example)?;
-        let [first, second] = list.as_slice() else {
-            let count = list.len();
-            return Err(self
-                .problem(&format!("must have two values, but has {count}"), "here")
-                .help(format!("write {} = {example}", self.key)));
-        };
+        let [first, second] = self.both("value", &example)?;
         Ok([first.quantity(kinds[0])?, second.quantity(kinds[1])?])
     }
 
@@ -295,7 +419,13 @@ impl<'a> Item<'a> {
             let example = format!("a table: {title}, or {} = {{ … }}", self.key);
             return Err(self.wrong_type("a table", &example));
         };
-        Ok(Section::new(title, self.span(), table))
+        let keys = self.form.and_then(Form::table).unwrap_or(&OPEN);
+        let section = Section::described(title, self.span(), table, (keys, self.slides));
+        section.not_both(keys)?;
+        Ok(match self.form {
+            Some(Form::Named(entry)) => section.of_entries(*entry),
+            _ => section,
+        })
     }
 
     /// An array of tables; in messages each is called `title` with its number.
@@ -311,7 +441,9 @@ impl<'a> Item<'a> {
         items
             .map(|(k, value)| {
                 let name = format!("{title} number {}", k + 1);
-                Self::new(name.clone(), self.key, value.span(), value).section(name)
+                Self::new(name.clone(), self.key, value.span(), value)
+                    .described(self.form, self.example, self.slides)
+                    .section(name)
             })
             .collect()
     }
@@ -338,10 +470,23 @@ impl Value {
         self.quantity.in_its_unit(si).trim_end().to_owned()
     }
 
-    /// The value if it is not negative.
-    pub(crate) fn not_negative(self) -> Result<f64> {
+    /// Checks that the value is within limits.
+    pub(crate) fn check(&self, limit: Limit) -> Result<()> {
+        match limit {
+            Limit::Any => Ok(()),
+            Limit::Positive => self.check_positive(),
+            Limit::NotNegative => self.check_not_negative(),
+            Limit::UpTo(most) => self.check_positive().and_then(|()| self.check_most(most)),
+            Limit::Within(most) => self
+                .check_not_negative()
+                .and_then(|()| self.check_most(most)),
+            Limit::Between(least, most) => self.check_between([least, most]),
+        }
+    }
+
+    fn check_not_negative(&self) -> Result<()> {
         if self.si >= 0.0 {
-            return Ok(self.si);
+            return Ok(());
         }
         let what = format!("is {}, but must not be negative", self.shown());
         Err(self
@@ -370,11 +515,9 @@ impl Value {
         self.check_positive().map(|()| self.si)
     }
 
-    /// The value if it is greater than zero and at most `max` (SI).
-    pub(crate) fn up_to(self, max: f64) -> Result<f64> {
-        self.check_positive()?;
+    fn check_most(&self, max: f64) -> Result<()> {
         if self.si <= max {
-            return Ok(self.si);
+            return Ok(());
         }
         let (max, shown) = (self.show(max), self.shown());
         let what = format!("is {shown}, but must not be greater than {max}");
@@ -384,5 +527,19 @@ impl Value {
             format!("write {} of {max} or less", self.kind.name)
         };
         Err(self.problem(&what, "too large").help(help))
+    }
+
+    fn check_between(&self, [least, most]: [f64; 2]) -> Result<()> {
+        if (least..=most).contains(&self.si) {
+            return Ok(());
+        }
+        let ends = [least, most].map(|end| self.show(end));
+        let what = format!(
+            "is {}, but must be between {} and {}",
+            self.shown(),
+            ends[0],
+            ends[1]
+        );
+        Err(self.problem(&what, "out of range").help("check the number"))
     }
 }

@@ -6,6 +6,7 @@ pub mod csv;
 pub mod disk;
 pub mod file;
 pub mod item;
+pub mod key;
 pub mod problem;
 pub mod section;
 pub mod tree;

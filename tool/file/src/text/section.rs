@@ -1,4 +1,4 @@
-//! A table of the machine file. It records which keys were read, so that the others can be reported.
+//! A table of the machine file, read by the descriptions of its keys. It records which keys were read, so that the others can be reported.
 
 use std::borrow::Cow;
 use std::cell::{Cell, RefCell};
@@ -9,9 +9,9 @@ use toml::Spanned;
 use toml::de::DeTable;
 
 use super::item::{Item, Value};
+use super::key::{Form, Key, Need, OPEN, Table};
 use super::problem::{Problem, Result};
 use crate::plain;
-use crate::units::kind::Kind;
 use crate::units::{self, closest, meant};
 
 /// Documents that list all keys.
@@ -28,21 +28,115 @@ pub struct Section<'a> {
     /// The table's header.
     header: Range<usize>,
     table: &'a DeTable<'a>,
+    /// The descriptions of its keys, and of those by the word that was chosen.
+    keys: &'static Table,
+    variant: Cell<Option<&'static Table>>,
+    word: Cell<Option<&'static str>>,
+    /// What its entries hold, if the user chooses their names.
+    entry: Option<Form>,
+    /// Whether the coordinate of its quantities is a length.
+    slides: Cell<bool>,
     known: RefCell<Vec<&'static str>>,
-    /// Whether the list of known keys is complete, so that any other key is a mistake.
-    complete: Cell<bool>,
 }
 
 impl<'a> Section<'a> {
-    /// The `table` with the place of its header.
+    /// The `table` with the place of its header; any key may be asked for.
     pub fn new(title: String, header: Range<usize>, table: &'a DeTable<'a>) -> Self {
+        Self::described(title, header, table, (&OPEN, false))
+    }
+
+    /// The `table` with the descriptions of its keys. `slides`: whether the coordinate of its quantities is a length.
+    pub(crate) fn described(
+        title: String,
+        header: Range<usize>,
+        table: &'a DeTable<'a>,
+        (keys, slides): (&'static Table, bool),
+    ) -> Self {
         Self {
             title,
             header,
             table,
+            keys,
+            variant: Cell::new(None),
+            word: Cell::new(None),
+            entry: None,
+            slides: Cell::new(slides),
             known: RefCell::default(),
-            complete: Cell::new(false),
         }
+    }
+
+    /// The same; the user chooses the names of its entries, which hold this.
+    pub(crate) fn of_entries(self, entry: Form) -> Self {
+        let entry = Some(entry);
+        Self { entry, ..self }
+    }
+
+    /// Sets whether the coordinate of the quantities that are read from now on is a length.
+    pub(crate) fn set_slides(&self, slides: bool) {
+        self.slides.set(slides);
+    }
+
+    /// Whether the coordinate of its quantities is a length.
+    pub(crate) fn slides(&self) -> bool {
+        self.slides.get()
+    }
+
+    /// Chooses the keys that are used with a word.
+    pub(crate) fn choose(&self, word: &'static str) {
+        self.word.set(Some(word));
+    }
+
+    /// Adds the keys of a variant.
+    pub(crate) fn vary(&self, variant: &'static Table) -> Result<()> {
+        self.variant.set(Some(variant));
+        self.not_both(variant)
+    }
+
+    /// Refuses keys that exclude one another.
+    pub(crate) fn not_both(&self, table: &Table) -> Result<()> {
+        for (keys, cure) in table.either {
+            let mut given = keys
+                .iter()
+                .filter_map(|key| Some((key, self.table.get_key_value(*key)?.0.span())));
+            if let (Some((first, one)), Some((second, other))) = (given.next(), given.next()) {
+                return Err(Problem::new(format!(
+                    "{} has both `{first}` and `{second}`",
+                    self.title
+                ))
+                .at(one, "one")
+                .at(other, "the other")
+                .help(*cure));
+            }
+        }
+        Ok(())
+    }
+
+    /// The name of the variant.
+    pub(crate) fn chosen(&self) -> &'static str {
+        self.variant.get().map_or("", |variant| variant.name)
+    }
+
+    /// The descriptions of all keys, in their order.
+    fn keys(&self) -> impl Iterator<Item = &'static Key> {
+        let further = self.variant.get().into_iter().flat_map(Table::keys);
+        self.keys.keys().chain(further)
+    }
+
+    /// The description of a key.
+    fn description(&self, name: &str) -> Option<&'static Key> {
+        self.keys().find(|key| key.name == name)
+    }
+
+    /// Whether a key is described.
+    pub(crate) fn describes(&self, name: &str) -> bool {
+        self.description(name).is_some()
+    }
+
+    /// Whether a key is described, and used with the word that was chosen.
+    fn is_used(&self, name: &str) -> bool {
+        let word = self.word.get();
+        self.description(name)
+            .is_some_and(|key| word.is_none_or(|word| key.is_used_with(word)))
     }
 
     /// "[mechanism.crank]"
@@ -88,12 +182,6 @@ impl<'a> Section<'a> {
         }
     }
 
-    /// Registers `keys` as all further keys of the table: a message about a missing key then names the unknown keys too.
-    pub(crate) fn expects_only(&self, keys: &[&'static str]) {
-        self.expects(keys);
-        self.complete.set(true);
-    }
-
     /// The keys that were not read, in the order of the text.
     fn unread(&self) -> Vec<&Spanned<Cow<'a, str>>> {
         let known = self.known.borrow();
@@ -117,7 +205,11 @@ impl<'a> Section<'a> {
     /// The value of `key` for messages; does not mark the key as read.
     pub fn peek(&self, key: &'static str) -> Option<Item<'a>> {
         let (found, value) = self.table.get_key_value(key)?;
-        Some(Item::new(self.name(key), key, found.span(), value))
+        let item = Item::new(self.name(key), key, found.span(), value);
+        let (form, example) = self
+            .description(key)
+            .map_or((None, ""), |key| (Some(key.form), key.example));
+        Some(item.described(form, example, self.slides.get()))
     }
 
     /// The value of `key`; `example` is the line to add if it is missing.
@@ -127,12 +219,18 @@ impl<'a> Section<'a> {
 
     /// The problem of a missing key; names an unread key that looks like a misspelling of it.
     pub(crate) fn missing(&self, key: &'static str, example: &str) -> Problem {
-        let unread = self.unread();
+        let mut unread = self.unread();
+        unread.retain(|other| !self.is_used(other.get_ref()));
         for other in &unread {
             if closest(other.get_ref(), &[key]).is_some() {
                 return Problem::new(format!("unknown key {}", self.name(other.get_ref())))
                     .at(other.span(), format!("did you mean \"{key}\"?"))
                     .help(format!("write {example}"));
+            }
+            if let Some(reason) = self.elsewhere(other.get_ref()) {
+                return Problem::new(format!("unknown key {}", self.name(other.get_ref())))
+                    .at(other.span(), "not a key of this table")
+                    .help(format!("{reason}; add {example}"));
             }
         }
         let mut problem = self.problem(
@@ -140,14 +238,17 @@ impl<'a> Section<'a> {
             &format!("`{key}` belongs here"),
         );
         let mut help = format!("add {example}");
-        if self.complete.get() && !unread.is_empty() {
+        unread.retain(|other| self.description(other.get_ref()).is_none());
+        // Without the word that decides, no key is known to be wrong.
+        if !self.keys.is_open() && key != self.keys.by && !unread.is_empty() {
             let mut words = Vec::new();
-            for other in unread.iter().take(MOST_UNKNOWN) {
+            for other in unread.into_iter().take(MOST_UNKNOWN) {
                 problem = problem.at(other.span(), "unknown key");
                 words.push(format!("`{}`", plain::cut(other.get_ref())));
             }
-            let known = self.known.borrow();
-            let others = units::known(key, &known, KEYS);
+            let used = self.keys().filter(|key| self.is_used(key.name));
+            let used: Vec<&str> = used.map(|key| key.name).collect();
+            let others = units::known(key, &used, KEYS);
             let _ = write!(
                 help,
                 "; unknown here: {}; known here: {others}",
@@ -157,52 +258,19 @@ impl<'a> Section<'a> {
         problem.help(help)
     }
 
-    /// A required quantity.
-    pub(crate) fn quantity(&self, key: &'static str, kind: &'static Kind) -> Result<Value> {
-        self.require(key, &format!("{key} = \"{}\"", kind.example))?
-            .quantity(kind)
-    }
-
-    /// An optional quantity.
-    pub(crate) fn optional(&self, key: &'static str, kind: &'static Kind) -> Result<Option<Value>> {
-        self.get(key).map(|item| item.quantity(kind)).transpose()
-    }
-
-    /// Two optional quantities; zero if not given.
-    pub(crate) fn point(&self, key: &'static str, kind: &'static Kind) -> Result<[f64; 2]> {
-        let Some(item) = self.get(key) else {
-            return Ok([0.0, 0.0]);
-        };
-        Ok(item.pair([kind, kind])?.map(|value| value.si))
-    }
-
     /// All entries in the order of the text, for a table whose keys are names that the user chooses.
     pub fn entries(&self) -> Vec<(&'a str, Item<'a>)> {
         let mut entries: Vec<_> = self.table.iter().collect();
         entries.sort_by_key(|(key, _)| key.span().start);
         let entry = |(key, value): (&'a Spanned<_>, _)| {
             let name: &'a str = Cow::as_ref(key.get_ref());
-            (name, Item::new(self.name(name), "point", key.span(), value))
+            let item = Item::new(self.name(name), "point", key.span(), value);
+            (name, item.described(self.entry, "", self.slides.get()))
         };
         entries.into_iter().map(entry).collect()
     }
 
-    /// A required table.
-    pub(crate) fn section(&self, key: &'static str) -> Result<Self> {
-        let title = self.child(key);
-        self.require(key, &title)?.section(title)
-    }
-
-    fn child(&self, key: &str) -> String {
-        let parent = self.title.trim_start_matches('[').trim_end_matches(']');
-        if parent.is_empty() {
-            format!("[{key}]")
-        } else {
-            format!("[{parent}.{key}]")
-        }
-    }
-
-    /// Reports the first key that was not read.
+    /// Reports the first key that was not read; its description, or that of its table, says where it belongs.
     pub(crate) fn finish(&self) -> Result<()> {
         self.finish_with(|_| None)
     }
@@ -214,21 +282,248 @@ impl<'a> Section<'a> {
     pub fn finish_with(&self, explain: impl Fn(&str) -> Option<&'static str>) -> Result<()> {
         let unread = self.unread();
         let Some(key) = unread.first() else {
-            return Ok(());
+            return self.all_described();
         };
-        let known = self.known.borrow();
         let word = key.get_ref().as_ref();
+        let mut known = self.known.borrow().clone();
+        if !self.keys.is_open() {
+            let place = |name: &&str| self.keys().position(|key| key.name == *name);
+            known.sort_by_key(place);
+        }
         let label = match meant(word, &known) {
             Some(near) => format!("did you mean \"{near}\"?"),
+            None if self.description(word).is_some() => "not used here".to_owned(),
             None => "not a key of this table".to_owned(),
         };
         let others = units::known(word, &known, KEYS);
-        let help = explain(word).map_or_else(
+        let reason = explain(word).map(Cow::Borrowed);
+        let help = reason.or_else(|| self.belongs(word)).map_or_else(
             || format!("known here: {others}"),
             |reason| format!("{reason}; known here: {others}"),
         );
         Err(Problem::new(format!("unknown key {}", self.name(word)))
             .at(key.span(), label)
             .help(help))
+    }
+
+    /// Refuses to go on if a reader asked for a key without a description.
+    fn all_described(&self) -> Result<()> {
+        let known = self.known.borrow();
+        let stranger = known.iter().find(|name| self.description(name).is_none());
+        match stranger.filter(|_| !self.keys.is_open()) {
+            None => Ok(()),
+            Some(name) => Err(self.problem(
+                format!(
+                    "{} is read, but not described: a fault of this program",
+                    self.name(name)
+                ),
+                "in this table",
+            )),
+        }
+    }
+
+    /// Where a key that users look for here belongs.
+    fn elsewhere(&self, name: &str) -> Option<&'static str> {
+        let tables = self.variant.get().into_iter().chain([self.keys]);
+        let mut elsewhere = tables.flat_map(|table| table.elsewhere);
+        Some(elsewhere.find(|(key, _)| *key == name)?.1)
+    }
+
+    /// Where a key that is not used here belongs, in words.
+    fn belongs(&self, name: &str) -> Option<Cow<'static, str>> {
+        if let Some(words) = self.elsewhere(name) {
+            return Some(Cow::Borrowed(words));
+        }
+        let key = self.description(name).filter(|_| !self.is_used(name))?;
+        let words: Vec<String> = key.only.iter().map(|word| format!("\"{word}\"")).collect();
+        let words = words.join(", ");
+        Some(Cow::Owned(format!(
+            "`{name}` is for {} = {words}",
+            self.keys.by
+        )))
+    }
+}
+
+/// Values by the descriptions of their keys.
+impl<'a> Section<'a> {
+    /// A required value.
+    pub(crate) fn need(&self, name: &'static str) -> Result<Item<'a>> {
+        self.get(name).ok_or_else(|| self.lacks(name))
+    }
+
+    /// The problem that a key is missing.
+    pub(crate) fn lacks(&self, name: &'static str) -> Problem {
+        let Some(key) = self.description(name) else {
+            return self.missing(name, name);
+        };
+        let example = match key.form {
+            Form::Table(_) => format!("{}{}", self.child(name), key.example),
+            Form::Tables(..) => format!("{}{}", self.children(name), key.example),
+            form => format!("{name} = {}", form.example(key.example, self.slides.get())),
+        };
+        self.missing(name, &example)
+    }
+
+    /// A required quantity within its limits.
+    pub(crate) fn value(&self, name: &'static str) -> Result<Value> {
+        self.need(name)?.value()
+    }
+
+    /// A quantity within its limits, if it is given.
+    pub(crate) fn given(&self, name: &'static str) -> Result<Option<Value>> {
+        self.get(name).map(|item| item.value()).transpose()
+    }
+
+    /// The quantity in SI, if it is given.
+    pub(crate) fn maybe(&self, name: &'static str) -> Result<Option<f64>> {
+        Ok(self.given(name)?.map(|value| value.si))
+    }
+
+    /// The quantity in SI; if not given, its default.
+    pub(crate) fn si(&self, name: &'static str) -> Result<f64> {
+        match self.description(name).map(|key| (key.form, key.need)) {
+            Some((Form::Quantity(kinds, _), Need::Default(default))) => {
+                let kind = kinds[usize::from(self.slides.get())];
+                Ok(self.maybe(name)?.unwrap_or_else(|| kind.value_of(default)))
+            }
+            _ => Ok(self.value(name)?.si),
+        }
+    }
+
+    /// Two quantities in SI; if not given, zero, unless they are required.
+    pub(crate) fn two(&self, name: &'static str) -> Result<[f64; 2]> {
+        match self.description(name).map(|key| key.need) {
+            Some(Need::Required) => self.need(name)?.two(),
+            _ => Ok(self.get(name).map_or(Ok([0.0; 2]), |item| item.two())?),
+        }
+    }
+
+    /// A plain number; if not given, its default.
+    pub(crate) fn figure(&self, name: &'static str) -> Result<f64> {
+        match (self.get(name), self.default(name)) {
+            (None, Some(default)) => Ok(default.parse().unwrap_or(0.0)),
+            _ => self.need(name)?.figure(),
+        }
+    }
+
+    /// A whole number; if not given, its default.
+    pub(crate) fn whole(&self, name: &'static str) -> Result<u32> {
+        match (self.get(name), self.default(name)) {
+            (None, Some(default)) => Ok(default.parse().unwrap_or(0)),
+            _ => self.need(name)?.whole(),
+        }
+    }
+
+    /// Whether a key is `true`; if not given, `false`.
+    pub(crate) fn is(&self, name: &'static str) -> Result<bool> {
+        self.get(name).map_or(Ok(false), |item| item.flag())
+    }
+
+    /// The index of the word that a key has; if not given, of its default.
+    pub(crate) fn word(&self, name: &'static str) -> Result<usize> {
+        match (self.get(name), self.description(name)) {
+            (
+                None,
+                Some(Key {
+                    form: Form::Words(words),
+                    need: Need::Default(default),
+                    ..
+                }),
+            ) => Ok(words.iter().position(|word| word == default).unwrap_or(0)),
+            _ => self.need(name)?.word(),
+        }
+    }
+
+    /// What the word of a key stands for; `values` are in the order of the words.
+    pub(crate) fn pick<T: Copy, const N: usize>(
+        &self,
+        name: &'static str,
+        values: [T; N],
+    ) -> Result<T> {
+        let word = self.word(name)?;
+        debug_assert!(word < N, "{name}: a word without a value");
+        Ok(values[word.min(N - 1)])
+    }
+
+    /// A text, if it is given.
+    pub(crate) fn text(&self, name: &'static str) -> Result<Option<&'a str>> {
+        self.get(name).map(|item| item.words_of_text()).transpose()
+    }
+
+    /// A required table.
+    pub(crate) fn table(&self, name: &'static str) -> Result<Self> {
+        self.need(name)?.section(self.child(name))
+    }
+
+    /// A table, if it is given.
+    pub(crate) fn maybe_table(&self, name: &'static str) -> Result<Option<Self>> {
+        let item = self.get(name);
+        item.map(|item| item.section(self.child(name))).transpose()
+    }
+
+    /// The tables of a list, in their number; none if the list may be missing.
+    pub(crate) fn tables(&self, name: &'static str) -> Result<Vec<Self>> {
+        let Some(Key {
+            form: Form::Tables(_, [least, most], cure),
+            need,
+            ..
+        }) = self.description(name)
+        else {
+            return Ok(Vec::new());
+        };
+        let item = match self.get(name) {
+            None if *need != Need::Required => return Ok(Vec::new()),
+            None => return Err(self.lacks(name)),
+            Some(item) => item,
+        };
+        let title = self.children(name);
+        let tables = item.sections(&title)?;
+        if tables.len() < *least {
+            return Err(item
+                .problem("is empty", "here")
+                .help(format!("write at least one {title}")));
+        }
+        if let Some(surplus) = tables.get(*most) {
+            return Err(surplus
+                .problem(format!("more than {most} {title}"), "one too many")
+                .help(*cure));
+        }
+        Ok(tables)
+    }
+
+    /// The one of some keys that is given, if any is; all are known here.
+    pub(crate) fn one_of(&self, names: &[&'static str]) -> Option<(&'static str, Item<'a>)> {
+        self.expects(names);
+        names.iter().find_map(|name| Some((*name, self.get(name)?)))
+    }
+
+    fn default(&self, name: &str) -> Option<&'static str> {
+        match self.description(name)?.need {
+            Need::Default(default) => Some(default),
+            _ => None,
+        }
+    }
+
+    /// The title without brackets and number: "mechanism.joint".
+    fn path(&self) -> &str {
+        let inner = self.title.trim_start_matches('[');
+        inner.split(']').next().unwrap_or_default()
+    }
+
+    /// The title of a table in this one.
+    fn child(&self, name: &str) -> String {
+        match self.title.strip_suffix(']') {
+            _ if self.title.is_empty() => format!("[{name}]"),
+            Some(_) => format!("[{}.{name}]", self.path()),
+            None => format!("`{name}` of {}", self.title),
+        }
+    }
+
+    /// The title of a list of tables in this one.
+    fn children(&self, name: &str) -> String {
+        if self.title.is_empty() {
+            return format!("[[{name}]]");
+        }
+        format!("[[{}.{name}]]", self.path())
     }
 }

@@ -1,5 +1,6 @@
 //! Kinds of quantities: name, units and range.
 
+use super::quantity;
 use super::word::{Dimension, dimension};
 
 /// Kind of a quantity, with its units and range.
@@ -22,6 +23,14 @@ pub struct Kind {
 }
 
 impl Kind {
+    /// The value (SI) of a quantity in the source code, or of a zero without a unit; NaN if it is none.
+    pub(crate) fn value_of(&self, text: &str) -> f64 {
+        match text {
+            "0" => 0.0,
+            text => quantity::read(text, self).map_or(f64::NAN, |quantity| quantity.si),
+        }
+    }
+
     /// Whether a unit of the dimension `found` measures this kind. The angle below the "/" is optional: "N m s" for "N m s/rad".
     pub fn is_measured_by(&self, found: Dimension) -> bool {
         found == self.dimension

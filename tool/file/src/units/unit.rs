@@ -79,6 +79,11 @@ pub(super) fn read_every(text: &str) -> Option<Unit> {
     of_words(&spaced(text, EVERY), text, EVERY).ok()
 }
 
+/// The words of units in machine files, with their dimensions.
+pub fn all_words() -> impl Iterator<Item = (&'static str, Dimension)> {
+    WORDS.iter().map(|word| (word.text, word.dimension))
+}
+
 /// Revolutions per minute, as on name plates. "1/min" is one only if an angular speed is expected, which [`quantity`](super::quantity) decides.
 const RPM: [&str; 5] = ["RPM", "Rpm", "U/min", "r/min", "turns/min"];
 

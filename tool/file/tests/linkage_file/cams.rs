@@ -159,6 +159,6 @@ fn cams_are_refused_with_their_cure() {
     refuses(
         "{ name = \"jaw pin\", ",
         "{ name = \"jaw pin\", base_radius = \"1 mm\", ",
-        &["only cams use this"],
+        &["`base_radius` is for type = \"cam\""],
     );
 }

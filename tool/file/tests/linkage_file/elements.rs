@@ -178,7 +178,7 @@ fn elements_that_make_no_sense() {
         (
             "[\"slider\", { on = \"ground\", at = [\"400 mm\", \"0 mm\"] }]",
             "[\"slider\"]",
-            &["has 1 ends, but must have two"],
+            &["must have two ends, but has 1"],
         ),
         // The ram passes through the point 180 mm from the crank.
         (

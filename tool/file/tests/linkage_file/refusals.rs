@@ -48,7 +48,7 @@ fn bodies_and_points() {
         (
             "[\"ground.C\", \"rocker\"]",
             "[\"rocker\"]",
-            &["has 1 ends, but a joint connects two", "two joints"],
+            &["must have two ends, but has 1", "two joints"],
         ),
     ]);
 }

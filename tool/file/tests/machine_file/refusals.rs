@@ -228,7 +228,10 @@ fn machines_that_cannot_work_are_refused_with_figures() {
     let stage = GEARS.split("[[mechanism.stage]]").nth(1).unwrap();
     let stage = format!("[[mechanism.stage]]{stage}");
     let many = GEARS.replacen(&stage, &stage.repeat(8), 1);
-    refuses(&many, &["more than 8 stages", "combine stages"]);
+    refuses(
+        &many,
+        &["more than 8 [[mechanism.stage]]", "combine stages"],
+    );
     let load = "[[load]]\non = \"slider\"\nopposing_force = \"1 N\"\n";
     refuses(
         &format!("{PRESS}\n{}", load.repeat(14)),
@@ -280,7 +283,7 @@ fn motions_and_simulations_that_make_no_sense_are_refused() {
         (
             "\"polynomial-345\"",
             "\"cycloidal\"\naccelerate = \"80 %\"",
-            &["only the law \"trapezoid\""],
+            &["`accelerate` is for law = \"trapezoid\""],
         ),
         (
             "type = \"cycle\"",
@@ -290,12 +293,12 @@ fn motions_and_simulations_that_make_no_sense_are_refused() {
         (
             "type = \"cycle\"",
             "type = \"constant-speed\"\nspeed = \"0 rpm\"",
-            &["`segment`", "segments are for the types"],
+            &["`segment`", "is for type = \"cycle\", \"point-to-point\""],
         ),
         (
             "type = \"cycle\"",
             "type = \"profile\"\nfile = \"turn.csv\"",
-            &["`segment`", "segments are for the types"],
+            &["`segment`", "is for type = \"cycle\", \"point-to-point\""],
         ),
         (
             "at = \"motor\"",

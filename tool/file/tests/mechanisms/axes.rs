@@ -86,7 +86,7 @@ fn wrong_entries_are_refused_with_their_cure() {
             "belt-axis",
             "teeth = 24",
             "diameter = \"60 mm\"",
-            &["`pitch` in", "is not used", "remove this"],
+            &["both `diameter` and `pitch`", "give the diameter, or"],
         ),
         (
             "belt-axis",
@@ -116,7 +116,7 @@ fn wrong_entries_are_refused_with_their_cure() {
             "conveyor",
             "inclination = \"12 deg\"",
             "incline = \"12 deg\"",
-            &["`inclination` in gravity is missing"],
+            &["`inclination` in [gravity] is missing"],
         ),
         (
             "conveyor",

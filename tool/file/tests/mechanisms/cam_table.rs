@@ -124,7 +124,7 @@ fn tables_that_make_no_cam() {
     refused(
         &good,
         "segment = [{ dwell = \"360 deg\" }]\n",
-        &["given together with `lift`"],
+        &["has both `lift` and `segment`"],
     );
     let raised: Vec<String> = (0..=180).map(|k| format!("{},3\n", 2 * k)).collect();
     let raised = raised.concat();

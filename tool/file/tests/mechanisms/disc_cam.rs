@@ -204,12 +204,16 @@ fn wrong_entries_are_refused_with_their_cure() {
         (
             "angle = \"90 deg\"",
             "angle = \"90 deg\"\nend_velocity = \"2 mm/rad\"",
-            &["only the law \"polynomial-5\" uses these end values"],
+            &["`end_velocity` is for law = \"polynomial-5\""],
         ),
         (
             "angle = \"90 deg\"",
             "duration = \"90 deg\"",
-            &["`angle` in [[mechanism.segment]] number 1 is missing"],
+            &[
+                "unknown key `duration`",
+                "over the angle of the cam",
+                "add angle = ",
+            ],
         ),
         (
             "type = \"translating-roller\"",

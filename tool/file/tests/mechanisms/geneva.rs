@@ -61,15 +61,15 @@ fn wrong_entries_are_refused_with_their_cure() {
         (
             "slots = 6",
             "slots = 2",
-            &["`slots` in [mechanism] is 2", "at least 3"],
+            &["`slots` in [mechanism] is 2", "between 3 and 24"],
         ),
-        ("slots = 6", "slots = 60", &["between 1 and 24"]),
+        ("slots = 6", "slots = 60", &["between 3 and 24"]),
         ("slots = 6", "slots = 6.5", &["a whole number"]),
         (
             "[mechanism.crank]",
             "[mechanism.crank]\nlength = \"80 mm\"",
             &[
-                "`length` in [mechanism.crank] is not used",
+                "unknown key `length` in [mechanism.crank]",
                 "sin(180°/slots)",
             ],
         ),

@@ -76,7 +76,7 @@ fn wrong_entries_are_refused_with_their_cure() {
         head,
         "[mechanism.drive]",
         "driven = []\n[mechanism.drive]",
-        &["at least one driven shaft"],
+        &["at least one [[mechanism.driven]]"],
     );
     refuses_edit(
         head,
@@ -89,6 +89,6 @@ fn wrong_entries_are_refused_with_their_cure() {
         &format!("{head}{sixteen}"),
         "",
         "",
-        &["more than 15 driven shafts", "add their inertias"],
+        &["more than 15 [[mechanism.driven]]", "add their inertias"],
     );
 }

@@ -91,7 +91,7 @@ fn wrong_entries_are_refused_with_their_cure() {
         (
             "teeth = 18",
             "teeth = 3",
-            &["`teeth` in [mechanism.sun] is 3", "at least 5"],
+            &["`teeth` in [mechanism.sun] is 3", "between 5 and 100000"],
         ),
         ("\"67.5 mm\"", "\"0 mm\"", &["greater than zero"]),
     ];

@@ -153,7 +153,10 @@ fn keys_of_other_laws_are_refused() {
         ),
         (
             "law = \"polynomial-5\"; move = \"180 deg\"; duration = \"1 s\"; end_jerk = \"30 rad/s^3\"",
-            ["`end_jerk`", "\"polynomial-6\" has the jerk at one end"],
+            [
+                "`end_jerk`",
+                "is for law = \"polynomial-6\", \"polynomial-7\"",
+            ],
         ),
         (
             "law = \"polynomial-6\"; move = \"180 deg\"; duration = \"1 s\"",
@@ -176,7 +179,10 @@ fn keys_of_other_laws_are_refused() {
         ),
         (
             "law = \"cycloidal\"; move = \"180 deg\"; duration = \"1 s\"; max_speed = \"30 rpm\"",
-            ["`max_speed`", "limits are for the laws"],
+            [
+                "`max_speed`",
+                "is for law = \"trapezoid\", \"jerk-limited\"",
+            ],
         ),
     ] {
         refused("point-to-point", &[segment], &words);

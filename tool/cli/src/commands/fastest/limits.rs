@@ -12,13 +12,14 @@ use crate::options::retime::Ends;
 use jred::Domain;
 use jred::machine::Mechanism as _;
 use jred_analysis::reduce::joints_with_force;
-use jred_file::argument;
+use jred_file::argument::{self, Argument};
 use jred_file::model::axis::Axis;
 use jred_file::model::coordinate::Coordinate;
 use jred_file::model::machine::MachineFile;
 use jred_file::number::rounding::short;
 use jred_file::number::words::counted;
 use jred_file::plain;
+use jred_file::text::key::{ACCELERATIONS, EFFORT, EFFORT_RATES, JERKS, SPEED};
 use jred_motion::fastest::tool_speed::MOST;
 use jred_motion::fastest::{JointForces, Limits, ToolSpeed, ToolSpeeds};
 
@@ -54,24 +55,24 @@ pub(super) fn limits(
     gearbox: &Limits,
 ) -> Result<(Limits, Vec<String>)> {
     let axis = file.axis();
-    let read = |name: &str, text: &Option<String>, read: argument::Reader| {
-        rate(name, text.as_deref(), read, &axis)
+    let read = |name: &str, text: &Option<String>, argument: Argument| {
+        rate(name, text.as_deref(), argument, &axis)
     };
     let acceleration = read(
         "max-acceleration",
         &options.max_acceleration,
-        argument::largest_acceleration,
+        Argument::positive(ACCELERATIONS),
     )?;
     let deceleration = read(
         "max-deceleration",
         &options.max_deceleration,
-        argument::largest_acceleration,
+        Argument::positive(ACCELERATIONS),
     )?;
-    let jerk = read("max-jerk", &options.max_jerk, argument::largest_jerk)?;
+    let jerk = read("max-jerk", &options.max_jerk, Argument::positive(JERKS))?;
     let torque_rate = quantity(
         "max-torque-rate",
         options.max_torque_rate.as_deref(),
-        argument::largest_effort_rate,
+        Argument::positive(EFFORT_RATES),
         motor_coordinate(file),
     )?;
     let has_rates = jerk.is_some() || torque_rate.is_some();
@@ -83,7 +84,7 @@ pub(super) fn limits(
     }
     let (tool, words) = tool_speeds(&options.max_tool_speed, file)?;
     let limits = Limits {
-        speed: read("max-speed", &options.max_speed, argument::largest_speed)?,
+        speed: read("max-speed", &options.max_speed, Argument::positive(SPEED))?,
         tool,
         forces: forces(&options.max_reaction, file)?,
         acceleration,
@@ -118,7 +119,8 @@ fn forces(texts: &[String], file: &MachineFile) -> Result<JointForces> {
                 plain::quoted(name)
             ));
         };
-        let force = argument::drive_effort(force.trim(), Coordinate::Length)
+        let force = Argument::positive(EFFORT)
+            .read(force.trim(), Coordinate::Length)
             .map_err(|why| miette!("{given} cannot be used: {why}"))?;
         if !named.insert(*joint) {
             return Err(miette!(
@@ -206,7 +208,9 @@ fn tool_speed(text: &str, file: &MachineFile) -> Result<(ToolSpeed, String)> {
         ));
     };
     let refused = |why: String| miette!("{given} cannot be used: {why}");
-    let most = argument::largest_speed(speed, Coordinate::Length).map_err(refused)?;
+    let most = Argument::positive(SPEED)
+        .read(speed, Coordinate::Length)
+        .map_err(refused)?;
     let domain = mechanism.domain();
     let turns = domain == Domain::Turn;
     let drive = Axis::of_drive(mechanism.coordinate());

@@ -23,7 +23,7 @@ pub(super) fn limit<'a>(
         return Ok(None);
     };
     let given = format!("--max-winding-temperature {}", plain::quoted(text));
-    let limit = argument::temperature_argument(text)
+    let limit = argument::any(&jred_file::units::kind::TEMPERATURE)(text)
         .map_err(|why| miette!("{given} cannot be used: {why}"))?;
     let Some(winding) = &chosen.winding else {
         return Err(miette!(

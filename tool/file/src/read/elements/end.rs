@@ -7,7 +7,6 @@ use crate::plain;
 use crate::text::item::Item;
 use crate::text::problem::{Problem, Result, quoted};
 use crate::units::did_you_mean;
-use crate::units::kind::LENGTH;
 
 /// Name of the fixed frame in joints and elements.
 const GROUND: &str = "ground";
@@ -27,13 +26,10 @@ pub(super) fn end(item: &Item, mechanism: &AnyMechanism) -> Result<End> {
         return named(text, mechanism).ok_or_else(|| unknown(item, text, mechanism));
     }
     let section = item.section("this end".to_owned())?;
-    let on = section.require("on", "on = \"ground\"")?;
-    let name = on.text("ground")?;
+    let on = section.need("on")?;
+    let name = on.words_of_text()?;
     let body = body(name, mechanism).ok_or_else(|| unknown(&on, name, mechanism))?;
-    let at = match section.get("at") {
-        Some(at) => Some(at.pair([&LENGTH, &LENGTH])?.map(|value| value.si)),
-        None => None,
-    };
+    let at = section.get("at").map(|at| at.two()).transpose()?;
     section.finish()?;
     Ok(End {
         marker: marker(body, at.unwrap_or_default()),

@@ -8,11 +8,9 @@ use jred::machine::{Element, MAX_ELEMENTS, Marker};
 use crate::model::coordinate::Coordinate;
 use crate::model::mechanism::{AnyMechanism, NamedElement};
 use crate::read::names::Names;
-use crate::text::problem::{Problem, Result};
+use crate::text::problem::Result;
 use crate::text::section::Section;
-use crate::units::kind::{
-    ANGLE, LENGTH, STIFFNESS, TORSION_STIFFNESS, VISCOUS_FORCE, VISCOUS_MOMENT,
-};
+use crate::units::kind::{STIFFNESS, TORSION_STIFFNESS};
 
 use end::end;
 use survey::Survey;
@@ -25,11 +23,8 @@ pub(super) fn read(
 ) -> Result<Vec<NamedElement>> {
     let mut elements = mechanism.own_elements().to_vec();
     let mut names = Names::of("springs or dampers");
-    for (key, title) in [("spring", "[[spring]]"), ("damper", "[[damper]]")] {
-        let Some(item) = root.get(key) else {
-            continue;
-        };
-        for section in item.sections(title)? {
+    for key in ["spring", "damper"] {
+        for section in root.tables(key)? {
             if elements.len() == MAX_ELEMENTS {
                 return Err(section
                     .problem(
@@ -51,22 +46,10 @@ fn element(
     mechanism: &AnyMechanism,
     coordinate: Coordinate,
 ) -> Result<NamedElement> {
-    let name = section
-        .get("name")
-        .map(|item| item.text("counterbalance"))
-        .transpose()?;
-    let between = section.require(
-        "between",
-        "between = [\"slider\", { on = \"ground\", at = [\"0 mm\", \"400 mm\"] }]",
-    )?;
-    let list = between.list("end", "[\"slider\", \"ground\"]")?;
-    let [first, second] = list.as_slice() else {
-        let count = list.len();
-        return Err(between
-            .problem(&format!("has {count} ends, but must have two"), "here")
-            .help(format!("a {key} acts between two points or two bodies")));
-    };
-    let ends = [end(first, mechanism)?, end(second, mechanism)?];
+    let name = section.text("name")?;
+    let between = section.need("between")?;
+    let list = between.both("end", "[\"slider\", \"ground\"]")?;
+    let ends = [end(&list[0], mechanism)?, end(&list[1], mechanism)?];
     if ends[0].marker.body == ends[1].marker.body {
         return Err(between
             .problem(
@@ -139,50 +122,38 @@ impl Law {
 
 /// The spring, and whether it is one in torsion.
 fn spring(section: &Section) -> Result<(Law, bool)> {
-    section.expects(&["stiffness"]);
-    match (section.get("free_length"), section.get("free_angle")) {
-        (Some(length), None) => {
-            let stiffness = section.quantity("stiffness", &STIFFNESS)?.positive()?;
-            let length = length.quantity(&LENGTH)?.not_negative()?;
-            Ok((Law::Spring(stiffness, length), false))
-        }
-        (None, Some(angle)) => {
-            let stiffness = section.quantity("stiffness", &TORSION_STIFFNESS)?.positive()?;
-            Ok((Law::TorsionSpring(stiffness, angle.quantity(&ANGLE)?.si), true))
-        }
-        (Some(length), Some(angle)) => Err(Problem::new(format!(
-            "{} has both `free_length` and `free_angle`",
-            section.title()
-        ))
-        .at(length.key_span(), "of a spring along a line")
-        .at(angle.key_span(), "of a spring in torsion")
-        .help("keep one of them")),
-        (None, None) => Err(section.missing(
+    let given = section.one_of(&["free_length", "free_angle"]);
+    let Some((key, free)) = given else {
+        return Err(section.missing(
             "free_length",
             "free_length = \"250 mm\", the length without force, or free_angle = \"0 deg\" for a spring in torsion",
-        )),
-    }
+        ));
+    };
+    let torsion = key == "free_angle";
+    let kind = if torsion {
+        &TORSION_STIFFNESS
+    } else {
+        &STIFFNESS
+    };
+    let Some(stiffness) = section.get("stiffness") else {
+        return Err(section.missing("stiffness", &format!("stiffness = \"{}\"", kind.example)));
+    };
+    let stiffness = stiffness.quantity(kind)?.positive()?;
+    let free = free.value()?.si;
+    let law = if torsion {
+        Law::TorsionSpring(stiffness, free)
+    } else {
+        Law::Spring(stiffness, free)
+    };
+    Ok((law, torsion))
 }
 
 /// The damper, and whether it is one in torsion.
 fn damper(section: &Section) -> Result<(Law, bool)> {
-    match (section.get("viscous_force"), section.get("viscous_moment")) {
-        (Some(force), None) => {
-            let coefficient = force.quantity(&VISCOUS_FORCE)?.positive()?;
-            Ok((Law::Damper(coefficient), false))
-        }
-        (None, Some(moment)) => {
-            let coefficient = moment.quantity(&VISCOUS_MOMENT)?.positive()?;
-            Ok((Law::TorsionDamper(coefficient), true))
-        }
-        (Some(force), Some(moment)) => Err(Problem::new(format!(
-            "{} has both `viscous_force` and `viscous_moment`",
-            section.title()
-        ))
-        .at(force.key_span(), "along a line")
-        .at(moment.key_span(), "in torsion")
-        .help("write a separate [[damper]] for each")),
-        (None, None) => Err(section.missing(
+    match section.one_of(&["viscous_force", "viscous_moment"]) {
+        Some(("viscous_force", force)) => Ok((Law::Damper(force.value()?.si), false)),
+        Some((_, moment)) => Ok((Law::TorsionDamper(moment.value()?.si), true)),
+        None => Err(section.missing(
             "viscous_force",
             "viscous_force = \"300 N s/m\", or viscous_moment = \"0.4 N m s/rad\" for a damper in torsion",
         )),

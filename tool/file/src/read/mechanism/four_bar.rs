@@ -10,32 +10,27 @@ use crate::number::rounding::short;
 use crate::text::item::{Item, Value};
 use crate::text::problem::{Problem, Result};
 use crate::text::section::Section;
-use crate::units::kind::{ANGLE, LENGTH};
 
 pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
-    let item = section.require("pivot", "pivot = [\"300 mm\", \"0 mm\"]")?;
-    let pivot = item.pair([&LENGTH, &LENGTH])?.map(|value| value.si);
-    let side = side(section.get("side"))?;
-    let keep = section.get("keep_branch");
-    let kept = keep.as_ref().map_or(Ok(false), Item::flag)?;
+    let pivot = section.two("pivot")?;
+    let side = section.pick("side", [Side::Left, Side::Right])?;
+    let (keep, kept) = (section.get("keep_branch"), section.is("keep_branch")?);
     let stroke = match section.get("stroke") {
         Some(item) => {
-            let range = item.pair([&ANGLE, &ANGLE])?.map(|value| value.si);
+            let range = item.two()?;
             Some((item, range))
         }
         None => None,
     };
     let parts = ["crank", "coupler", "rocker"];
-    let [crank, coupler, rocker] = [
-        section.section(parts[0])?,
-        section.section(parts[1])?,
-        section.section(parts[2])?,
-    ];
-    let length = length(&crank)?;
+    let crank = section.table("crank")?;
+    let coupler = section.table("coupler")?;
+    let rocker = section.table("rocker")?;
+    let length = crank.value("length")?;
     let dimensions = FourBarDimensions {
         crank: length.si,
-        coupler: self::length(&coupler)?.si,
-        rocker: self::length(&rocker)?.si,
+        coupler: coupler.si("length")?,
+        rocker: rocker.si("length")?,
         pivot,
     };
     let links = [link(&crank)?, link(&coupler)?, link(&rocker)?];
@@ -65,13 +60,15 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
     let change_points = (mechanism.change_points().into_iter())
         .map(|at| ChangePoint { at, within })
         .collect();
-    Ok(AnyMechanism::new(super::FOUR_BAR, mechanism, parts, joints)
-        .with_point("A", FourBar::CRANK, [dimensions.crank, 0.0])
-        .with_point("B", FourBar::ROCKER, [dimensions.rocker, 0.0])
-        .with_point("C", FourBar::ROCKER, [0.0, 0.0])
-        .with_fact("Grashof's type", grashof)
-        .with_fact("transmission angle over the crank's range", angles)
-        .with_change_points(change_points))
+    Ok(
+        AnyMechanism::new(section.chosen(), mechanism, parts, joints)
+            .with_point("A", FourBar::CRANK, [dimensions.crank, 0.0])
+            .with_point("B", FourBar::ROCKER, [dimensions.rocker, 0.0])
+            .with_point("C", FourBar::ROCKER, [0.0, 0.0])
+            .with_fact("Grashof's type", grashof)
+            .with_fact("transmission angle over the crank's range", angles)
+            .with_change_points(change_points),
+    )
 }
 
 fn grashof(kind: Grashof) -> &'static str {
@@ -83,21 +80,6 @@ fn grashof(kind: Grashof) -> &'static str {
         Grashof::TripleRocker => "triple rocker: no link turns fully",
         Grashof::ChangePoint => "change point: the linkage can flatten",
     }
-}
-
-/// The length of a link, greater than zero.
-pub(super) fn length(link: &Section) -> Result<Value> {
-    let length = link.quantity("length", &LENGTH)?;
-    length.check_positive()?;
-    Ok(length)
-}
-
-/// `side = "left"` or `"right"`; left if not given.
-pub(super) fn side(item: Option<Item>) -> Result<Side> {
-    Ok(match item {
-        Some(item) if item.choice(&["left", "right"])? == 1 => Side::Right,
-        _ => Side::Left,
-    })
 }
 
 /// A crank that cannot turn fully: shown at the crank's length, or at that of the `last` link (to the slider) if that is too short. The help says how

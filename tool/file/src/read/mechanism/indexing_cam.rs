@@ -10,16 +10,10 @@ use crate::number::rounding::{figure, short};
 use crate::read::law;
 use crate::text::problem::Result;
 use crate::text::section::Section;
-use crate::units::kind::ANGLE;
 
 pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
-    let stops = section.require("stops", "stops = 8")?;
-    let stops = stops.count(IndexingCam::MAX_STOPS, "8")?;
-    let indexes = section
-        .get("indexes")
-        .map_or(Ok(1), |item| item.count(IndexingCam::MAX_INDEXES, "1"))?;
-    let angle = section.quantity("index_angle", &ANGLE)?;
-    angle.check_positive()?;
+    let (stops, indexes) = (section.whole("stops")?, section.whole("indexes")?);
+    let angle = section.value("index_angle")?;
     let period = TAU / f64::from(indexes);
     if angle.si > period * (1.0 + 1e-12) {
         let what = format!(
@@ -31,11 +25,9 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
             .problem(&what, "too large")
             .help("the rest of the turn is dwell: 90 deg to 270 deg are usual"));
     }
-    let reverses = section
-        .get("reverses")
-        .map_or(Ok(false), |item| item.flag())?;
+    let reverses = section.is("reverses")?;
     let law = law::read(section)?;
-    let cam = parts::wheel(&section.section("cam")?)?;
+    let cam = parts::wheel(&section.table("cam")?)?;
     let table = rotary_table::read_table(section)?;
     let dimensions = IndexingCamDimensions {
         stops,
@@ -51,7 +43,7 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
     let shown = |angle: f64| figure(angle.to_degrees());
     let joints = ["cam bearing", "table bearing", "cam and followers"];
     Ok(
-        AnyMechanism::new(super::INDEXING_CAM, mechanism, ["cam", "table"], joints)
+        AnyMechanism::new(section.chosen(), mechanism, ["cam", "table"], joints)
             .with_fact(
                 "index",
                 format!(

@@ -8,25 +8,14 @@ use super::{core, link, stopped, stroke};
 use crate::model::mechanism::AnyMechanism;
 use crate::text::problem::Result;
 use crate::text::section::Section;
-use crate::units::kind::LENGTH;
 
 pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
-    let (crank, block, lever) = (
-        section.section("crank")?,
-        section.section("block")?,
-        section.section("lever")?,
-    );
-    let length = crank.quantity("length", &LENGTH)?;
-    length.check_positive()?;
-    let crank = link(&crank)?;
-    let block = link(&block)?;
-    let item = lever.require("pivot", "pivot = [\"0 mm\", \"-200 mm\"]")?;
-    let pivot = item.pair([&LENGTH, &LENGTH])?.map(|value| value.si);
-    let offset = lever
-        .optional("offset", &LENGTH)?
-        .map_or(0.0, |value| value.si);
-    let lever = link(&lever)?;
-    let links = [crank, block, lever];
+    let crank = section.table("crank")?;
+    let block = section.table("block")?;
+    let lever = section.table("lever")?;
+    let (length, item) = (crank.value("length")?, lever.need("pivot")?);
+    let (pivot, offset) = (item.two()?, lever.si("offset")?);
+    let links = [link(&crank)?, link(&block)?, link(&lever)?];
     let dimensions = InvertedSliderCrankDimensions {
         crank: length.si,
         pivot,
@@ -79,7 +68,7 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
     let names = ["crank", "block", "lever"];
     let joints = ["crank pivot", "crank pin", "slot", "lever pivot"];
     Ok(
-        AnyMechanism::new(super::INVERTED_SLIDER_CRANK, mechanism, names, joints)
+        AnyMechanism::new(section.chosen(), mechanism, names, joints)
             .with_point("A", InvertedSliderCrank::CRANK, [length.si, 0.0])
             .with_point("C", InvertedSliderCrank::LEVER, [0.0, 0.0]),
     )

@@ -13,10 +13,8 @@ use jred::mechanism::linkage::{LinkageError, Pair};
 
 use crate::model::coordinate::Coordinate;
 use crate::model::mechanism::{AnyMechanism, ChangePoint, Inner};
-use crate::text::item::Item;
 use crate::text::problem::Result;
 use crate::text::section::Section;
-use crate::units::kind::{ANGLE, LENGTH};
 
 use bodies::Bodies;
 use joints::Held;
@@ -65,14 +63,10 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
         Some("prismatic") => Coordinate::Length,
         _ => Coordinate::Angle,
     };
-    let kind = match coordinate {
-        Coordinate::Angle => &ANGLE,
-        Coordinate::Length => &LENGTH,
-    };
-    let drawn_at = section.optional("drawn_at", kind)?.map(|value| value.si);
+    section.set_slides(coordinate == Coordinate::Length);
+    let drawn_at = section.maybe("drawn_at")?;
     let domain = domain(section, coordinate)?;
-    let keep = section.get("keep_branch");
-    let kept = keep.as_ref().map_or(Ok(false), Item::flag)?;
+    let (keep, kept) = (section.get("keep_branch"), section.is("keep_branch")?);
     let poses = drawing::poses(&bodies, &joints, drive, drawn_at)?;
     let frames: Vec<Frame> = poses
         .iter()
@@ -111,7 +105,7 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
     let names = bodies.names();
     let joint_names = joints.iter().map(|joint| joint.name.clone());
     let pairs: Vec<Pair> = joints.iter().map(|joint| joint.pair).collect();
-    let mut mechanism = AnyMechanism::new(super::LINKAGE, assembly, names, joint_names)
+    let mut mechanism = AnyMechanism::new(section.chosen(), assembly, names, joint_names)
         .with_pairs(&pairs)
         .with_change_points(change_points);
     for (link, body) in bodies.moving.iter().enumerate() {
@@ -193,20 +187,15 @@ fn drive(section: &Section, joints: &[Held]) -> Result<usize> {
 
 /// A full turn, or the stroke in the file.
 fn domain(section: &Section, coordinate: Coordinate) -> Result<Domain> {
-    let (kind, example) = match coordinate {
-        Coordinate::Angle => (&ANGLE, "stroke = [\"-30 deg\", \"60 deg\"]"),
-        Coordinate::Length => (&LENGTH, "stroke = [\"400 mm\", \"650 mm\"]"),
-    };
     let Some(item) = section.get("stroke") else {
         if coordinate == Coordinate::Length {
-            return Err(section.missing(
-                "stroke",
-                &format!("{example}: a sliding drive needs two ends of its stroke"),
-            ));
+            let example =
+                "stroke = [\"400 mm\", \"650 mm\"]: a sliding drive needs two ends of its stroke";
+            return Err(section.missing("stroke", example));
         }
         return Ok(Domain::Turn);
     };
-    let [from, to] = super::parts::ends(&item, kind, example)?;
+    let [from, to] = super::parts::ends(&item)?;
     Domain::stroke(from, to).map_err(|error| super::core(section, error))
 }
 

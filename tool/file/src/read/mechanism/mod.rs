@@ -30,168 +30,62 @@ use jred::error::Error;
 use jred::machine::{Link, MassProperties, Mechanism as _, PoseError};
 use jred::mechanism::BuildError;
 
+use crate::keys::cam::DISC_CAM;
+use crate::keys::linkage::LINKAGE;
+use crate::keys::mechanism as keys;
 use crate::model::coordinate::Coordinate;
 use crate::model::mechanism::AnyMechanism;
 use crate::number::rounding::figure;
 use crate::text::file::Files;
 
 use crate::text::item::Item;
+use crate::text::key::Table;
 use crate::text::problem::{Problem, Result};
 use crate::text::section::Section;
-use crate::units::kind::{ANGLE, INERTIA, LENGTH, MASS};
-
-/// The types of mechanism in machine files.
-const SLIDER_CRANK: &str = "slider-crank";
-const GEAR_TRAIN: &str = "gear-train";
-const BELT: &str = "belt";
-const LINKAGE: &str = "linkage";
-const SCOTCH_YOKE: &str = "scotch-yoke";
-const INVERTED_SLIDER_CRANK: &str = "inverted-slider-crank";
-const FRICTION_DRIVE: &str = "friction-drive";
-const GENEVA: &str = "geneva";
-const INDEXING_CAM: &str = "indexing-cam";
-const DISC_CAM: &str = "disc-cam";
-const FOUR_BAR: &str = "four-bar";
-const SIX_LINK: &str = "six-link";
-const TOGGLE_PRESS: &str = "toggle-press";
-const RACK: &str = "rack-and-pinion";
-const BALL_SCREW: &str = "ball-screw";
-const HOIST: &str = "hoist";
-const PLANETARY: &str = "planetary";
-const PARALLEL_SHAFTS: &str = "parallel-shafts";
-const REDUCED_CURVES: &str = "reduced-curves";
-const BELT_AXIS: &str = "belt-axis";
-const CONVEYOR: &str = "conveyor";
-const FEED_ROLL: &str = "feed-roll";
-const ROTARY_TABLE: &str = "rotary-table";
-const WINDER: &str = "winder";
 
 /// A reader of one type of mechanism; keys that it does not read are refused.
-type Reader = fn(&Section) -> Result<AnyMechanism>;
+#[derive(Clone, Copy)]
+enum Reader {
+    /// From the machine file alone.
+    Text(fn(&Section) -> Result<AnyMechanism>),
+    /// From a file that it names, too.
+    Files(fn(&Section, &dyn Files) -> Result<AnyMechanism>),
+}
 
-/// A reader of a type that names a file in the machine file's folder.
-type FileReader = fn(&Section, &dyn Files) -> Result<AnyMechanism>;
-
-/// Each type with its reader and its own keys; no keys where they depend on other values.
-const TYPES: [(&str, &[&str], Reader); 22] = [
+/// The types with their keys and their readers.
+const TYPES: [(&Table, Reader); 24] = [
+    (&keys::SLIDER_CRANK, Reader::Text(slider_crank::read)),
+    (&keys::GEAR_TRAIN, Reader::Text(train::read_gears)),
+    (&keys::BELT, Reader::Text(train::read_belt)),
+    (&LINKAGE, Reader::Text(linkage::read)),
+    (&keys::SCOTCH_YOKE, Reader::Text(scotch_yoke::read)),
     (
-        SLIDER_CRANK,
-        &["branch", "offset", "stroke", "crank", "rod", "slider"],
-        slider_crank::read,
+        &keys::INVERTED_SLIDER_CRANK,
+        Reader::Text(inverted_slider_crank::read),
     ),
-    (GEAR_TRAIN, &[], train::read_gears),
-    (BELT, &[], train::read_belt),
-    (
-        LINKAGE,
-        &[
-            "drive",
-            "drawn_at",
-            "keep_branch",
-            "stroke",
-            "ground",
-            "body",
-            "joint",
-        ],
-        linkage::read,
-    ),
-    (
-        SCOTCH_YOKE,
-        &["slot_angle", "crank", "yoke"],
-        scotch_yoke::read,
-    ),
-    (INVERTED_SLIDER_CRANK, &[], inverted_slider_crank::read),
-    (
-        GENEVA,
-        &["slots", "centre_distance", "crank", "wheel"],
-        geneva::read,
-    ),
-    (
-        FOUR_BAR,
-        &[
-            "pivot",
-            "side",
-            "keep_branch",
-            "stroke",
-            "crank",
-            "coupler",
-            "rocker",
-        ],
-        four_bar::read,
-    ),
-    (
-        SIX_LINK,
-        &[
-            "centres", "guide", "branch", "stroke", "crank", "block", "rocker", "rod", "slider",
-        ],
-        six_link::read,
-    ),
-    (
-        TOGGLE_PRESS,
-        &[
-            "pivot", "guide", "knee", "branch", "stroke", "crank", "rod", "upper", "lower", "ram",
-        ],
-        toggle_press::read,
-    ),
-    (RACK, &["pinion", "rack", "stroke"], rack::read),
-    (
-        BALL_SCREW,
-        &["lead", "screw", "nut", "stroke"],
-        ball_screw::read,
-    ),
-    (
-        HOIST,
-        &["drum", "load", "counterweight", "stroke"],
-        hoist::read,
-    ),
-    (
-        PLANETARY,
-        &[
-            "input",
-            "fixed",
-            "centre_distance",
-            "sun",
-            "carrier",
-            "ring",
-            "planets",
-        ],
-        planetary::read,
-    ),
-    (PARALLEL_SHAFTS, &["drive", "driven"], parallel_shafts::read),
-    (
-        FRICTION_DRIVE,
-        &["arrangement", "inertia", "power_flow", "stage"],
-        friction_drive::read,
-    ),
-    (
-        BELT_AXIS,
-        &["pulley", "idler", "belt_mass", "carriage", "stroke"],
-        traction::read_belt_axis,
-    ),
-    (
-        CONVEYOR,
-        &["drum", "idler", "belt_mass", "goods"],
-        traction::read_conveyor,
-    ),
-    (
-        FEED_ROLL,
-        &["roll", "idler", "strip"],
-        traction::read_feed_roll,
-    ),
-    (ROTARY_TABLE, &["table", "parts"], rotary_table::read),
-    (INDEXING_CAM, &[], indexing_cam::read),
-    (WINDER, &["core", "web", "full_diameter"], winder::read),
-];
-
-/// The types that are, or can be, read from a file of their own.
-const FILE_TYPES: [(&str, FileReader); 2] = [
-    (DISC_CAM, disc_cam::read),
-    (REDUCED_CURVES, reduced_curves::read),
+    (&keys::GENEVA, Reader::Text(geneva::read)),
+    (&keys::FOUR_BAR, Reader::Text(four_bar::read)),
+    (&keys::SIX_LINK, Reader::Text(six_link::read)),
+    (&keys::TOGGLE_PRESS, Reader::Text(toggle_press::read)),
+    (&keys::RACK_AND_PINION, Reader::Text(rack::read)),
+    (&keys::BALL_SCREW, Reader::Text(ball_screw::read)),
+    (&keys::HOIST, Reader::Text(hoist::read)),
+    (&keys::PLANETARY, Reader::Text(planetary::read)),
+    (&keys::PARALLEL_SHAFTS, Reader::Text(parallel_shafts::read)),
+    (&keys::FRICTION_DRIVE, Reader::Text(friction_drive::read)),
+    (&keys::BELT_AXIS, Reader::Text(traction::read_belt_axis)),
+    (&keys::CONVEYOR, Reader::Text(traction::read_conveyor)),
+    (&keys::FEED_ROLL, Reader::Text(traction::read_feed_roll)),
+    (&keys::ROTARY_TABLE, Reader::Text(rotary_table::read)),
+    (&keys::INDEXING_CAM, Reader::Text(indexing_cam::read)),
+    (&keys::WINDER, Reader::Text(winder::read)),
+    (&DISC_CAM, Reader::Files(disc_cam::read)),
+    (&keys::REDUCED_CURVES, Reader::Files(reduced_curves::read)),
 ];
 
 /// The types of mechanism that a machine file can have.
 pub fn mechanism_types() -> impl Iterator<Item = &'static str> {
-    let files = FILE_TYPES.iter().map(|(name, _)| *name);
-    TYPES.iter().map(|(name, ..)| *name).chain(files)
+    TYPES.iter().map(|(table, _)| table.name)
 }
 
 /// The mechanism under this `gravity` (m/s²), and the inertia of its flywheel (kg·m²).
@@ -201,28 +95,17 @@ pub(super) fn read(
     files: &dyn Files,
 ) -> Result<(AnyMechanism, f64)> {
     let kind = section
-        .require("type", "type = \"slider-crank\"")?
-        .choice(&mechanism_types().collect::<Vec<_>>())?;
-    let flywheel = match section.optional("flywheel", &INERTIA)? {
-        Some(value) => value.not_negative()?,
-        None => 0.0,
-    };
-    let mechanism = match (TYPES.get(kind), kind.checked_sub(TYPES.len())) {
-        (None, Some(file)) => FILE_TYPES[file].1(section, files)?,
-        (kind, _) => {
-            let (_, keys, read) = kind.unwrap_or(&TYPES[0]);
-            if !keys.is_empty() {
-                section.expects_only(keys);
-            }
-            read(section)?
-        }
+        .need("type")?
+        .choice(&TYPES.map(|(table, _)| table.name))?;
+    let (table, reader) = TYPES[kind];
+    section.vary(table)?;
+    let flywheel = section.si("flywheel")?;
+    let mechanism = match reader {
+        Reader::Text(read) => read(section)?,
+        Reader::Files(read) => read(section, files)?,
     };
     let mechanism = swing(section, mechanism)?;
-    let elsewhere = |key: &str| match key {
-        "efficiency" => Some("efficiency belongs to [[drive_train]]"),
-        _ => None,
-    };
-    section.finish_with(elsewhere)?;
+    section.finish()?;
     let mut mechanism = mechanism
         .with_gravity_on_guides(gravity)
         .map_err(|error| core(section, error))?;
@@ -233,7 +116,13 @@ pub(super) fn read(
 }
 
 /// The types whose part slides along x.
-const AXES: [&str; 5] = [RACK, BALL_SCREW, BELT_AXIS, CONVEYOR, FEED_ROLL];
+const AXES: [&str; 5] = [
+    keys::RACK_AND_PINION.name,
+    keys::BALL_SCREW.name,
+    keys::BELT_AXIS.name,
+    keys::CONVEYOR.name,
+    keys::FEED_ROLL.name,
+];
 
 /// Direction of the x axis under this `gravity` (m/s²), in words.
 fn inclination([x, y]: [f64; 2]) -> String {
@@ -281,7 +170,7 @@ fn stroke<'a>(section: &Section<'a>) -> Result<Option<(Item<'a>, [f64; 2])>> {
     let Some(item) = section.get("stroke") else {
         return Ok(None);
     };
-    let [from, to] = item.pair([&ANGLE, &ANGLE])?;
+    let [from, to] = item.values()?;
     let width = to.si - from.si;
     if width <= 0.0 || width >= TAU {
         return Err(item
@@ -326,13 +215,15 @@ const ROD: [&str; 2] = [
     "the rod is perpendicular to the guide",
 ];
 
-/// Mass, moment of inertia and centre of mass of a crank or a rod.
+/// A link with its mass, its moment of inertia and its centre of mass.
 fn link(section: &Section) -> Result<Link> {
-    let mass = section.quantity("mass", &MASS)?.not_negative()?;
-    let inertia = section.quantity("inertia", &INERTIA)?.not_negative()?;
-    let com = section.point("com", &LENGTH)?;
+    let properties = MassProperties {
+        mass: section.si("mass")?,
+        inertia: section.si("inertia")?,
+        com: section.two("com")?,
+    };
     section.finish()?;
-    Link::new(MassProperties { mass, inertia, com }).map_err(|error| core(section, error))
+    Link::new(properties).map_err(|error| core(section, error))
 }
 
 /// An error of the core without a key to show it at.

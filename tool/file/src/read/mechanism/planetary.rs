@@ -9,17 +9,12 @@ use super::{core, parts};
 use crate::model::mechanism::AnyMechanism;
 use crate::text::problem::{Problem, Result};
 use crate::text::section::Section;
-use crate::units::kind::LENGTH;
 
-const MEMBERS: [(&str, Member); 3] = [
-    ("sun", Member::Sun),
-    ("carrier", Member::Carrier),
-    ("ring", Member::Ring),
-];
+const MEMBERS: [Member; 3] = [Member::Sun, Member::Carrier, Member::Ring];
 
 pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
-    let input = member(section, "input", "sun")?;
-    let fixed = member(section, "fixed", "ring")?;
+    let input = section.pick("input", MEMBERS)?;
+    let fixed = section.pick("fixed", MEMBERS)?;
     if input == fixed {
         return Err(section
             .problem(
@@ -28,23 +23,20 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
             )
             .help("choose two different members: the third is the output"));
     }
-    let centres = section.quantity("centre_distance", &LENGTH)?.positive()?;
-    let sections = [
-        section.section("sun")?,
-        section.section("carrier")?,
-        section.section("ring")?,
-        section.section("planets")?,
-    ];
-    let [sun, carrier, ring, planets] = &sections;
-    let (sun_teeth, ring_teeth) = (teeth(sun)?, teeth(ring)?);
-    let count = planets.require("count", "count = 3")?.count(1000, "3")?;
+    let centres = section.si("centre_distance")?;
+    let sun = &section.table("sun")?;
+    let carrier = &section.table("carrier")?;
+    let ring = &section.table("ring")?;
+    let planets = &section.table("planets")?;
+    let (sun_teeth, ring_teeth) = (sun.whole("teeth")?, ring.whole("teeth")?);
+    let count = planets.whole("count")?;
     let planet_teeth = match planets.get("teeth") {
-        Some(item) => item.count(PlanetaryGears::MAX_TEETH, "20")?,
+        Some(item) => item.whole()?,
         None => ring_teeth.saturating_sub(sun_teeth) / 2,
     };
     let at = |member: Member, section: &Section| {
         if member == fixed && section.get("inertia").is_none() {
-            let mass = parts::mass(section)?;
+            let mass = section.si("mass")?;
             section.finish()?;
             return Link::point_mass(mass).map_err(|error| core(section, error));
         }
@@ -77,35 +69,12 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
         "ring mesh",
     ];
     Ok(
-        AnyMechanism::new(super::PLANETARY, mechanism, names, joints).with_point(
+        AnyMechanism::new(section.chosen(), mechanism, names, joints).with_point(
             "P",
             Planetary::PLANETS,
             [0.0, 0.0],
         ),
     )
-}
-
-fn member(section: &Section, key: &'static str, example: &str) -> Result<Member> {
-    let words = MEMBERS.map(|(name, _)| name);
-    let index = section
-        .require(key, &format!("{key} = \"{example}\""))?
-        .choice(&words)?;
-    Ok(MEMBERS
-        .get(index)
-        .map_or(Member::Sun, |(_, member)| *member))
-}
-
-fn teeth(section: &Section) -> Result<u32> {
-    let item = section.require("teeth", "teeth = 24")?;
-    let teeth = item.count(PlanetaryGears::MAX_TEETH, "24")?;
-    let least = PlanetaryGears::MIN_TEETH;
-    if teeth < least {
-        let what = format!("is {teeth}, but must be at least {least}");
-        return Err(item
-            .problem(&what, "too few")
-            .help("write the number of teeth of the gear"));
-    }
-    Ok(teeth)
 }
 
 /// Gears that do not fit together; shown at the planets.

@@ -69,14 +69,8 @@ fn of_reduce(name: &str) -> bool {
 }
 
 pub(super) fn read(section: &Section, files: &dyn Files) -> Result<AnyMechanism> {
-    let item = section.require("file", "file = \"curves.csv\"")?;
-    let turn = section
-        .require(
-            "range",
-            "range = \"turn\", or \"stroke\" for a part of a turn and for a drive link that slides",
-        )?
-        .choice(&["turn", "stroke"])?
-        == 0;
+    let item = section.need("file")?;
+    let turn = section.word("range")? == 0;
     let file = CsvFile::open(&item, "curves.csv", files)?;
     let layout = Layout::read(section)?;
     let curves = Curves::read(&file.text, turn, &layout).map_err(|fault| file.shows(fault))?;
@@ -87,7 +81,7 @@ pub(super) fn read(section: &Section, files: &dyn Files) -> Result<AnyMechanism>
     } else {
         "drive bearing"
     };
-    let mut mechanism = AnyMechanism::new(super::REDUCED_CURVES, alone, ["drive link"], [joint])
+    let mut mechanism = AnyMechanism::new(section.chosen(), alone, ["drive link"], [joint])
         .with_stand_ins(&curves.stand_ins)
         .map_err(|error| core(section, error))?;
     for (label, text) in curves.facts {

@@ -1,7 +1,5 @@
 //! `type = "scotch-yoke"`.
 
-use std::f64::consts::FRAC_PI_2;
-
 use jred::mechanism::{BuildError, ScotchYoke, ScotchYokeDimensions};
 use jred::number::RangeError;
 
@@ -9,16 +7,15 @@ use super::{core, link, parts};
 use crate::model::mechanism::AnyMechanism;
 use crate::text::problem::Result;
 use crate::text::section::Section;
-use crate::units::kind::{ANGLE, LENGTH};
 
 pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
-    let slot_angle = section.optional("slot_angle", &ANGLE)?;
-    let (crank, yoke) = (section.section("crank")?, section.section("yoke")?);
-    let length = crank.quantity("length", &LENGTH)?.positive()?;
+    let slot_angle = section.given("slot_angle")?;
+    let (crank, yoke) = (section.table("crank")?, section.table("yoke")?);
+    let length = crank.si("length")?;
     let links = [link(&crank)?, parts::slide(&yoke)?];
     let dimensions = ScotchYokeDimensions {
         crank: length,
-        slot_angle: slot_angle.as_ref().map_or(FRAC_PI_2, |value| value.si),
+        slot_angle: section.si("slot_angle")?,
     };
     let mechanism = ScotchYoke::new(dimensions, links).map_err(|error| {
         let (BuildError::Range(RangeError::OutOfRange { min, max, .. }), Some(given)) =
@@ -34,7 +31,7 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
     })?;
     let joints = ["crank pivot", "pin in the slot", "guide"];
     Ok(
-        AnyMechanism::new(super::SCOTCH_YOKE, mechanism, ["crank", "yoke"], joints)
+        AnyMechanism::new(section.chosen(), mechanism, ["crank", "yoke"], joints)
             .with_point("A", ScotchYoke::CRANK, [length, 0.0])
             .with_point("B", ScotchYoke::YOKE, [0.0, 0.0]),
     )

@@ -2,35 +2,26 @@
 
 use jred::mechanism::{Branch, SixLink, SixLinkDimensions};
 
-use super::four_bar::{blocked, length};
+use super::four_bar::blocked;
 use super::parts::slide;
 use super::{ROD, link, stopped, stroke};
 use crate::model::mechanism::AnyMechanism;
 use crate::text::problem::Result;
 use crate::text::section::Section;
-use crate::units::kind::LENGTH;
 
 pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
-    let centres = section.quantity("centres", &LENGTH)?.positive()?;
-    let guide = section
-        .optional("guide", &LENGTH)?
-        .map_or(0.0, |value| value.si);
-    let branch = match section.get("branch") {
-        Some(item) if item.choice(&["right", "left"])? == 1 => Branch::Left,
-        _ => Branch::Right,
-    };
-    let (crank, block, rocker, rod, slider) = (
-        section.section("crank")?,
-        section.section("block")?,
-        section.section("rocker")?,
-        section.section("rod")?,
-        section.section("slider")?,
-    );
-    let crank_length = length(&crank)?;
-    let (rocker_length, rod_length) = (length(&rocker)?, length(&rod)?);
+    let (centres, guide) = (section.si("centres")?, section.si("guide")?);
+    let branch = section.pick("branch", [Branch::Right, Branch::Left])?;
+    let crank = section.table("crank")?;
+    let block = section.table("block")?;
+    let rocker = section.table("rocker")?;
+    let rod = section.table("rod")?;
+    let slider = section.table("slider")?;
+    let crank_length = crank.value("length")?;
+    let (rocker_length, rod_length) = (rocker.si("length")?, rod.value("length")?);
     let dimensions = SixLinkDimensions {
         crank: crank_length.si,
-        rocker: rocker_length.si,
+        rocker: rocker_length,
         rod: rod_length.si,
         centres,
         // The core measures the guide downwards, as the published equations do.
@@ -59,8 +50,10 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
         "slider pin",
         "guide",
     ];
-    Ok(AnyMechanism::new(super::SIX_LINK, mechanism, names, joints)
-        .with_point("A", SixLink::CRANK, [dimensions.crank, 0.0])
-        .with_point("B", SixLink::ROCKER, [dimensions.rocker, 0.0])
-        .with_point("C", SixLink::SLIDER, [0.0, 0.0]))
+    Ok(
+        AnyMechanism::new(section.chosen(), mechanism, names, joints)
+            .with_point("A", SixLink::CRANK, [dimensions.crank, 0.0])
+            .with_point("B", SixLink::ROCKER, [dimensions.rocker, 0.0])
+            .with_point("C", SixLink::SLIDER, [0.0, 0.0]),
+    )
 }

@@ -1,52 +1,27 @@
 //! `type = "slider-crank"`.
 
-use jred::machine::Link;
-use jred::machine::MassProperties;
 use jred::mechanism::{Branch, BuildError, RotationError, SliderCrank, SliderCrankDimensions};
 
 use crate::model::mechanism::AnyMechanism;
 
-use super::{ROD, core, link, stopped, stroke};
+use super::{ROD, core, link, parts, stopped, stroke};
 use crate::text::problem::Result;
 use crate::text::section::Section;
-use crate::units::kind::{LENGTH, MASS};
 
 pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
-    let branches = ["right", "left"];
-    let branch = match section.get("branch") {
-        Some(item) if item.choice(&branches)? == 1 => Branch::Left,
-        _ => Branch::Right,
-    };
-    let offset = section.optional("offset", &LENGTH)?;
+    let branch = section.pick("branch", [Branch::Right, Branch::Left])?;
+    let offset = section.si("offset")?;
     let stroke = stroke(section)?;
-    let (crank, rod, slider) = (
-        section.section("crank")?,
-        section.section("rod")?,
-        section.section("slider")?,
-    );
-    let length = crank.quantity("length", &LENGTH)?.positive()?;
-    let crank = link(&crank)?;
-    let rod_length = rod.quantity("length", &LENGTH)?;
-    rod_length.check_positive()?;
-    let rod = link(&rod)?;
-    let mass = slider.quantity("mass", &MASS)?.not_negative()?;
-    let com = slider.point("com", &LENGTH)?;
-    let turns = |key: &str| {
-        (key == "inertia").then_some("the slider does not turn, so it has no moment of inertia")
-    };
-    slider.finish_with(turns)?;
-    let slider = Link::new(MassProperties {
-        mass,
-        inertia: 0.0,
-        com,
-    })
-    .map_err(|error| core(section, error))?;
+    let crank = section.table("crank")?;
+    let rod = section.table("rod")?;
+    let slider = section.table("slider")?;
+    let (length, rod_length) = (crank.si("length")?, rod.value("length")?);
+    let links = [link(&crank)?, link(&rod)?, parts::slide(&slider)?];
     let dimensions = SliderCrankDimensions {
         crank: length,
         rod: rod_length.si,
-        offset: offset.as_ref().map_or(0.0, |value| value.si),
+        offset,
     };
-    let links = [crank, rod, slider];
     let built = match &stroke {
         Some((_, stroke)) => SliderCrank::over_stroke(dimensions, branch, *stroke, links),
         None => SliderCrank::new(dimensions, branch, links),
@@ -84,7 +59,7 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
     let links = ["crank", "rod", "slider"];
     let joints = ["crank pivot", "crank pin", "slider pin", "guide"];
     Ok(
-        AnyMechanism::new(super::SLIDER_CRANK, mechanism, links, joints)
+        AnyMechanism::new(section.chosen(), mechanism, links, joints)
             .with_point("A", SliderCrank::CRANK, [length, 0.0])
             .with_point("B", SliderCrank::SLIDER, [0.0, 0.0]),
     )

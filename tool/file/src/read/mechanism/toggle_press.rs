@@ -1,37 +1,29 @@
 //! `type = "toggle-press"`: knuckle-joint press.
 
 use jred::machine::PoseError;
-use jred::mechanism::{Branch, BuildError, TogglePress, TogglePressDimensions};
+use jred::mechanism::{Branch, BuildError, Side, TogglePress, TogglePressDimensions};
 
-use super::four_bar::{blocked, length, side};
+use super::four_bar::blocked;
 use super::parts::slide;
 use super::{link, stopped, stroke};
 use crate::model::mechanism::AnyMechanism;
 use crate::text::problem::Result;
 use crate::text::section::Section;
-use crate::units::kind::LENGTH;
 
 pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
-    let item = section.require("pivot", "pivot = [\"-250 mm\", \"400 mm\"]")?;
-    let pivot = item.pair([&LENGTH, &LENGTH])?.map(|value| value.si);
-    let guide = section.quantity("guide", &LENGTH)?.si;
-    let knee = side(section.get("knee"))?;
-    let branch = match section.get("branch") {
-        Some(item) if item.choice(&["right", "left"])? == 1 => Branch::Left,
-        _ => Branch::Right,
-    };
-    let (crank, rod, upper, lower, ram) = (
-        section.section("crank")?,
-        section.section("rod")?,
-        section.section("upper")?,
-        section.section("lower")?,
-        section.section("ram")?,
-    );
-    let (crank_length, lower_length) = (length(&crank)?, length(&lower)?);
+    let (pivot, guide) = (section.two("pivot")?, section.si("guide")?);
+    let knee = section.pick("knee", [Side::Left, Side::Right])?;
+    let branch = section.pick("branch", [Branch::Right, Branch::Left])?;
+    let crank = section.table("crank")?;
+    let rod = section.table("rod")?;
+    let upper = section.table("upper")?;
+    let lower = section.table("lower")?;
+    let ram = section.table("ram")?;
+    let (crank_length, lower_length) = (crank.value("length")?, lower.value("length")?);
     let dimensions = TogglePressDimensions {
         crank: crank_length.si,
-        rod: length(&rod)?.si,
-        upper: length(&upper)?.si,
+        rod: rod.si("length")?,
+        upper: upper.si("length")?,
         lower: lower_length.si,
         pivot,
         guide,
@@ -76,7 +68,7 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
         "guide",
     ];
     Ok(
-        AnyMechanism::new(super::TOGGLE_PRESS, mechanism, names, joints)
+        AnyMechanism::new(section.chosen(), mechanism, names, joints)
             .with_point("A", TogglePress::CRANK, [dimensions.crank, 0.0])
             .with_point("K", TogglePress::UPPER, [dimensions.upper, 0.0])
             .with_point("P", TogglePress::UPPER, [0.0, 0.0])

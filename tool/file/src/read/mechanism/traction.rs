@@ -12,17 +12,11 @@ use jred::mechanism::RackAndPinion;
 use super::{core, parts};
 use crate::model::mechanism::AnyMechanism;
 use crate::number::rounding::figure;
-use crate::text::item::Value;
 use crate::text::problem::Result;
 use crate::text::section::Section;
-use crate::units::kind::{INERTIA, LENGTH, MASS};
-
-/// Most wheels of one size.
-const MOST_WHEELS: u32 = 1000;
 
 /// Names of the parts of an axis.
 struct Words {
-    kind: &'static str,
     wheel: &'static str,
     slide: &'static str,
     joints: [&'static str; 3],
@@ -36,7 +30,6 @@ pub(super) fn read_belt_axis(section: &Section) -> Result<AnyMechanism> {
     read(
         section,
         &Words {
-            kind: super::BELT_AXIS,
             wheel: "pulley",
             slide: "carriage",
             joints: ["pulley bearing", "carriage guide", "belt"],
@@ -51,7 +44,6 @@ pub(super) fn read_conveyor(section: &Section) -> Result<AnyMechanism> {
     read(
         section,
         &Words {
-            kind: super::CONVEYOR,
             wheel: "drum",
             slide: "goods",
             joints: ["drum bearing", "slide bed", "belt"],
@@ -65,7 +57,6 @@ pub(super) fn read_feed_roll(section: &Section) -> Result<AnyMechanism> {
     read(
         section,
         &Words {
-            kind: super::FEED_ROLL,
             wheel: "roll",
             slide: "strip",
             joints: ["roll bearing", "strip guide", "nip"],
@@ -76,27 +67,21 @@ pub(super) fn read_feed_roll(section: &Section) -> Result<AnyMechanism> {
 }
 
 fn read(section: &Section, words: &Words) -> Result<AnyMechanism> {
-    let wheel = section.section(words.wheel)?;
+    let wheel = section.table(words.wheel)?;
     let diameter = diameter(&wheel)?;
     let radius = 0.5 * diameter;
-    let (mass, mut inertia) = (
-        parts::mass(&wheel)?,
-        wheel.quantity("inertia", &INERTIA)?.not_negative()?,
-    );
+    let (mass, mut inertia) = (wheel.si("mass")?, wheel.si("inertia")?);
     wheel.finish()?;
-    if let Some(item) = section.get("idler") {
-        for idler in item.sections("[[mechanism.idler]]")? {
-            inertia += idler_inertia(&idler, diameter)?;
-        }
+    for idler in section.tables("idler")? {
+        inertia += idler_inertia(&idler, diameter)?;
     }
     let (mut on_the_bed, mut belt) = (0.0, 0.0);
     if let Some(share) = words.belt {
-        let given = section.optional("belt_mass", &MASS)?;
-        belt = given.map_or(Ok(0.0), Value::not_negative)?;
+        belt = section.si("belt_mass")?;
         inertia += belt * radius * radius;
         on_the_bed = share * belt;
     }
-    let slide = section.section(words.slide)?;
+    let slide = section.table(words.slide)?;
     let (link, friction) = parts::guided(&slide)?;
     let pressed = link.mass() + on_the_bed;
     let properties = MassProperties {
@@ -108,7 +93,7 @@ fn read(section: &Section, words: &Words) -> Result<AnyMechanism> {
     let mechanism =
         RackAndPinion::new(radius, [pinion, link]).map_err(|error| core(section, error))?;
     let names = [words.wheel, words.slide];
-    let mechanism = AnyMechanism::new(words.kind, mechanism, names, words.joints)
+    let mechanism = AnyMechanism::new(section.chosen(), mechanism, names, words.joints)
         .with_point("B", RackAndPinion::RACK, [0.0, 0.0])
         .with_friction(RackAndPinion::RACK, friction * pressed);
     let mechanism = match belt {
@@ -126,37 +111,23 @@ fn read(section: &Section, words: &Words) -> Result<AnyMechanism> {
 
 /// The effective diameter (m): as given, or pitch · teeth / π.
 fn diameter(wheel: &Section) -> Result<f64> {
-    let (pitch, teeth) = (wheel.get("pitch"), wheel.get("teeth"));
-    let Some(item) = wheel.get("diameter") else {
-        if pitch.is_none() && teeth.is_none() {
-            return Err(wheel.missing(
-                "diameter",
-                "diameter = \"60 mm\", the pitch diameter, or pitch = \"5 mm\" and teeth = 40",
-            ));
+    match wheel.one_of(&["diameter", "pitch", "teeth"]) {
+        Some(("diameter", item)) => Ok(item.value()?.si),
+        Some(_) => {
+            let pitch = wheel.value("pitch")?.si;
+            Ok(pitch * f64::from(wheel.whole("teeth")?) / PI)
         }
-        let pitch = wheel.quantity("pitch", &LENGTH)?.positive()?;
-        let teeth = wheel.require("teeth", "teeth = 40")?.count(100_000, "40")?;
-        return Ok(pitch * f64::from(teeth) / PI);
-    };
-    if let Some(other) = pitch.or(teeth) {
-        return Err(other
-            .problem("is not used: the diameter is given", "remove this")
-            .help("give the diameter, or pitch and teeth"));
+        None => Err(wheel.missing(
+            "diameter",
+            "diameter = \"60 mm\", the pitch diameter, or pitch = \"5 mm\" and teeth = 40",
+        )),
     }
-    item.quantity(&LENGTH)?.positive()
 }
 
 /// The moment of inertia of other wheels (kg·m²), referred to the driven wheel of this `diameter`; by default they have the same diameter.
 fn idler_inertia(idler: &Section, diameter: f64) -> Result<f64> {
-    idler.expects(&["diameter", "count", "inertia"]);
-    let own = match idler.optional("diameter", &LENGTH)? {
-        Some(value) => value.positive()?,
-        None => diameter,
-    };
-    let count = idler
-        .get("count")
-        .map_or(Ok(1), |item| item.count(MOST_WHEELS, "2"))?;
-    let inertia = idler.quantity("inertia", &INERTIA)?.not_negative()?;
+    let own = idler.maybe("diameter")?.unwrap_or(diameter);
+    let (count, inertia) = (idler.whole("count")?, idler.si("inertia")?);
     idler.finish()?;
     let ratio = diameter / own;
     Ok(f64::from(count) * inertia * ratio * ratio)

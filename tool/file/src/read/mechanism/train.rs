@@ -9,22 +9,14 @@ use crate::text::problem::Result;
 use crate::text::section::Section;
 
 pub(super) fn read_gears(section: &Section) -> Result<AnyMechanism> {
-    train(
-        super::GEAR_TRAIN,
-        section,
-        stage::gears(section, Losses::None)?,
-    )
+    train(section, stage::gears(section, Losses::None)?)
 }
 
 pub(super) fn read_belt(section: &Section) -> Result<AnyMechanism> {
-    train(
-        super::BELT,
-        section,
-        vec![stage::belt(section, Losses::None)?],
-    )
+    train(section, vec![stage::belt(section, Losses::None)?])
 }
 
-fn train(kind: &'static str, section: &Section, stages: Vec<Placed>) -> Result<AnyMechanism> {
+fn train(section: &Section, stages: Vec<Placed>) -> Result<AnyMechanism> {
     let train = stage::train(stages)
         .map_err(|problem| problem.at(section.header(), "in this mechanism"))?;
     let shafts = train.links().len();
@@ -32,7 +24,7 @@ fn train(kind: &'static str, section: &Section, stages: Vec<Placed>) -> Result<A
     let bearings = (1..=shafts).map(|k| format!("bearings of shaft-{k}"));
     let meshes = (1..shafts).map(|k| format!("stage {k}"));
     Ok(AnyMechanism::new(
-        kind,
+        section.chosen(),
         train,
         links,
         bearings.chain(meshes),

@@ -11,14 +11,12 @@ use crate::model::winder::{Roll, Winder};
 use crate::number::rounding::figure;
 use crate::text::problem::Result;
 use crate::text::section::Section;
-use crate::units::kind::{DENSITY, FORCE, INERTIA, LENGTH, SHARE, VELOCITY};
 
 pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
-    let (core_section, web) = (section.section("core")?, section.section("web")?);
-    let diameter = core_section.quantity("diameter", &LENGTH)?;
-    let full = section.quantity("full_diameter", &LENGTH)?;
-    diameter.check_positive()?;
-    if full.si - diameter.si < LENGTH.smallest {
+    let (core_section, web) = (section.table("core")?, section.table("web")?);
+    let diameter = core_section.value("diameter")?;
+    let full = section.value("full_diameter")?;
+    if full.si - diameter.si < full.kind.smallest {
         let what = format!(
             "is {}, which is not more than the core's diameter, {}",
             full.shown(),
@@ -29,11 +27,11 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
             .help("give the diameter of the full roll, such as \"800 mm\""));
     }
     // J of the empty roll must be greater than zero.
-    let inertia = core_section.quantity("inertia", &INERTIA)?.positive()?;
+    let inertia = core_section.si("inertia")?;
     core_section.finish()?;
-    let thickness = web.quantity("thickness", &LENGTH)?.positive()?;
-    let width = web.quantity("width", &LENGTH)?.positive()?;
-    let density = web.quantity("density", &DENSITY)?.positive()?;
+    let thickness = web.si("thickness")?;
+    let width = web.si("width")?;
+    let density = web.si("density")?;
     let roll = Roll {
         core: 0.5 * diameter.si,
         full: 0.5 * full.si,
@@ -52,7 +50,7 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
         "bearing of wound web",
         "gearing of wound web",
     ];
-    Ok(AnyMechanism::new(super::WINDER, winder, names, joints)
+    Ok(AnyMechanism::new(section.chosen(), winder, names, joints)
         .with_loads(loads)
         .with_fact("turns on the full roll", figure(roll.turned() / TAU))
         .with_fact(
@@ -68,16 +66,7 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
 /// The web's pull F₀·(1 − t·(1 − r₀/r)) as loads: its torque F·r is linear in r, thus a force on the web and a moment on the roll. The kinetic energy
 /// that the web brings in at its speed v is a force ½·μ·v² in the opposite direction.
 fn pull(web: &Section, roll: &Roll) -> Result<Vec<NamedLoad>> {
-    let tension = web.quantity("tension", &FORCE)?.not_negative()?;
-    let taper = match web.optional("taper", &SHARE)? {
-        Some(value) if value.si > 0.0 => value.up_to(1.0)?,
-        Some(value) => value.not_negative()?,
-        None => 0.0,
-    };
-    let speed = match web.optional("speed", &VELOCITY)? {
-        Some(value) => value.not_negative()?,
-        None => 0.0,
-    };
+    let (tension, taper, speed) = (web.si("tension")?, web.si("taper")?, web.si("speed")?);
     let brought = 0.5 * roll.web * speed * speed;
     let acting = [
         (

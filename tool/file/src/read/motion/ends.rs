@@ -1,7 +1,7 @@
 //! Speed, acceleration and jerk at the ends of a segment, as far as the file gives them.
 
-use crate::read::drive_link::DriveLink;
 use crate::text::item::{Item, Value};
+use crate::text::key::JERKS;
 use crate::text::problem::Result;
 use crate::text::section::Section;
 
@@ -16,11 +16,8 @@ pub(super) struct Ends {
 
 impl Ends {
     /// Speeds only.
-    pub(super) fn speeds(section: &Section, drive: DriveLink) -> Result<Self> {
-        let speeds = [
-            section.optional("start_speed", drive.speed())?,
-            section.optional("end_speed", drive.speed())?,
-        ];
+    pub(super) fn speeds(section: &Section) -> Result<Self> {
+        let speeds = [section.given("start_speed")?, section.given("end_speed")?];
         Ok(Self {
             speeds,
             ..Self::default()
@@ -28,30 +25,21 @@ impl Ends {
     }
 
     /// Values for the polynomial `name`: of sixth degree it has the jerk at one end, of seventh at both.
-    pub(super) fn of_polynomial(
-        section: &Section,
-        law: &Item,
-        name: &str,
-        drive: DriveLink,
-    ) -> Result<Self> {
-        let si = |value: Option<Value>| value.map(|value| value.si);
-        let mut ends = Self::speeds(section, drive)?;
+    pub(super) fn of_polynomial(section: &Section, law: &Item, name: &str) -> Result<Self> {
+        let mut ends = Self::speeds(section)?;
         ends.accelerations = [
-            si(section.optional("start_acceleration", drive.acceleration())?),
-            si(section.optional("end_acceleration", drive.acceleration())?),
+            section.maybe("start_acceleration")?,
+            section.maybe("end_acceleration")?,
         ];
         if name == "polynomial-5" {
             return Ok(ends);
         }
-        ends.jerks = [
-            si(section.optional("start_jerk", drive.jerk())?),
-            si(section.optional("end_jerk", drive.jerk())?),
-        ];
+        ends.jerks = [section.maybe("start_jerk")?, section.maybe("end_jerk")?];
         if name == "polynomial-7" {
             // A jerk that is not given is zero.
             ends.jerks = ends.jerks.map(|jerk| jerk.or(Some(0.0)));
         } else if ends.jerks.iter().flatten().count() != 1 {
-            let zero = format!("0 {}", drive.jerk().unit);
+            let zero = format!("0 {}", JERKS[usize::from(section.slides())].unit);
             return Err(law
                 .problem("needs the jerk at one of its ends", "six conditions and one more")
                 .help(format!(

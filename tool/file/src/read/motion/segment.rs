@@ -2,23 +2,22 @@
 
 use jred::machine::motion::Law;
 
+use crate::keys::motion::MOTION_LAWS;
 use crate::model::motion::{Limits, Segment};
 use crate::read::drive_link::DriveLink;
 use crate::read::law;
 use crate::text::item::{Item, Value};
+use crate::text::key::SPEED;
 use crate::text::problem::{Problem, Result};
 use crate::text::section::Section;
-use crate::units::kind::TIME;
 
 use super::Prescribed;
 use super::ends::Ends;
 
-/// The laws in addition to those from rest to rest.
 const CONSTANT_SPEED: &str = "constant-speed";
-const POLYNOMIALS: [&str; 3] = ["polynomial-5", "polynomial-6", "polynomial-7"];
 const JERK_LIMITED: &str = "jerk-limited";
 const TRAPEZOID: &str = "trapezoid";
-pub(super) const JOIN: &str = "join";
+const JOIN: &str = "join";
 
 /// The keys of limits.
 const LIMITS: [&str; 4] = [
@@ -73,37 +72,29 @@ pub(super) fn read(section: &Section, prescribed: &Prescribed) -> Result<(Writte
     let drive = prescribed.axis;
     let law_key = section.get("law");
     let (way, dwell) = (section.get("move"), section.get("dwell"));
-    if let (Some(way), Some(dwell)) = (&way, &dwell) {
-        return Err(
-            Problem::new(format!("{} has both `move` and `dwell`", section.title()))
-                .at(way.key_span(), "a move")
-                .at(dwell.key_span(), "a pause")
-                .help(
-                    "write two [[motion.segment]] tables, one for the move and one for the dwell",
-                ),
-        );
-    }
     if let Some(dwell) = dwell {
         let segment = pause(section, &dwell, law_key)?;
         return Ok((Written::Known(segment), Ends::default()));
     }
-    if law_key.as_ref().is_some_and(|law| law.is_word(JOIN)) {
+    // An unknown law is reported after a missing distance.
+    let word = law_key.as_ref().and_then(|law| law.word().ok());
+    let law = word.map(|word| MOTION_LAWS[word]);
+    if law == Some(JOIN) {
+        section.choose(JOIN);
         return join(section, way, prescribed.drive);
     }
-    let moves_without = law_key.as_ref().is_some_and(|law| {
-        law.is_word(CONSTANT_SPEED) || law.is_word(JERK_LIMITED) || law.is_word(TRAPEZOID)
-    });
-    if way.is_none() && !moves_without {
+    let moves_without = [CONSTANT_SPEED, JERK_LIMITED, TRAPEZOID];
+    if way.is_none() && !law.is_some_and(|law| moves_without.contains(&law)) {
         let example = if drive.slides() { "150 mm" } else { "360 deg" };
         return Err(section.missing(
             "move",
             &format!("move = \"{example}\" with law and duration, or dwell = \"0.25 s\""),
         ));
     }
-    let distance = way.map(|way| way.quantity(drive.position())).transpose()?;
+    let distance = way.map(|way| way.value()).transpose()?;
     if let Some(zero) = distance
         .as_ref()
-        .filter(|distance| distance.si.abs() < drive.position().smallest)
+        .filter(|distance| distance.si.abs() < distance.kind.smallest)
     {
         return Err(zero
             .problem(&stands(zero), "no move")
@@ -111,12 +102,20 @@ pub(super) fn read(section: &Section, prescribed: &Prescribed) -> Result<(Writte
     }
     // Without a law and a duration, the duration is reported first: every law needs one.
     let Some(law_key) = law_key else {
-        section.quantity("duration", &TIME)?.positive()?;
-        return Err(section.missing("law", "law = \"polynomial-345\""));
+        section.value("duration")?;
+        return Err(section.lacks("law"));
     };
-    let read = by_law(section, &law_key, distance, drive)?;
+    let law = MOTION_LAWS[law_key.word()?];
+    section.choose(law);
+    let read = by_law(section, &law_key, law, distance)?;
     let limited = matches!(read.0, Written::Limited { .. });
-    section.finish_with(|key| explain(key, limited))?;
+    section.finish_with(|key| match key {
+        "accelerate" | "decelerate" if limited => {
+            Some("shares of a duration are for a trapezoid whose duration is given")
+        }
+        "duration" if limited => Some("the duration follows from the limits"),
+        _ => None,
+    })?;
     Ok(read)
 }
 
@@ -124,30 +123,17 @@ pub(super) fn read(section: &Section, prescribed: &Prescribed) -> Result<(Writte
 fn by_law(
     section: &Section,
     law_key: &Item,
+    law: &str,
     distance: Option<Value>,
-    drive: DriveLink,
 ) -> Result<(Written, Ends)> {
-    let names = law::LAWS
-        .into_iter()
-        .chain([CONSTANT_SPEED, JERK_LIMITED, JOIN])
-        .chain(POLYNOMIALS);
-    let names: Vec<&str> = names.collect();
-    let name = names.get(law_key.choice(&names)?).copied();
-    Ok(match name {
-        Some(CONSTANT_SPEED) => (steady(section, distance, drive)?, Ends::default()),
-        Some(JERK_LIMITED) => (
-            limited(section, distance, true, drive)?,
-            Ends::speeds(section, drive)?,
-        ),
-        Some(TRAPEZOID)
-            if distance.is_none() || LIMITS.iter().any(|key| section.peek(key).is_some()) =>
-        {
-            (
-                limited(section, distance, false, drive)?,
-                Ends::speeds(section, drive)?,
-            )
+    let has_limits = || LIMITS.iter().any(|key| section.peek(key).is_some());
+    Ok(match law {
+        CONSTANT_SPEED => (steady(section, distance)?, Ends::default()),
+        JERK_LIMITED => (limited(section, distance, true)?, Ends::speeds(section)?),
+        TRAPEZOID if distance.is_none() || has_limits() => {
+            (limited(section, distance, false)?, Ends::speeds(section)?)
         }
-        Some(TRAPEZOID) => {
+        TRAPEZOID => {
             let law = law::read(section)?;
             let (distance, duration) = timed(section, distance)?;
             let shares = match law {
@@ -163,51 +149,20 @@ fn by_law(
                 law,
                 shares,
             };
-            (written, Ends::speeds(section, drive)?)
+            (written, Ends::speeds(section)?)
         }
-        Some(word) if POLYNOMIALS.contains(&word) => {
+        "polynomial-5" | "polynomial-6" | "polynomial-7" => {
             let (distance, duration) = timed(section, distance)?;
-            let ends = Ends::of_polynomial(section, law_key, word, drive)?;
+            let ends = Ends::of_polynomial(section, law_key, law)?;
             (Written::Polynomial { distance, duration }, ends)
         }
         _ => {
             let (distance, duration) = timed(section, distance)?;
             let law = law::read(section)?;
-            (
-                Written::Known(Segment::law(distance, duration, law)),
-                Ends::default(),
-            )
+            let segment = Segment::law(distance, duration, law);
+            (Written::Known(segment), Ends::default())
         }
     })
-}
-
-/// Explains keys that a move does not have.
-fn explain(key: &str, limited: bool) -> Option<&'static str> {
-    match key {
-        "accelerate" | "decelerate" if limited => {
-            Some("shares of a duration are for a trapezoid whose duration is given")
-        }
-        "accelerate" | "decelerate" => Some("only the law \"trapezoid\" uses these shares"),
-        "sine" | "constant" | "cosine" => {
-            Some("only the law \"sine-constant-cosine\" uses these shares")
-        }
-        "duration" if limited => Some("the duration follows from the limits"),
-        "speed" => Some("a speed is for the law \"constant-speed\""),
-        "start_speed" | "end_speed" => Some(
-            "the laws \"polynomial-5\", \"polynomial-6\", \"polynomial-7\", \"trapezoid\" and \"jerk-limited\" have speeds at their ends",
-        ),
-        "start_acceleration" | "end_acceleration" => Some(
-            "the laws \"polynomial-5\", \"polynomial-6\" and \"polynomial-7\" have accelerations at their ends",
-        ),
-        "start_jerk" | "end_jerk" => {
-            Some("\"polynomial-6\" has the jerk at one end, \"polynomial-7\" at both")
-        }
-        "max_jerk" if limited => Some("for a limited jerk write law = \"jerk-limited\""),
-        key if LIMITS.contains(&key) => {
-            Some("limits are for the laws \"trapezoid\" and \"jerk-limited\"")
-        }
-        _ => None,
-    }
 }
 
 /// A polynomial that joins the segments before and after it.
@@ -217,8 +172,9 @@ fn join(section: &Section, way: Option<Item>, drive: DriveLink) -> Result<(Writt
             .problem("is not used by the law \"join\": it goes to `to`, or to the start of the cycle", "remove this")
             .help("to = \"180 deg\" is the drive link's position at its end, where it is then at rest"));
     }
-    let duration = section.quantity("duration", &TIME)?.positive()?;
-    let to = section.optional("to", drive.position())?;
+    let duration = section.value("duration")?.si;
+    section.set_slides(drive.slides());
+    let to = section.given("to")?;
     if let Some(to) = to.as_ref().filter(|to| !drive.reaches(to.si)) {
         let what = format!("is {}, outside the stroke, {}", to.shown(), drive.range());
         return Err(to
@@ -235,7 +191,7 @@ fn join(section: &Section, way: Option<Item>, drive: DriveLink) -> Result<(Writt
 }
 
 fn pause(section: &Section, dwell: &Item, law: Option<Item>) -> Result<Segment> {
-    let duration = dwell.quantity(&TIME)?.positive()?;
+    let duration = dwell.value()?.si;
     if let Some(law) = law {
         return Err(
             Problem::new(format!("`law` is not used in {}, a dwell", section.title()))
@@ -255,7 +211,7 @@ fn timed(section: &Section, distance: Option<Value>) -> Result<(f64, f64)> {
         || Err(section.missing("move", "move = \"…\", the distance")),
         |distance| Ok(distance.si),
     )?;
-    Ok((distance, section.quantity("duration", &TIME)?.positive()?))
+    Ok((distance, section.value("duration")?.si))
 }
 
 /// The message about a distance or a speed that is too small for any motion.
@@ -270,13 +226,9 @@ fn stands(value: &Value) -> String {
 }
 
 /// Two of distance, speed and duration.
-fn steady(section: &Section, distance: Option<Value>, drive: DriveLink) -> Result<Written> {
-    let speed = section.optional("speed", drive.speed())?;
-    let duration = section.optional("duration", &TIME)?;
-    if let Some(duration) = &duration {
-        duration.check_positive()?;
-    }
-    if let Some(zero) = (speed.as_ref()).filter(|speed| speed.si.abs() < drive.speed().smallest) {
+fn steady(section: &Section, distance: Option<Value>) -> Result<Written> {
+    let (speed, duration) = (section.given("speed")?, section.given("duration")?);
+    if let Some(zero) = (speed.as_ref()).filter(|speed| speed.si.abs() < speed.kind.smallest) {
         return Err(zero
             .problem(&stands(zero), "no move")
             .help("write a pause as dwell = \"0.25 s\", without law and speed"));
@@ -304,7 +256,7 @@ fn steady(section: &Section, distance: Option<Value>, drive: DriveLink) -> Resul
                 "speed",
                 &format!(
                     "speed = \"{}\" with `move` or `duration`; or `move` with `duration`",
-                    drive.speed().example
+                    SPEED[usize::from(section.slides())].example
                 ),
             ));
         }
@@ -315,28 +267,17 @@ fn steady(section: &Section, distance: Option<Value>, drive: DriveLink) -> Resul
 }
 
 /// The limits of a move, or of a change of speed.
-fn limited(
-    section: &Section,
-    distance: Option<Value>,
-    with_jerk: bool,
-    drive: DriveLink,
-) -> Result<Written> {
+fn limited(section: &Section, distance: Option<Value>, with_jerk: bool) -> Result<Written> {
     // A change of speed is limited by the speeds of its ends.
     let speed = if distance.is_some() {
-        Some(section.quantity("max_speed", drive.speed())?)
+        Some(section.value("max_speed")?)
     } else {
-        section.optional("max_speed", drive.speed())?
+        section.given("max_speed")?
     };
-    if let Some(speed) = &speed {
-        speed.check_positive()?;
-    }
-    let acceleration = section
-        .quantity("max_acceleration", drive.acceleration())?
-        .positive()?;
-    let deceleration = section.optional("max_deceleration", drive.acceleration())?;
-    let deceleration = deceleration.map_or(Ok(acceleration), Value::positive)?;
+    let acceleration = section.value("max_acceleration")?.si;
+    let deceleration = section.maybe("max_deceleration")?.unwrap_or(acceleration);
     let jerk = if with_jerk {
-        Some(section.quantity("max_jerk", drive.jerk())?.positive()?)
+        Some(section.value("max_jerk")?.si)
     } else {
         None
     };

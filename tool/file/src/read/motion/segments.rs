@@ -11,7 +11,7 @@ use crate::text::section::Section;
 use super::ends::Ends;
 use super::join;
 use super::segment::{self, Written};
-use super::{Prescribed, closed, finish, start};
+use super::{Prescribed, closed, start};
 
 /// The most segments of a motion.
 const MAX_SEGMENTS: usize = 1000;
@@ -23,11 +23,9 @@ const CONTINUOUS: f64 = 1e-6;
 pub(super) fn read(section: &Section, cyclic: bool, prescribed: &Prescribed) -> Result<Motion> {
     let drive = prescribed.axis;
     let start = start(section, prescribed)?;
-    let title = format!("[{}.segment]]", section.title().trim_end_matches(']'));
-    let once = format!("{title} once for each move = \"…\" and each dwell = \"…\"");
-    let item = section.require("segment", &once)?;
-    let parts = item.sections(&title)?;
-    finish(section)?;
+    let item = section.need("segment")?;
+    let parts = section.tables("segment")?;
+    section.finish()?;
     if parts.is_empty() || parts.len() > MAX_SEGMENTS {
         return Err(item
             .problem(

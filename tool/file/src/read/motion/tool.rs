@@ -7,6 +7,7 @@ use jred::Domain;
 use jred::machine::motion::State;
 use jred::machine::{Joint, Jointed as _, Machine, Mechanism as _};
 
+use crate::keys::motion::SUCH_AS;
 use crate::model::mechanism::{AnyMechanism, NamedLoad};
 use crate::model::motion::{Measure, Motion, Reach, Standstill, ToolCoordinate};
 use crate::number::numerics;
@@ -43,7 +44,7 @@ impl<'a> Prescribed<'a> {
         drive: DriveLink,
         (machine, loads): (&'a Machine<AnyMechanism>, &'a [NamedLoad]),
     ) -> Result<Self> {
-        let near = section.optional("near", drive.position())?;
+        let near = section.given("near")?;
         let Some(of) = section.get("of") else {
             if let Some(near) = near {
                 return Err(near
@@ -100,6 +101,7 @@ impl<'a> Prescribed<'a> {
             coordinate: tool.coordinate(),
             domain,
         };
+        section.set_slides(axis.slides());
         Ok(Self {
             axis,
             drive,
@@ -290,32 +292,19 @@ impl<'a> Prescribed<'a> {
 /// The measure that `of` defines, and its name.
 fn measure(of: &Item, mechanism: &AnyMechanism) -> Result<(Measure, String)> {
     let section = of.section("[motion.of]".into())?;
-    let keys = ["point", "link", "slide"];
-    let given: Vec<(&str, Item)> = keys
-        .into_iter()
-        .filter_map(|key| section.get(key).map(|item| (key, item)))
-        .collect();
-    let [(key, item)] = given.as_slice() else {
-        let example = "of = { point = \"slider\", along = \"x\" }, of = { link = \"table\" } or of = { slide = \"guide\" }";
-        let problem = match given.as_slice() {
-            [(first, one), (second, other), ..] => {
-                Problem::new(format!("[motion.of] has both `{first}` and `{second}`"))
-                    .at(one.key_span(), *first)
-                    .at(other.key_span(), *second)
-            }
-            _ => of.problem("names neither `point` nor `link` nor `slide`", "incomplete"),
-        };
-        return Err(problem.help(format!("write {example}")));
+    let Some((key, item)) = section.one_of(&["point", "link", "slide"]) else {
+        let problem = of.problem("names neither `point` nor `link` nor `slide`", "incomplete");
+        return Err(problem.help(SUCH_AS));
     };
-    let found = match *key {
+    let found = match key {
         "link" => {
             let link = item.choice(mechanism.link_names())?;
-            let name = item.text("table")?;
+            let name = item.words_of_text()?;
             (Measure::Angle { link }, format!("angle of {name}"))
         }
         "slide" => {
             let joint = item.choice(mechanism.joint_names())?;
-            let name = item.text("guide")?;
+            let name = item.words_of_text()?;
             let start = mechanism.domain().position(0.0);
             let joints = mechanism
                 .frames(start)
@@ -330,20 +319,16 @@ fn measure(of: &Item, mechanism: &AnyMechanism) -> Result<(Measure, String)> {
             (Measure::Slide { joint }, format!("displacement in {name}"))
         }
         _ => {
-            let (name, link, at) = tool::place(&section, item, mechanism)?;
-            let along = section.require("along", "along = \"x\", \"y\" or \"path\"")?;
-            let measure = match along.choice(&["x", "y", "path"])? {
+            let (name, link, at) = tool::place(&section, &item, mechanism)?;
+            let along = section.need("along")?;
+            let measure = match along.word()? {
                 2 => Measure::Path { link, at },
                 axis => Measure::Position { link, at, axis },
             };
-            let word = along.text("x")?;
+            let word = along.words_of_text()?;
             (measure, format!("{word} of {name}"))
         }
     };
-    section.finish_with(|key| match key {
-        "along" => Some("`along` is for a point"),
-        "at" => Some("`at` gives a point of a link named with `point`"),
-        _ => None,
-    })?;
+    section.finish()?;
     Ok(found)
 }

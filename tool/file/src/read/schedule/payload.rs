@@ -13,9 +13,6 @@ use crate::text::item::Item;
 use crate::text::problem::{Problem, Result};
 use crate::text::section::Section;
 
-/// The most payloads of a machine.
-const MOST: usize = 16;
-
 /// Share of the largest speed of its attachment point over the motion below which a payload counts as at rest.
 const AT_REST: f64 = 1e-6;
 
@@ -28,15 +25,7 @@ pub(super) fn read(
     machine: &Machine<AnyMechanism>,
     course: &Course,
 ) -> Result<Vec<Payload>> {
-    let Some(item) = root.get("payload") else {
-        return Ok(Vec::new());
-    };
-    let sections = item.sections("[[payload]]")?;
-    if let Some(surplus) = sections.get(MOST) {
-        return Err(surplus
-            .problem(format!("more than {MOST} payloads"), "one too many")
-            .help("combine what the same link carries at the same time"));
-    }
+    let sections = root.tables("payload")?;
     let mut payloads: Vec<Payload> = Vec::new();
     for (k, section) in sections.iter().enumerate() {
         let payload = payload(section, machine, course)?;
@@ -68,22 +57,9 @@ fn check_once(payloads: [&Payload; 2], sections: [&Section; 2]) -> Result<()> {
 
 fn payload(section: &Section, machine: &Machine<AnyMechanism>, course: &Course) -> Result<Payload> {
     let (name, mass) = attached(section, machine.mechanism(), "payload")?;
-    let while_moving = match section.get("while_moving") {
-        Some(item) => item.flag()?,
-        None => false,
-    };
+    let while_moving = section.is("while_moving")?;
     let part = part(section, course)?;
-    section.finish_with(|key| match key {
-        "between" | "ramp" => Some(
-            "a payload over a part of the turn is a column of a table of loads: docs/import.md",
-        ),
-        _ => None,
-    })?;
-    if let Some(item) = section.peek("direction") {
-        return Err(item
-            .problem("is for loads", "not of a payload")
-            .help("write segments = [2, 3] or during = [\"0.2 s\", \"0.5 s\"]: the time over which it is carried"));
-    }
+    section.finish()?;
     let Some(item) = &part.item else {
         return Err(section.missing(
             "segments",

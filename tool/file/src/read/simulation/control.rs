@@ -12,13 +12,10 @@ use crate::read::drive_link::DriveLink;
 use crate::text::item::Item;
 use crate::text::problem::{Problem, Result};
 use crate::text::section::Section;
-use crate::units::kind::{ANGLE, FORCE, GAIN, LENGTH, TIME, TORQUE, VISCOUS_FORCE, VISCOUS_MOMENT};
+use crate::units::kind::{ANGLE, LENGTH};
 
 /// The most cycles of a simulation: each adds corners of the motion.
 const MOST_CYCLES: f64 = 1000.0;
-
-/// Larger coefficients of restitution would make the stop bounce without end.
-const MOST_RESTITUTION: f64 = 0.99;
 
 /// Context of the parts of a simulation.
 #[derive(Clone, Copy)]
@@ -85,29 +82,16 @@ pub(super) fn control(
     if let Some(torque) = torque {
         limits(&item, torque)?;
     }
-    let kind = if around.pushes() {
-        &VISCOUS_FORCE
-    } else {
-        &VISCOUS_MOMENT
-    };
-    let speed_gain = section.quantity("speed_gain", kind)?.positive()?;
-    let position_gain = match section.optional("position_gain", &GAIN)? {
-        Some(gain) => gain.not_negative()?,
-        None => 0.0,
-    };
-    let integral_time = match section.optional("integral_time", &TIME)? {
-        Some(time) => time.positive()?,
-        None => f64::INFINITY,
-    };
-    let words = ["none", "mean-inertia", "model"];
-    let feed_forward = match section.get("feed_forward") {
-        None => FeedForward::None,
-        Some(item) => match item.choice(&words)? {
-            0 => FeedForward::None,
-            1 => FeedForward::MeanInertia,
-            _ => FeedForward::Model,
-        },
-    };
+    section.set_slides(around.pushes());
+    let speed_gain = section.si("speed_gain")?;
+    let position_gain = section.si("position_gain")?;
+    let integral_time = section.maybe("integral_time")?.unwrap_or(f64::INFINITY);
+    let words = [
+        FeedForward::None,
+        FeedForward::MeanInertia,
+        FeedForward::Model,
+    ];
+    let feed_forward = section.pick("feed_forward", words)?;
     section.finish()?;
     Ok(Some(Control {
         position_gain,
@@ -140,30 +124,22 @@ pub(super) fn halt(simulation: &Section, around: Around, duration: f64) -> Resul
         return Ok(None);
     };
     let section = around.part(&item, "[simulation.stop]")?;
-    let given = section.quantity("time", &TIME)?;
+    let given = section.value("time")?;
     if given.si > duration {
         let what = format!("is {}, after the end of the simulation", given.shown());
         return Err(given
             .problem(&what, "never reached")
             .help("stop earlier, or give a longer `duration`"));
     }
-    let time = given.not_negative()?;
-    let (key, kind) = if around.pushes() {
-        ("brake_force", &FORCE)
+    let key = if around.pushes() {
+        "brake_force"
     } else {
-        ("brake_torque", &TORQUE)
+        "brake_torque"
     };
-    let brake_torque = match section.optional(key, kind)? {
-        Some(torque) => torque.not_negative()?,
-        None => 0.0,
-    };
-    let brake_delay = match section.optional("brake_delay", &TIME)? {
-        Some(delay) => delay.not_negative()?,
-        None => 0.0,
-    };
+    let (brake_torque, brake_delay) = (section.si(key)?, section.si("brake_delay")?);
     section.finish()?;
     Ok(Some(Halt {
-        time,
+        time: given.si,
         brake_torque,
         brake_delay,
     }))
@@ -181,18 +157,10 @@ pub(super) fn end_stops(
     let section = around.part(&item, "[simulation.end_stops]")?;
     let places = Places::of(around);
     let kind = if places.is_length() { &LENGTH } else { &ANGLE };
-    let example = format!("at = [\"{}\", \"{}\"]", kind.example, kind.example);
-    let at = section.require("at", &example)?;
-    let ends = at.list("position", &example)?;
-    let [first, second] = ends.as_slice() else {
-        return Err(at
-            .problem(
-                &format!("has {} positions, but must have 2", ends.len()),
-                "here",
-            )
-            .help(format!("give the lower and the upper stop: {example}")));
-    };
-    let [first, second] = [places.position(first)?, places.position(second)?];
+    let example = format!("[\"{}\", \"{}\"]", kind.example, kind.example);
+    let at = section.require("at", &format!("at = {example}"))?;
+    let [first, second] = at.both("position", &example)?;
+    let [first, second] = [places.position(&first)?, places.position(&second)?];
     if first.value.si >= second.value.si {
         return Err(at
             .problem(
@@ -215,10 +183,7 @@ pub(super) fn end_stops(
             .problem("does not contain the start", "between these stops")
             .help("start between the end stops"));
     }
-    let restitution = match section.get("restitution") {
-        Some(item) => item.number([0.0, MOST_RESTITUTION], "0.3")?,
-        None => 0.0,
-    };
+    let restitution = section.figure("restitution")?;
     section.finish()?;
     Ok(Some(EndStops {
         from,

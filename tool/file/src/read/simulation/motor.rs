@@ -5,14 +5,8 @@ use crate::model::characteristic::Characteristic;
 use crate::model::simulation::Winding;
 use crate::number::rounding::{percent, short};
 use crate::text::item::{Item, Value};
-use crate::text::problem::{Problem, Result};
+use crate::text::problem::Result;
 use crate::text::section::Section;
-use crate::units::kind::{
-    ANGULAR_SPEED, INDUCTANCE, POWER, RESISTANCE, SHARE, TORQUE, TORQUE_CONSTANT, VOLTAGE,
-};
-
-/// The most points of a torque-speed curve.
-const MAX_POINTS: usize = 1000;
 
 /// Motor data of a file.
 pub(super) struct Given {
@@ -47,38 +41,16 @@ pub(super) fn effort(
     } else {
         &["dc_motor", "induction_motor"]
     };
-    let keys = [key, curve_key].into_iter().chain(formulas.iter().copied());
-    let given: Vec<(&str, Item)> = keys
-        .filter_map(|key| Some((key, section.get(key)?)))
-        .collect();
-    match given.as_slice() {
-        [] => Ok(None),
-        [(found, item)] => match *found {
-            "dc_motor" => dc_motor(item).map(Some),
-            "induction_motor" => Ok(Some(Given::of(induction_motor(item)?))),
-            found if found == key => Ok(Some(Given::of(Characteristic::constant(
-                item.quantity(drive.effort())?.si,
-            )))),
-            _ => Ok(Some(Given::of(Characteristic::Points(points(
-                item, drive, &example,
-            )?)))),
-        },
-        [(first, one), (second, other), ..] => {
-            let label = |found: &str| {
-                if found == key {
-                    format!("a constant {key}")
-                } else {
-                    format!("a {key} that depends on the speed")
-                }
-            };
-            Err(
-                Problem::new(format!("[simulation] has both `{first}` and `{second}`"))
-                    .at(one.key_span(), label(first))
-                    .at(other.key_span(), label(second))
-                    .help("keep one of them"),
-            )
-        }
-    }
+    let keys: Vec<&str> = [key, curve_key].iter().chain(formulas).copied().collect();
+    let Some((found, item)) = section.one_of(&keys) else {
+        return Ok(None);
+    };
+    Ok(Some(match found {
+        "dc_motor" => dc_motor(&item)?,
+        "induction_motor" => Given::of(induction_motor(&item)?),
+        found if found == key => Given::of(Characteristic::constant(item.value()?.si)),
+        _ => Given::of(Characteristic::Points(points(&item, drive, &example)?)),
+    }))
 }
 
 /// A DC motor: its line, or its winding.
@@ -87,8 +59,10 @@ fn dc_motor(item: &Item) -> Result<Given> {
     if section.peek("voltage").is_some() {
         return wound(&section);
     }
-    let speed = section.quantity("no_load_speed", &ANGULAR_SPEED)?;
-    let torque = section.quantity("stall_torque", &TORQUE)?;
+    let (speed, torque) = (
+        section.value("no_load_speed")?,
+        section.value("stall_torque")?,
+    );
     section.finish()?;
     same_way(&speed, &torque)?;
     Ok(Given::of(Characteristic::Dc {
@@ -99,10 +73,9 @@ fn dc_motor(item: &Item) -> Result<Given> {
 
 /// A DC motor from its winding: T_stall = k·U/R, ω₀ = U/k.
 fn wound(section: &Section) -> Result<Given> {
-    let voltage = section.quantity("voltage", &VOLTAGE)?;
-    let resistance = section.quantity("resistance", &RESISTANCE)?.positive()?;
-    let constant = (section.quantity("torque_constant", &TORQUE_CONSTANT)?).positive()?;
-    let inductance = section.optional("inductance", &INDUCTANCE)?;
+    let (voltage, resistance) = (section.value("voltage")?, section.value("resistance")?.si);
+    let constant = section.value("torque_constant")?.si;
+    let inductance = section.given("inductance")?;
     section.finish()?;
     if voltage.si == 0.0 {
         return Err(voltage
@@ -112,7 +85,6 @@ fn wound(section: &Section) -> Result<Given> {
     let winding = match inductance {
         None => None,
         Some(value) => {
-            value.check_positive()?;
             let winding = Winding {
                 voltage: voltage.si,
                 resistance,
@@ -134,8 +106,8 @@ fn wound(section: &Section) -> Result<Given> {
 /// An induction motor by Kloss' formula.
 fn induction_motor(item: &Item) -> Result<Characteristic> {
     let section = item.section("[simulation.induction_motor]".into())?;
-    let speed = section.quantity("synchronous_speed", &ANGULAR_SPEED)?;
-    let torque = section.quantity("breakdown_torque", &TORQUE)?;
+    let speed = section.value("synchronous_speed")?;
+    let torque = section.value("breakdown_torque")?;
     same_way(&speed, &torque)?;
     let plate = name_plate(&section, &speed, &torque)?;
     let slip = match (section.get("breakdown_slip"), plate) {
@@ -147,14 +119,7 @@ fn induction_motor(item: &Item) -> Result<Characteristic> {
                 synchronous_speed: speed.si,
             });
         }
-        (Some(slip), Some(_)) => {
-            return Err(Problem::new(
-                "the breakdown slip is given, and follows from the name plate".to_owned(),
-            )
-            .at(slip.key_span(), "the slip")
-            .help("keep `breakdown_slip`, or `rated_speed` with `rated_torque` or `rated_power`"));
-        }
-        (Some(slip), None) => slip.quantity(&SHARE)?,
+        (Some(slip), _) => slip.value()?,
         (None, None) => {
             let example = "breakdown_slip = \"20 %\", or rated_speed = \"950 rpm\" and rated_power = \"2.2 kW\" of the name plate";
             return Err(section.missing("breakdown_slip", example));
@@ -177,17 +142,17 @@ fn induction_motor(item: &Item) -> Result<Characteristic> {
 /// The breakdown slip from the name plate. With the rated torque T_n at the slip s_n and k = T_b/T_n, Kloss' formula gives s_b = s_n·(k + √(k² − 1)).
 fn name_plate(section: &Section, synchronous: &Value, breakdown: &Value) -> Result<Option<f64>> {
     let (torque, power) = (
-        section.optional("rated_torque", &TORQUE)?,
-        section.optional("rated_power", &POWER)?,
+        section.given("rated_torque")?,
+        section.given("rated_power")?,
     );
-    let Some(speed) = section.optional("rated_speed", &ANGULAR_SPEED)? else {
+    let Some(speed) = section.given("rated_speed")? else {
         return match torque.or(power) {
             None => Ok(None),
-            Some(_) => Err(section.missing("rated_speed", "rated_speed = \"950 rpm\"")),
+            Some(_) => Err(section.lacks("rated_speed")),
         };
     };
     let (given, rated) = match (torque, power) {
-        (Some(torque), None) => {
+        (Some(torque), _) => {
             let si = torque.si;
             (torque, si)
         }
@@ -198,12 +163,6 @@ fn name_plate(section: &Section, synchronous: &Value, breakdown: &Value) -> Resu
         (None, None) => {
             let example = "rated_power = \"2.2 kW\", or rated_torque";
             return Err(section.missing("rated_power", example));
-        }
-        (Some(torque), Some(power)) => {
-            return Err(torque
-                .problem("and the rated power are both given", "this torque")
-                .at(power.span(), "this power")
-                .help("keep one of them"));
         }
     };
     let slip = 1.0 - speed.si / synchronous.si;
@@ -275,12 +234,6 @@ fn same_way(speed: &Value, torque: &Value) -> Result<()> {
 
 fn points(curve: &Item, drive: DriveLink, example: &str) -> Result<Vec<(f64, f64)>> {
     let list = curve.list("point", example)?;
-    if list.is_empty() || list.len() > MAX_POINTS {
-        let what = format!("has {} points, but must have 1 to {MAX_POINTS}", list.len());
-        return Err(curve.problem(&what, "here").help(format!(
-            "a point is [speed, torque or force], as in {example}"
-        )));
-    }
     let mut points: Vec<(f64, f64)> = Vec::with_capacity(list.len());
     for item in list {
         let [speed, effort] = item.pair([drive.speed(), drive.effort()])?;

@@ -11,9 +11,6 @@ use crate::units::kind::{ANGLE, ANGULAR_ACCELERATION, ANGULAR_SPEED, Kind, SHARE
 use crate::units::quantity::unit_of;
 use crate::units::{Fault, unit};
 
-/// Most lines above a header.
-const MOST_LINES: u32 = 10_000;
-
 /// The layout of a file, as the machine file gives it.
 #[derive(Default)]
 pub(crate) struct Layout<'a> {
@@ -39,10 +36,7 @@ pub(super) struct Mapped<'a> {
 impl<'a> Layout<'a> {
     /// `skip_rows`, `header`, `columns` and `counts_per_turn`.
     pub(crate) fn read(section: &Section<'a>) -> Result<Self> {
-        let skipped = match section.get("skip_rows") {
-            Some(item) => item.count(MOST_LINES, "1")? as usize,
-            None => 0,
-        };
+        let skipped = section.get("skip_rows").map(|item| item.whole());
         let titles = match section.get("header") {
             Some(item) => {
                 let list = item.list("title", "[\"t [s]\", \"phi [deg]\"]")?;
@@ -51,9 +45,8 @@ impl<'a> Layout<'a> {
             }
             None => None,
         };
-        let mapped = match section.get("columns") {
-            Some(item) => {
-                let table = item.section(format!("`columns` of {}", section.title()))?;
+        let mapped = match section.maybe_table("columns")? {
+            Some(table) => {
                 let entries = table.entries().into_iter();
                 let mapped = entries.map(|(name, item)| {
                     let title = Title::of(item.text("Time (sec)")?);
@@ -63,10 +56,9 @@ impl<'a> Layout<'a> {
             }
             None => None,
         };
-        let count = match section.get("counts_per_turn") {
-            Some(item) => Some(TAU / f64::from(item.count(u32::MAX, "8192")?)),
-            None => None,
-        };
+        let count = section.get("counts_per_turn").map(|item| item.whole());
+        let count = count.transpose()?.map(|count| TAU / f64::from(count));
+        let skipped = skipped.transpose()?.unwrap_or(0) as usize;
         Ok(Self {
             section: section.title().to_owned(),
             skipped,

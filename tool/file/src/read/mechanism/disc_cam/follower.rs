@@ -2,52 +2,37 @@
 
 use jred::mechanism::{Follower, Roller, Swing};
 
+use crate::keys::cam::FOLLOWERS;
 use crate::text::problem::Result;
 use crate::text::section::Section;
-use crate::units::kind::LENGTH;
-
-/// The kinds of follower.
-const FOLLOWERS: [&str; 4] = [
-    "translating-roller",
-    "translating-flat-face",
-    "oscillating-roller",
-    "oscillating-flat-face",
-];
 
 /// The follower; its `roller` is read if it has one. Other keys of the section may follow.
 pub(in crate::read::mechanism) fn follower(
     section: &Section,
     roller: impl FnOnce() -> Result<Roller>,
 ) -> Result<Follower> {
-    let kind = section
-        .require("type", "type = \"translating-roller\"")?
-        .choice(&FOLLOWERS)?;
+    let kind = section.word("type")?;
+    section.choose(FOLLOWERS[kind]);
     let roller = (kind % 2 == 0).then(roller).transpose()?;
     if kind < 2 {
-        let offset = section.optional("offset", &LENGTH)?.map_or(0.0, |v| v.si);
+        let offset = section.si("offset")?;
         return Ok(match roller {
             Some(roller) => Follower::TranslatingRoller { offset, roller },
             None => Follower::TranslatingFace { offset },
         });
     }
-    let pivot = section
-        .require("pivot", "pivot = [\"90 mm\", \"0 mm\"]")?
-        .pair([&LENGTH, &LENGTH])?
-        .map(|value| value.si);
-    let swing = section
-        .require("swing", "swing = \"counter-clockwise\"")?
-        .choice(&["counter-clockwise", "clockwise"])?;
-    let swing = [Swing::CounterClockwise, Swing::Clockwise][swing];
+    let pivot = section.two("pivot")?;
+    let swing = section.pick("swing", [Swing::CounterClockwise, Swing::Clockwise])?;
     Ok(match roller {
         Some(roller) => Follower::OscillatingRoller {
             pivot,
-            arm: section.quantity("arm", &LENGTH)?.positive()?,
+            arm: section.si("arm")?,
             swing,
             roller,
         },
         None => Follower::OscillatingFace {
             pivot,
-            offset: section.optional("offset", &LENGTH)?.map_or(0.0, |v| v.si),
+            offset: section.si("offset")?,
             swing,
         },
     })

@@ -15,7 +15,6 @@ use crate::model::mechanism::{AnyMechanism, Contact, NamedElement};
 use crate::text::file::Files;
 use crate::text::problem::Result;
 use crate::text::section::Section;
-use crate::units::kind::{FORCE, INERTIA, LENGTH, MASS, STIFFNESS, TORQUE, TORSION_STIFFNESS};
 
 pub(super) use follower::follower;
 pub(super) use program::read as program;
@@ -25,42 +24,26 @@ pub(super) use refusal::problem;
 const OUTLINE: u32 = 720;
 
 pub(super) fn read(section: &Section, files: &dyn Files) -> Result<AnyMechanism> {
-    let base_radius = section.quantity("base_radius", &LENGTH)?;
-    base_radius.check_positive()?;
-    let closure = section.get("closure");
-    let by_force = match &closure {
-        Some(item) => item.choice(&["force", "form"])? == 0,
-        None => true,
-    };
-    let cam = link(&section.section("cam")?)?;
-    let part = section.section("follower")?;
+    let base_radius = section.value("base_radius")?;
+    let by_force = section.word("closure")? == 0;
+    let cam = link(&section.table("cam")?)?;
+    let part = section.table("follower")?;
     let follower = follower(&part, || roller(section))?;
     let mass = match follower.pivot() {
         Some(_) => link(&part)?,
         None => parts::slide(&part)?,
     };
     let oscillating = follower.pivot().is_some();
+    section.set_slides(!oscillating);
     let (program, about) = match section.get("lift") {
         Some(item) => {
-            if let Some(segment) = section.get("segment") {
-                return Err(segment
-                    .problem("is given together with `lift`", "here")
-                    .at(item.key_span(), "and here")
-                    .help("give either the segments or the table of the lift"));
-            }
+            section.expects(&["segment"]);
             let (program, about) = table::read(section, &item, oscillating, files)?;
             (program, Some(about))
         }
-        None => (
-            program(section, "[[mechanism.segment]]", oscillating)?,
-            None,
-        ),
+        None => (program(section)?, None),
     };
-    let spring = section
-        .get("spring")
-        .map(|item| item.section("[mechanism.spring]".into()))
-        .transpose()?;
-
+    let spring = section.maybe_table("spring")?;
     let mechanism = DiscCam::new(program, base_radius.si, follower, [cam, mass])
         .map_err(|error| problem(section, &part, &base_radius, error))?;
     let spring = spring
@@ -102,7 +85,7 @@ fn described(mechanism: DiscCam) -> AnyMechanism {
         None => (2, 3),
     };
     let mut any = AnyMechanism::new(
-        super::DISC_CAM,
+        super::DISC_CAM.name,
         mechanism,
         links.into_iter().take(link_count),
         joints.into_iter().take(joint_count),
@@ -131,29 +114,18 @@ fn described(mechanism: DiscCam) -> AnyMechanism {
 }
 
 fn roller(section: &Section) -> Result<Roller> {
-    let section = section.section("roller")?;
-    let radius = section.quantity("radius", &LENGTH)?.positive()?;
-    let mass = section.quantity("mass", &MASS)?.not_negative()?;
-    let inertia = section.quantity("inertia", &INERTIA)?.not_negative()?;
-    section.finish_with(|key| {
-        (key == "com").then_some("a roller is balanced: its centre of mass is on its axis")
-    })?;
-    Roller::new(RollerDimensions {
-        radius,
-        mass,
-        inertia,
-    })
-    .map_err(|error| core(&section, error))
+    let section = section.table("roller")?;
+    let dimensions = RollerDimensions {
+        radius: section.si("radius")?,
+        mass: section.si("mass")?,
+        inertia: section.si("inertia")?,
+    };
+    section.finish()?;
+    Roller::new(dimensions).map_err(|error| core(&section, error))
 }
 
 fn closing_spring(section: &Section, mechanism: &DiscCam) -> Result<NamedElement> {
-    let (stiffness, preload) = if mechanism.follower().pivot().is_some() {
-        (&TORSION_STIFFNESS, &TORQUE)
-    } else {
-        (&STIFFNESS, &FORCE)
-    };
-    let stiffness = section.quantity("stiffness", stiffness)?.positive()?;
-    let preload = section.quantity("preload", preload)?.not_negative()?;
+    let (stiffness, preload) = (section.si("stiffness")?, section.si("preload")?);
     section.finish()?;
     Ok(NamedElement {
         name: "closing spring".to_owned(),

@@ -2,18 +2,18 @@
 
 use std::f64::consts::TAU;
 
-use jred::mechanism::cam::{CamError, MAX_SEGMENTS, Program, Segment, Shape};
+use jred::mechanism::cam::{CamError, Program, Segment, Shape};
 
+use crate::keys::cam::CAM_LAWS;
 use crate::number::rounding::figure;
 use crate::read::law;
-use crate::text::item::{Item, Value};
+use crate::text::item::Item;
 use crate::text::problem::{Problem, Result};
 use crate::text::section::Section;
-use crate::units::kind::{ANGLE, CAM_ACCELERATION, CAM_TURNING, CAM_VELOCITY, Kind, LENGTH, SHARE};
 
 /// The laws beyond those of a motion of the drive link.
-const CONSTANT_VELOCITY: &str = "constant-velocity";
-const POLYNOMIAL: &str = "polynomial-5";
+const CONSTANT_VELOCITY: usize = 10;
+const POLYNOMIAL: usize = 11;
 
 /// A segment as it is written.
 enum Written<'a> {
@@ -28,65 +28,26 @@ enum Written<'a> {
     },
 }
 
-/// The cam program. `header`: title of its segments in messages; `oscillating`: rises are angles.
-pub(in crate::read::mechanism) fn read(
-    section: &Section,
-    header: &str,
-    oscillating: bool,
-) -> Result<Program> {
-    let item = section.require(
-        "segment",
-        &format!("{header} once for each rise = \"…\", return = \"…\" and dwell = \"…\""),
-    )?;
-    let parts = item.sections(header)?;
-    if parts.is_empty() || parts.len() > MAX_SEGMENTS {
-        let what = format!(
-            "has {} entries, but must have 1 to {MAX_SEGMENTS}",
-            parts.len()
-        );
-        return Err(item
-            .problem(&what, "segments")
-            .help("one turn of the cam is made of rises, dwells and returns"));
+/// The cam program. Whether its rises are angles or lengths is set in the section.
+pub(in crate::read::mechanism) fn read(section: &Section) -> Result<Program> {
+    let parts = section.tables("segment")?;
+    if parts.is_empty() {
+        return Err(section.lacks("segment"));
     }
-    let way = if oscillating { &ANGLE } else { &LENGTH };
-    let written = parts
-        .iter()
-        .map(|part| segment(part, way, oscillating))
-        .collect::<Result<Vec<_>>>()?;
+    let written = parts.iter().map(segment).collect::<Result<Vec<_>>>()?;
     let segments = resolved(&parts, &written)?;
-    Program::new(&segments).map_err(|error| problem(section, &parts, &segments, way, &error))
+    Program::new(&segments).map_err(|error| problem(section, &parts, &segments, &error))
 }
 
-fn segment<'a>(
-    section: &Section<'a>,
-    way: &'static Kind,
-    oscillating: bool,
-) -> Result<Written<'a>> {
-    let keys = ["dwell", "rise", "return"];
-    let given: Vec<_> = keys
-        .into_iter()
-        .filter_map(|key| section.get(key).map(|item| (key, item)))
-        .collect();
-    let (key, item) = match given.as_slice() {
-        [one] => one,
-        [] => {
-            return Err(section.missing(
-                "rise",
-                "rise = \"…\" or return = \"…\" with law and angle, or dwell = \"60 deg\"",
-            ));
-        }
-        [(first, one), (second, other), ..] => {
-            return Err(Problem::new(format!(
-                "{} has both `{first}` and `{second}`",
-                section.title()
-            ))
-            .at(one.key_span(), *first)
-            .at(other.key_span(), *second)
-            .help("write a separate segment for each"));
-        }
+fn segment<'a>(section: &Section<'a>) -> Result<Written<'a>> {
+    let Some((key, item)) = section.one_of(&["dwell", "rise", "return"]) else {
+        return Err(section.missing(
+            "rise",
+            "rise = \"…\" or return = \"…\" with law and angle, or dwell = \"60 deg\"",
+        ));
     };
-    if *key == "dwell" {
-        let angle = item.quantity(&ANGLE)?.positive()?;
+    if key == "dwell" {
+        let angle = item.value()?.si;
         section.finish_with(|key| match key {
             "angle" => Some("give the angle of a dwell as dwell = \"60 deg\""),
             "law" => Some("a dwell has no law"),
@@ -94,68 +55,44 @@ fn segment<'a>(
         })?;
         return Ok(Written::Known(Segment::dwell(angle)));
     }
-    let size = item.quantity(way)?;
-    let rise = if *key == "rise" { size.si } else { -size.si };
-    let angle = section.quantity("angle", &ANGLE)?.positive()?;
-    let law = section.require("law", "law = \"cycloidal\"")?;
+    let size = item.value()?;
+    let rise = if key == "rise" { size.si } else { -size.si };
+    let angle = section.value("angle")?.si;
+    let law = section.need("law")?;
     if law.is_word("table") {
         return Err(law
             .problem("is \"table\", which is no law of a segment", "not here")
             .help("a table is the whole program of a disc cam: write lift = \"lift.csv\" into [mechanism], in place of all segments"));
     }
-    let names = law::LAWS.into_iter().chain([CONSTANT_VELOCITY, POLYNOMIAL]);
-    let names: Vec<&str> = names.collect();
-    let read = match names.get(law.choice(&names)?).copied() {
-        Some(CONSTANT_VELOCITY) => {
-            positive(size)?;
-            Written::Known(Segment::constant_velocity(angle, rise))
-        }
-        Some(POLYNOMIAL) => Written::Polynomial {
+    let word = law.word()?;
+    section.choose(CAM_LAWS[word]);
+    if word != POLYNOMIAL {
+        size.check_positive()?;
+    }
+    let read = match word {
+        CONSTANT_VELOCITY => Written::Known(Segment::constant_velocity(angle, rise)),
+        POLYNOMIAL => Written::Polynomial {
             angle,
             rise,
-            ends: ends(section, oscillating)?,
+            ends: ends(section)?,
             law,
         },
-        _ => {
-            positive(size)?;
-            Written::Known(Segment::law(law::read(section)?, angle, rise))
-        }
+        _ => Written::Known(Segment::law(law::read(section)?, angle, rise)),
     };
-    section.finish_with(|key| match key {
-        "accelerate" | "decelerate" => Some("only the law \"trapezoid\" uses these shares"),
-        "sine" | "constant" | "cosine" => {
-            Some("only the law \"sine-constant-cosine\" uses these shares")
-        }
-        "start_velocity" | "end_velocity" | "start_acceleration" | "end_acceleration" => {
-            Some("only the law \"polynomial-5\" uses these end values")
-        }
-        "duration" => Some("a cam program is defined over the angle of the cam"),
-        _ => None,
-    })?;
+    section.finish()?;
     Ok(read)
 }
 
-/// Checks that a rise or a return is greater than zero.
-fn positive(size: Value) -> Result<()> {
-    size.positive().map(|_| ())
-}
-
 /// [s′, s″] at both ends of a polynomial, as far as the file gives them.
-fn ends(section: &Section, oscillating: bool) -> Result<[[Option<f64>; 2]; 2]> {
-    let (velocity, acceleration) = if oscillating {
-        (&SHARE, &CAM_TURNING)
-    } else {
-        (&CAM_VELOCITY, &CAM_ACCELERATION)
-    };
-    let read = |key, kind| Ok::<_, Problem>(section.optional(key, kind)?.map(|value| value.si));
+fn ends(section: &Section) -> Result<[[Option<f64>; 2]; 2]> {
     Ok([
         [
-            read("start_velocity", velocity)?,
-            read("start_acceleration", acceleration)?,
+            section.maybe("start_velocity")?,
+            section.maybe("start_acceleration")?,
         ],
         [
-            read("end_velocity", velocity)?,
-            read("end_acceleration", acceleration)?,
+            section.maybe("end_velocity")?,
+            section.maybe("end_acceleration")?,
         ],
     ])
 }
@@ -220,16 +157,15 @@ fn problem(
     section: &Section,
     parts: &[Section],
     segments: &[Segment],
-    way: &Kind,
     error: &CamError,
 ) -> Problem {
     let degrees = |phi: f64| format!("{} deg", figure(phi.to_degrees()));
     // Rises in the unit of the key.
     let shown = |rise: f64| {
-        if way.unit == ANGLE.unit {
-            degrees(rise)
-        } else {
+        if section.slides() {
             format!("{} mm", figure(rise * 1e3))
+        } else {
+            degrees(rise)
         }
     };
     let part = |index: usize| parts.get(index).unwrap_or(section);

@@ -60,12 +60,8 @@ pub(super) fn read(
     oscillating: bool,
     files: &dyn Files,
 ) -> problem::Result<(Program, String)> {
-    let way = if oscillating { &ANGLE } else { &LENGTH };
-    let within = section.optional("lift_within", way)?;
+    let within = section.maybe("lift_within")?;
     let layout = Layout::read(section)?;
-    if let Some(within) = &within {
-        within.check_positive()?;
-    }
     let file = CsvFile::open(item, "lift.csv", files)?;
     let lift = Lift::of(&file.text, &layout, oscillating).map_err(|fault| file.shows(fault))?;
     let (knots, missed) = lift.fit();
@@ -76,7 +72,7 @@ pub(super) fn read(
             format!("{} um", short(x * 1e6))
         }
     };
-    let most = within.map_or(MISSES * lift.stroke, |within| within.si);
+    let most = within.unwrap_or(MISSES * lift.stroke);
     if missed > most {
         let what = format!(
             "is a table that {MAX_SEGMENTS} polynomials miss by {}, more than {}",

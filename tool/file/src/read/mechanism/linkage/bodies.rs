@@ -7,17 +7,13 @@ use jred::machine::{Body, Marker, MassProperties};
 use crate::plain;
 use crate::read::mechanism::core;
 use crate::read::names::Names;
-use crate::text::item::{Item, Value};
+use crate::text::item::Item;
 use crate::text::problem::{Result, quoted};
 use crate::text::section::Section;
-use crate::units::kind::{ANGLE, INERTIA, LENGTH, MASS};
 use crate::units::{closest, did_you_mean};
 
 /// Name of the fixed frame in joints.
 pub(super) const GROUND: &str = "ground";
-
-/// The most bodies of a linkage.
-pub(super) const MOST: usize = 16;
 
 /// One body as the file gives it.
 pub(super) struct Drawn {
@@ -63,31 +59,8 @@ impl End {
 
 impl Bodies {
     pub(super) fn read(section: &Section) -> Result<Self> {
-        let ground = match section.get(GROUND) {
-            Some(item) => points(&item.section(format!("`{GROUND}` of {}", section.title()))?)?,
-            None => Vec::new(),
-        };
-        let item = section.require(
-            "body",
-            "[[mechanism.body]] once for each moving body, with name, mass, angle and points",
-        )?;
-        let sections = item.sections("[[mechanism.body]]")?;
-        if sections.is_empty() {
-            return Err(item
-                .problem("is empty", "here")
-                .help("a linkage has at least one moving body"));
-        }
-        if let Some(surplus) = sections.get(MOST) {
-            return Err(surplus
-                .problem(
-                    format!(
-                        "the linkage has {} bodies, more than {MOST}",
-                        sections.len()
-                    ),
-                    "one too many",
-                )
-                .help("bodies that are rigidly connected are one body: add their masses"));
-        }
+        let ground = named_points(section, GROUND)?;
+        let sections = section.tables("body")?;
         let mut bodies = Self {
             ground,
             moving: Vec::with_capacity(sections.len()),
@@ -181,11 +154,8 @@ impl Bodies {
 }
 
 fn drawn(section: &Section) -> Result<Drawn> {
-    section.expects(&[
-        "name", "mass", "inertia", "com", "angle", "position", "points",
-    ]);
-    let item = section.require("name", "name = \"crank\"")?;
-    let name = item.text("crank")?.to_owned();
+    let item = section.need("name")?;
+    let name = item.words_of_text()?.to_owned();
     if name == GROUND || name.contains('.') {
         let what = if name == GROUND {
             "is \"ground\", the name of the fixed frame".to_owned()
@@ -196,43 +166,33 @@ fn drawn(section: &Section) -> Result<Drawn> {
             .problem(&what, "another name")
             .help("joints write \"body.point\"; choose a name without \".\", and not \"ground\""));
     }
-    let mass = section.quantity("mass", &MASS)?.not_negative()?;
-    let inertia = section.optional("inertia", &INERTIA)?;
-    let has_inertia = inertia.is_some();
-    let inertia = inertia.map_or(Ok(0.0), Value::not_negative)?;
-    let com = section.point("com", &LENGTH)?;
-    let angle = section.optional("angle", &ANGLE)?.map(|value| value.si);
-    let position = section
-        .get("position")
-        .map(|item| item.pair([&LENGTH, &LENGTH]))
-        .transpose()?
-        .map(|pair| pair.map(|value| value.si));
-    let points = match section.get("points") {
-        Some(item) => points(&item.section(format!("`points` of {}", section.title()))?)?,
-        None => Vec::new(),
+    let inertia = section.maybe("inertia")?;
+    let properties = MassProperties {
+        mass: section.si("mass")?,
+        inertia: inertia.unwrap_or(0.0),
+        com: section.two("com")?,
     };
-    section.finish_with(|key| match key {
-        "length" => Some(
-            "a body has no `length`: give its points instead, such as points = { A = [\"80 mm\", \"0 mm\"] }",
-        ),
-        "at" => Some("use `position` for the place of the body in the drawing"),
-        _ => None,
-    })?;
-    let link =
-        Link::new(MassProperties { mass, inertia, com }).map_err(|error| core(section, error))?;
+    let angle = section.maybe("angle")?;
+    let position = section.get("position").map(|item| item.two()).transpose()?;
+    let points = named_points(section, "points")?;
+    section.finish()?;
+    let link = Link::new(properties).map_err(|error| core(section, error))?;
     Ok(Drawn {
         name,
         link,
         points,
         angle,
         position,
-        has_inertia,
+        has_inertia: inertia.is_some(),
         place: section.header(),
     })
 }
 
 /// The points of a table whose keys are their names.
-fn points(section: &Section) -> Result<Vec<Point>> {
+fn named_points(section: &Section, key: &'static str) -> Result<Vec<Point>> {
+    let Some(table) = section.maybe_table(key)? else {
+        return Ok(Vec::new());
+    };
     let point = |(name, item): (&str, Item)| {
         if name.contains('.') || name.trim().is_empty() {
             return Err(item
@@ -241,8 +201,8 @@ fn points(section: &Section) -> Result<Vec<Point>> {
         }
         Ok(Point {
             name: name.trim().to_owned(),
-            at: item.pair([&LENGTH, &LENGTH])?.map(|value| value.si),
+            at: item.two()?,
         })
     };
-    section.entries().into_iter().map(point).collect()
+    table.entries().into_iter().map(point).collect()
 }

@@ -14,7 +14,6 @@ use crate::number::rounding::figure;
 use crate::read::mechanism::{core, disc_cam};
 use crate::text::problem::{Problem, Result};
 use crate::text::section::Section;
-use crate::units::kind::{ANGLE, LENGTH};
 
 use super::bodies::{Bodies, End};
 use super::joints::Held;
@@ -53,11 +52,7 @@ pub(super) fn read(
             .problem(format!("the linkage has more than {MOST} cams"), "one too many")
             .help("combine cams that act on the same follower one after the other into one cam with one program"));
     }
-    let angle = |key| Ok(section.optional(key, &ANGLE)?.map_or(0.0, |value| value.si));
-    let axis = section.require(
-        "axis",
-        "axis = \"ground.O\": the point of the ground about which the cam turns",
-    )?;
+    let axis = section.need("axis")?;
     let end = bodies.end(&axis)?;
     if [cam.body, follower.body].contains(&end.body) {
         return Err(axis
@@ -67,36 +62,23 @@ pub(super) fn read(
             )
             .help("name the point on the body that carries the bearings of both, usually the ground: axis = \"ground.O\""));
     }
-    let base = end.marker().with_angle(angle("axis_direction")?);
-    let by_form = match section.get("closure") {
-        Some(item) => item.choice(&["force", "form"])? == 1,
-        None => false,
-    };
-    let base_radius = section.quantity("base_radius", &LENGTH)?;
-    base_radius.check_positive()?;
-    let part = section
-        .require(
-            "follower",
-            "follower = { type = \"oscillating-roller\", pivot = [\"120 mm\", \"0 mm\"], arm = \"100 mm\", swing = \"clockwise\" }",
-        )?
-        .section(format!("`follower` of {}", section.title()))?;
+    let base = end.marker().with_angle(section.si("axis_direction")?);
+    let by_form = section.word("closure")? == 1;
+    let base_radius = section.value("base_radius")?;
+    let part = section.table("follower")?;
     let shape = disc_cam::follower(&part, || roller(section))?;
-    part.finish_with(|key| match key {
-        "mass" | "inertia" | "com" => {
-            Some("the follower is a body of the linkage, which has its own mass: give it there")
-        }
-        _ => None,
-    })?;
-    let program = disc_cam::program(
-        section,
-        "[[mechanism.joint.segment]]",
-        shape.pivot().is_some(),
-    )?;
+    part.finish()?;
+    section.set_slides(shape.pivot().is_none());
+    let program = disc_cam::program(section)?;
     let profile = CamProfile::new(program, base_radius.si, shape)
         .map_err(|error| disc_cam::problem(section, &part, &base_radius, error))?;
     let pair = Pair::Cam {
-        cam: cam.marker().with_angle(angle("direction")?),
-        follower: follower.marker().with_angle(angle("second_direction")?),
+        cam: cam
+            .marker()
+            .with_angle(section.maybe("direction")?.unwrap_or(0.0)),
+        follower: follower
+            .marker()
+            .with_angle(section.si("second_direction")?),
         place,
     };
     let cam = Cam {
@@ -110,19 +92,9 @@ pub(super) fn read(
 
 /// The roller; a linkage needs its radius only.
 fn roller(section: &Section) -> Result<Roller> {
-    let section = section
-        .require("roller", "roller = { radius = \"13 mm\" }")?
-        .section(format!("`roller` of {}", section.title()))?;
-    let radius = section.quantity("radius", &LENGTH)?.positive()?;
-    section.finish_with(|key| match key {
-        "mass" | "com" => {
-            Some("in a linkage the roller is part of the follower: add its mass to that body")
-        }
-        "inertia" => Some(
-            "the rotation of the roller is neglected in a linkage; type = \"disc-cam\" includes it",
-        ),
-        _ => None,
-    })?;
+    let section = section.table("roller")?;
+    let radius = section.si("radius")?;
+    section.finish()?;
     Roller::new(RollerDimensions {
         radius,
         mass: 0.0,

@@ -5,29 +5,14 @@ use std::ops::Range;
 use jred::machine::{Body, Frame, Joint};
 use jred::mechanism::linkage::Pair;
 
+use crate::keys::linkage::JOINTS;
 use crate::read::names::Names;
 use crate::text::item::Item;
 use crate::text::problem::Result;
 use crate::text::section::Section;
-use crate::units::kind::{ANGLE, LENGTH};
 
 use super::bodies::{Bodies, End};
 use super::cam::{self, Cam};
-
-/// The most joints of a linkage.
-pub(super) const MOST: usize = 32;
-
-/// The types of joint in machine files.
-const TYPES: [&str; 8] = [
-    "revolute",
-    "prismatic",
-    "fixed",
-    "pin-in-slot",
-    "gears",
-    "rack",
-    "belt",
-    "cam",
-];
 
 /// One joint as the file gives it.
 pub(super) struct Held {
@@ -58,24 +43,7 @@ impl Held {
 }
 
 pub(super) fn read(section: &Section, bodies: &Bodies) -> Result<Vec<Held>> {
-    let item = section.require(
-        "joint",
-        "[[mechanism.joint]] once for each joint, with name, type and between = [\"ground.O\", \"crank\"]",
-    )?;
-    let sections = item.sections("[[mechanism.joint]]")?;
-    if let Some(surplus) = sections.get(MOST) {
-        return Err(surplus
-            .problem(
-                format!(
-                    "the linkage has {} joints, more than {MOST}",
-                    sections.len()
-                ),
-                "one too many",
-            )
-            .help(
-                "bodies that are rigidly connected are one body: remove the joint between them",
-            ));
-    }
+    let sections = section.tables("joint")?;
     let mut joints: Vec<Held> = Vec::with_capacity(sections.len());
     let mut names = Names::of("joints");
     for section in &sections {
@@ -89,23 +57,17 @@ pub(super) fn read(section: &Section, bodies: &Bodies) -> Result<Vec<Held>> {
 
 /// Reads a joint. `cams`: number of cams among the joints before it.
 fn joint(section: &Section, bodies: &Bodies, cams: usize) -> Result<Held> {
-    section.expects(&["name", "type", "between"]);
-    let kind = match section.get("type") {
-        Some(item) => item.choice(&TYPES)?,
-        None => 0,
-    };
-    let kind = TYPES.get(kind).copied().unwrap_or(TYPES[0]);
-    let between = section.require("between", "between = [\"ground.O\", \"crank\"]")?;
-    let list = between.list("end", "[\"ground.O\", \"crank\"]")?;
-    let [first, second] = list.as_slice() else {
-        let count = list.len();
-        return Err(between
-            .problem(
-                &format!("has {count} ends, but a joint connects two"),
-                "here",
-            )
-            .help("a pin that connects three bodies is two joints at the same point"));
-    };
+    let kind = JOINTS[section.word("type")?];
+    section.choose(kind);
+    let between = section.need("between")?;
+    let two = between.both("end", "[\"ground.O\", \"crank\"]");
+    let [first, second] = &two.map_err(|problem| {
+        if between.is_list() {
+            problem.help("a pin that connects three bodies is two joints at the same point")
+        } else {
+            problem
+        }
+    })?;
     let ends = [bodies.end(first)?, bodies.end(second)?];
     if ends[0].body == ends[1].body {
         return Err(between
@@ -115,8 +77,8 @@ fn joint(section: &Section, bodies: &Bodies, cams: usize) -> Result<Held> {
             )
             .help("a joint connects two different bodies, or a body and the ground"));
     }
-    let name = match section.get("name") {
-        Some(item) => item.text("crank pin")?.to_owned(),
+    let name = match section.text("name")? {
+        Some(name) => name.to_owned(),
         None => format!("{} to {}", first.text("")?, second.text("")?),
     };
     let (pair, radii, cam) = if kind == "cam" {
@@ -126,19 +88,7 @@ fn joint(section: &Section, bodies: &Bodies, cams: usize) -> Result<Held> {
         let (pair, radii) = pair(kind, section, bodies, ends)?;
         (pair, radii, None)
     };
-    section.finish_with(|key| {
-        Some(match key {
-            "direction" | "second_direction" => {
-                "only prismatic and fixed joints, slots, racks and cams have a direction"
-            }
-            "radius" => "gears and belts have radii = [\"40 mm\", \"80 mm\"], a rack has the radius of its pinion",
-            "radii" | "mesh" | "carrier" => "only gears and belts have radii, only gears mesh and carrier",
-            "crossed" => "only belts can be crossed",
-            "axis" | "base_radius" | "follower" | "roller" | "segment" => "only cams use this",
-            "at" => "give the points that a joint connects as its ends: between = [\"crank.A\", \"rod\"]",
-            _ => return None,
-        })
-    })?;
+    section.finish()?;
     Ok(Held {
         name,
         kind,
@@ -156,64 +106,46 @@ fn pair(
     bodies: &Bodies,
     ends: [End; 2],
 ) -> Result<(Pair, Option<Range<usize>>)> {
-    let angle = |key| Ok(section.optional(key, &ANGLE)?.map_or(0.0, |value| value.si));
     let [a, b] = ends.map(|end| end.marker());
     let joint = |joint| Ok((Pair::Joint(joint), None));
     match kind {
         "revolute" => joint(Joint::Revolute([a, b])),
         "prismatic" => {
-            let direction = section
-                .require(
-                    "direction",
-                    "direction = \"0 deg\": the guide's direction on the first body",
-                )?
-                .quantity(&ANGLE)?;
+            let direction = direction(section, ": the guide's direction on the first body")?;
             let [a, b] = [
-                a.with_angle(direction.si),
-                b.with_angle(angle("second_direction")?),
+                a.with_angle(direction),
+                b.with_angle(section.si("second_direction")?),
             ];
             joint(Joint::Prismatic([a, b]))
         }
         "fixed" => joint(Joint::Fixed([
-            a.with_angle(angle("direction")?),
-            b.with_angle(angle("second_direction")?),
+            a.with_angle(section.maybe("direction")?.unwrap_or(0.0)),
+            b.with_angle(section.si("second_direction")?),
         ])),
         "pin-in-slot" => {
-            let direction = section
-                .require(
-                    "direction",
-                    "direction = \"0 deg\": the slot's direction on the second body",
-                )?
-                .quantity(&ANGLE)?;
-            joint(Joint::PinInSlot([a, b.with_angle(direction.si)]))
+            let direction = direction(section, ": the slot's direction on the second body")?;
+            joint(Joint::PinInSlot([a, b.with_angle(direction)]))
         }
         "rack" => {
-            let radius = section.quantity("radius", &LENGTH)?;
+            let radius = section.value("radius")?;
             let place = radius.span();
-            let radius = radius.positive()?;
-            let direction = section
-                .require(
-                    "direction",
-                    "direction = \"0 deg\": the direction of the rack's pitch line on the second body",
-                )?
-                .quantity(&ANGLE)?;
+            let of_line = ": the direction of the rack's pitch line on the second body";
+            let direction = direction(section, of_line)?;
             let rack = Pair::Rack {
                 pinion: a,
-                rack: b.with_angle(direction.si),
-                radius,
+                rack: b.with_angle(direction),
+                radius: radius.si,
                 phase: 0.0,
             };
             Ok((rack, Some(place)))
         }
         _ => {
-            let item = section.require("radii", "radii = [\"40 mm\", \"80 mm\"]")?;
+            let item = section.need("radii")?;
             let place = item.span();
-            let [r_a, r_b] = item.pair([&LENGTH, &LENGTH])?;
+            let [r_a, r_b] = item.values()?;
             let radii = [r_a.positive()?, r_b.positive()?];
             let pair = if kind == "belt" {
-                let crossed = section
-                    .get("crossed")
-                    .map_or(Ok(false), |item| item.flag())?;
+                let crossed = section.is("crossed")?;
                 Pair::Belt {
                     centres: [a, b],
                     radii: [radii[0], if crossed { -radii[1] } else { radii[1] }],
@@ -232,6 +164,16 @@ fn pair(
     }
 }
 
+/// The direction (rad) that a joint must have; `what` it is.
+fn direction(section: &Section, what: &str) -> Result<f64> {
+    let example = format!("direction = \"0 deg\"{what}");
+    let item = section.get("direction");
+    Ok(item
+        .ok_or_else(|| section.missing("direction", &example))?
+        .value()?
+        .si)
+}
+
 /// The body that carries both gears.
 fn carrier(section: &Section, bodies: &Bodies, ends: [End; 2]) -> Result<Body> {
     let Some(item) = section.get("carrier") else {
@@ -243,7 +185,7 @@ fn carrier(section: &Section, bodies: &Bodies, ends: [End; 2]) -> Result<Body> {
         }
         return Ok(Body::Ground);
     };
-    let carrier = bodies.find(&item, item.text("arm")?)?;
+    let carrier = bodies.find(&item, item.words_of_text()?)?;
     if ends.iter().any(|end| end.body == carrier) {
         return Err(item
             .problem(
@@ -260,10 +202,7 @@ fn carrier(section: &Section, bodies: &Bodies, ends: [End; 2]) -> Result<Body> {
 
 /// The radii with the core's sign for a ring gear.
 fn meshing(section: &Section, item: &Item, radii: [f64; 2]) -> Result<[f64; 2]> {
-    let internal = match section.get("mesh") {
-        Some(mesh) => mesh.choice(&["external", "internal"])? == 1,
-        None => false,
-    };
+    let internal = section.word("mesh")? == 1;
     if !internal {
         return Ok(radii);
     }

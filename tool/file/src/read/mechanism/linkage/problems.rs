@@ -5,6 +5,7 @@ use jred::machine::{Body, Frame, Joint, PoseError};
 use jred::mechanism::linkage::{Linkage, LinkageError, Pair, Pose};
 use jred::number::RangeError;
 
+use crate::keys::linkage::MOST;
 use crate::model::coordinate::Coordinate;
 use crate::model::mechanism::ChangePoint;
 use crate::number::rounding::figure;
@@ -13,9 +14,9 @@ use crate::text::item::Item;
 use crate::text::problem::{Problem, Result};
 use crate::text::section::Section;
 
-use super::bodies::{self, Bodies};
+use super::bodies::Bodies;
 use super::cam;
-use super::joints::{self, Held};
+use super::joints::Held;
 
 /// An error nearer than this to the drawn position (rad or m) is an error of the drawing.
 const HAIR: f64 = 1e-6;
@@ -379,4 +380,4 @@ impl Context<'_> {
 }
 
 /// Room for the largest linkage.
-type Whole = Linkage<{ bodies::MOST }, { joints::MOST }, { cam::MOST }>;
+type Whole = Linkage<{ MOST[0] }, { MOST[1] }, { cam::MOST }>;

@@ -1,0 +1,198 @@
+//! The descriptions of the keys: every one is read, the tables of the documentation and the schema for editors follow from them.
+//!
+//! `JRED_BLESS=1 cargo test -p jred-file keys` writes the tables and the schema anew.
+
+mod described;
+mod pattern;
+mod schema;
+mod tables;
+mod validated;
+
+use std::path::{Path, PathBuf};
+
+use jred_file::keys::{MACHINE, RULE_SET};
+use jred_file::text::key::{Form, Key, Need, Table};
+use serde_json::Value;
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
+}
+
+/// Whether files are written anew.
+fn blesses() -> bool {
+    std::env::var_os("JRED_BLESS").is_some()
+}
+
+/// The tables that a form holds.
+fn tables_of(form: Form) -> Vec<&'static Table> {
+    match form {
+        Form::Table(table) | Form::Tables(table, ..) => vec![table],
+        Form::Named(inner) | Form::List(inner, _) => tables_of(*inner),
+        Form::Any(forms) | Form::Tuple(forms) => {
+            forms.iter().copied().flat_map(tables_of).collect()
+        }
+        _ => Vec::new(),
+    }
+}
+
+/// All tables with a name, each once.
+fn named() -> Vec<&'static Table> {
+    fn walk(table: &'static Table, found: &mut Vec<&'static Table>) {
+        if !table.name.is_empty() {
+            if found.iter().any(|known| known.name == table.name) {
+                return;
+            }
+            found.push(table);
+        }
+        let inner = table.keys().flat_map(|key| tables_of(key.form));
+        for table in inner.chain(table.variants.iter().copied()) {
+            walk(table, found);
+        }
+    }
+    let mut found = Vec::new();
+    walk(&MACHINE, &mut found);
+    walk(&RULE_SET, &mut found);
+    found
+}
+
+/// A table of a document.
+struct Place {
+    /// Its path in descriptions: "slider-crank.crank".
+    name: String,
+    /// Its path in the document.
+    path: String,
+    keys: Vec<&'static Key>,
+    /// The word that was chosen.
+    word: Option<String>,
+    /// Keys of which one is given.
+    either: Vec<&'static [&'static str]>,
+}
+
+/// The tables of a document.
+fn places(machine: &Value) -> Vec<Place> {
+    let mut found = Vec::new();
+    walk(&MACHINE, machine, "", "", &mut found);
+    found
+}
+
+fn walk(table: &'static Table, value: &Value, name: &str, path: &str, found: &mut Vec<Place>) {
+    let word = value.get(table.by).and_then(Value::as_str);
+    let variant = table.variants.iter().copied().find(|variant| {
+        word == Some(variant.name) || word.is_some() && table.key(table.by).is_none()
+    });
+    let name = match variant {
+        _ if table.name.is_empty() => name,
+        Some(variant) => variant.name,
+        None => table.name,
+    };
+    let keys: Vec<_> = table
+        .keys()
+        .chain(variant.into_iter().flat_map(Table::keys))
+        .collect();
+    let keys = keys.into_iter().filter(|key| {
+        let mut elsewhere = variant.into_iter().flat_map(|variant| variant.elsewhere);
+        elsewhere.all(|(name, _)| *name != key.name)
+    });
+    let keys: Vec<_> = keys.collect();
+    let by = variant.map_or(table.by, |variant| variant.by);
+    let default = table.key(by).and_then(|key| match key.need {
+        Need::Default(word) => Some(word),
+        _ => None,
+    });
+    let word = value.get(by).and_then(Value::as_str).or(default);
+    for key in &keys {
+        let Some(inner) = value.get(key.name) else {
+            continue;
+        };
+        let name = format!("{name}.{}", key.name);
+        inside(
+            key.form,
+            inner,
+            &name,
+            &format!("{path}/{}", key.name),
+            found,
+        );
+    }
+    found.push(Place {
+        name: name.to_owned(),
+        path: path.to_owned(),
+        keys,
+        word: word.map(str::to_owned),
+        either: variant
+            .into_iter()
+            .chain([table])
+            .flat_map(|table| table.either)
+            .map(|(keys, _)| *keys)
+            .collect(),
+    });
+}
+
+/// The tables in a value.
+fn inside(form: Form, value: &Value, name: &str, path: &str, found: &mut Vec<Place>) {
+    match (form, value) {
+        (Form::Table(table), Value::Object(_)) => walk(table, value, name, path, found),
+        (Form::Tables(table, ..), Value::Array(items)) => {
+            for (k, item) in items.iter().enumerate() {
+                inside(
+                    Form::Table(table),
+                    item,
+                    name,
+                    &format!("{path}/{k}"),
+                    found,
+                );
+            }
+        }
+        (Form::List(form, _), Value::Array(items)) => {
+            for (k, item) in items.iter().enumerate() {
+                inside(*form, item, name, &format!("{path}/{k}"), found);
+            }
+        }
+        (Form::Named(form), Value::Object(entries)) => {
+            for (entry, value) in entries {
+                inside(*form, value, name, &format!("{path}/{entry}"), found);
+            }
+        }
+        (Form::Any(forms), _) => {
+            for form in forms {
+                inside(*form, value, name, path, found);
+            }
+        }
+        _ => {}
+    }
+}
+
+/// A help without the addresses of its links.
+fn plain(help: &str) -> String {
+    let (mut plain, mut rest) = (String::new(), help);
+    while let Some((before, link)) = rest.split_once('[') {
+        plain += before;
+        match link
+            .split_once("](")
+            .and_then(|(text, after)| Some((text, after.split_once(')')?.1)))
+        {
+            Some((text, after)) if !text.contains('[') && !text.contains(']') => {
+                plain += text;
+                rest = after;
+            }
+            _ => {
+                plain.push('[');
+                rest = link;
+            }
+        }
+    }
+    (plain + rest).replace("\\|", "|")
+}
+
+/// The words by which a table chooses its keys.
+fn words_of(table: &Table, key: &Key) -> Vec<&'static str> {
+    match key.form {
+        Form::Words([]) => table.variants.iter().map(|variant| variant.name).collect(),
+        Form::Words(words) => words.to_vec(),
+        _ => Vec::new(),
+    }
+}
+
+#[test]
+fn links_are_left_out() {
+    assert_eq!(plain("a [b](c.md#d) `[u, v]` e"), "a b `[u, v]` e");
+}

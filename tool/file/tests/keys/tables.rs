@@ -1,0 +1,297 @@
+//! The tables of keys in the documentation.
+
+use std::fmt::Write as _;
+use std::fs;
+use std::path::PathBuf;
+
+use jred_file::text::key::{Form, Key, Kinds, Limit, Need, Table};
+use jred_file::units::kind::{Kind, SHARE};
+
+use super::{blesses, named, root, words_of};
+
+/// More words than these are not listed in a row.
+const MANY: usize = 9;
+
+/// "length", "pair of angles"
+fn noun(kind: &Kind) -> &'static str {
+    kind.name.trim_start_matches("an ").trim_start_matches("a ")
+}
+
+fn nouns([turns, slides]: Kinds, plural: &str) -> String {
+    let [first, second] = [noun(turns), noun(slides)];
+    if first == second {
+        return format!("{first}{plural}");
+    }
+    format!("{first}{plural} or {second}{plural}")
+}
+
+fn limit(kinds: Kinds, limit: Limit) -> String {
+    let shown = |si: f64| {
+        if kinds[0].unit == SHARE.unit {
+            format!("{} %", si * 100.0)
+        } else {
+            format!("{si} {}", kinds[0].unit)
+        }
+    };
+    match limit {
+        Limit::Any => String::new(),
+        Limit::Positive => " > 0".to_owned(),
+        Limit::NotNegative => " ≥ 0".to_owned(),
+        Limit::UpTo(most) => format!(" > 0, ≤ {}", shown(most)),
+        Limit::Within(most) => format!(" ≥ 0, ≤ {}", shown(most)),
+        Limit::Between(least, most) => format!(", {} to {}", shown(least), shown(most)),
+    }
+}
+
+/// "1 to 16 "
+fn count([least, most]: [usize; 2]) -> String {
+    match (least, most) {
+        (_, usize::MAX) => String::new(),
+        (least, most) if least == most => format!("{least} "),
+        (0, most) => format!("up to {most} "),
+        (least, most) => format!("{least} to {most} "),
+    }
+}
+
+/// What a key holds, in words.
+fn value(form: Form, words: &[&str]) -> String {
+    match form {
+        Form::Quantity(kinds, bound) => nouns(kinds, "") + &limit(kinds, bound),
+        Form::Pair(kinds) => format!("pair of {}", nouns(kinds, "s")),
+        Form::Number([least, most]) if least > 0.0 && least < 1e-4 => {
+            format!("number, {least:e} to {most:e}")
+        }
+        Form::Number([least, most]) if least > -1e3 => format!("number, {least} to {most}"),
+        Form::Number(_) => "number".to_owned(),
+        Form::Count([_, u32::MAX]) => "whole number".to_owned(),
+        Form::Count([least, most]) => format!("whole number, {least} to {most}"),
+        Form::Text => "text".to_owned(),
+        Form::File => "CSV file".to_owned(),
+        Form::Name(what) => format!("name of {what}"),
+        Form::Flag => "`true`, `false`".to_owned(),
+        Form::Words(_) if words.len() > MANY => "word".to_owned(),
+        Form::Words(_) => {
+            let quoted = words.iter().map(|word| format!("`\"{word}\"`"));
+            quoted.collect::<Vec<_>>().join(", ")
+        }
+        Form::Table(_) => "table".to_owned(),
+        Form::Tables(_, counts, _) => format!("list of {}tables", count(counts)),
+        Form::Named(inner) => format!("table of {}", many(*inner)),
+        Form::List(inner, counts) => format!("list of {}{}", count(counts), many(*inner)),
+        Form::Tuple(forms) => {
+            let parts = forms.iter().map(|form| value(*form, &[]));
+            format!("`[{}]`", parts.collect::<Vec<_>>().join(", "))
+        }
+        Form::Any(forms) => {
+            let parts = forms.iter().map(|form| match form {
+                Form::Words(words) => value(*form, words),
+                form => value(*form, &[]),
+            });
+            parts.collect::<Vec<_>>().join(" or ")
+        }
+    }
+}
+
+/// Several of them.
+fn many(form: Form) -> String {
+    match form {
+        Form::Text => "texts".to_owned(),
+        Form::Name(what) => format!("names of {what}"),
+        Form::Count(_) => "whole numbers".to_owned(),
+        Form::Quantity(kinds, _) => nouns(kinds, "s"),
+        Form::Pair(kinds) => format!("pairs of {}", nouns(kinds, "s")),
+        Form::Any(forms) => {
+            let parts = forms.iter().map(|form| many(*form));
+            parts.collect::<Vec<_>>().join(" or ")
+        }
+        Form::Table(_) => "tables".to_owned(),
+        form => value(form, &[]),
+    }
+}
+
+/// The second column of a row.
+pub(super) fn cell(table: &Table, key: &Key, only: &[&str]) -> String {
+    let mut cell = String::new();
+    if !only.is_empty() {
+        write!(cell, "{}: ", only.join(", ")).unwrap();
+    }
+    cell += &value(key.form, &words_of(table, key));
+    if let Need::Default(default) = key.need {
+        match key.form {
+            Form::Words(_) => write!(cell, " (`\"{default}\"`)").unwrap(),
+            Form::Flag | Form::Text => write!(cell, " (`{default}`)").unwrap(),
+            Form::Pair(_) => cell += " (0, 0)",
+            _ => write!(cell, " ({default})").unwrap(),
+        }
+    }
+    // A help that begins with a default goes on with the value.
+    match key.help {
+        "" => {}
+        help if help.starts_with('(') => write!(cell, " {help}").unwrap(),
+        help => write!(cell, ": {help}").unwrap(),
+    }
+    cell
+}
+
+/// Which keys of a table are shown: all, those with a word only, all but those.
+#[derive(Clone, Copy)]
+enum Shown<'n> {
+    All,
+    With(&'n str),
+    Without(&'n str),
+}
+
+impl<'n> Shown<'n> {
+    /// `motion`, `motion/profile`, `motion, without profile`
+    fn of(name: &'n str) -> (&'n str, Self) {
+        if let Some((name, word)) = name.split_once(", without ") {
+            return (name, Self::Without(word));
+        }
+        match name.split_once('/') {
+            Some((name, word)) => (name, Self::With(word)),
+            None => (name, Self::All),
+        }
+    }
+
+    fn has(self, key: &Key) -> bool {
+        match self {
+            Self::All => true,
+            Self::With(word) => key.only == [word],
+            Self::Without(word) => key.only != [word],
+        }
+    }
+}
+
+/// Rows of keys with the same second column are one; `with` are the words with which the table is used.
+fn rows(
+    table: &'static Table,
+    path: &str,
+    with: &[&str],
+    shown: Shown,
+    found: &mut Vec<(Vec<String>, String)>,
+) {
+    // A key that a table needs is not needed if the table is not.
+    let (outer, may) = path
+        .strip_prefix('?')
+        .map_or((path, false), |path| (path, true));
+
+    for key in table.keys().filter(|key| shown.has(key)) {
+        let name = format!("{outer}{}", key.name);
+        let needed = key.need == Need::Required;
+        let only = match shown {
+            Shown::With(_) => &[],
+            _ if key.only.is_empty() => with,
+            _ => key.only,
+        };
+        let inner = match key.form {
+            Form::Table(inner) | Form::Tables(inner, ..) if inner.name.is_empty() => Some(inner),
+            _ => None,
+        };
+        if inner.is_none() || !key.help.is_empty() {
+            let bold = match (needed, may) {
+                (true, false) => format!("**`{name}`**"),
+                (true, true) => format!("`{outer}`**`{}`**", key.name),
+                _ => format!("`{name}`"),
+            };
+            let cell = cell(table, key, only);
+            match found.iter_mut().find(|(_, known)| *known == cell) {
+                Some((names, _)) => names.push(bold),
+                None => found.push((vec![bold], cell)),
+            }
+        }
+        if let Some(inner) = inner {
+            let mark = if needed && !may { "" } else { "?" };
+            rows(inner, &format!("{mark}{name}."), only, Shown::All, found);
+        }
+    }
+}
+
+/// The table of a page in `docs/` or, if `deep`, in a folder of it: there links lead up first.
+fn markdown(table: &'static Table, shown: Shown, deep: bool) -> String {
+    let mut found = Vec::new();
+    rows(table, "", &[], shown, &mut found);
+    // What every link has comes last.
+    let common = |names: &[String]| {
+        ["mass", "inertia", "com"].iter().any(|key| {
+            names[0]
+                .trim_matches(['*', '`'])
+                .ends_with(&format!(".{key}"))
+        })
+    };
+    found.sort_by_key(|(names, _)| common(names));
+    // The sections of a machine file have their own tables.
+    if table.name == "machine" {
+        found.retain(|(_, cell)| !cell.starts_with("table") && !cell.starts_with("list of"));
+    }
+    let mut text = String::from("\n| Key | Value (default) and meaning |\n|---|---|\n");
+    for (mut names, cell) in found {
+        if names.len() > MANY + 1 {
+            names.truncate(2);
+            names.push("…".to_owned());
+        }
+        writeln!(text, "| {} | {cell} |", names.join(", ")).unwrap();
+    }
+    if deep {
+        text = text
+            .replace("](", "](../")
+            .replace("](../#", "](#")
+            .replace("](../mechanisms/", "](");
+    }
+    text + "\n"
+}
+
+fn pages() -> Vec<PathBuf> {
+    let folders = ["docs", "docs/mechanisms"].map(|folder| root().join(folder));
+    let entries = folders
+        .iter()
+        .flat_map(|folder| fs::read_dir(folder).unwrap());
+    let paths = entries.map(|entry| entry.unwrap().path());
+    let mut paths: Vec<_> = paths
+        .filter(|path| path.extension().is_some_and(|end| end == "md"))
+        .collect();
+    paths.sort();
+    paths
+}
+
+/// Between `<!-- keys: NAME -->` and `<!-- end -->` is the table of that name, and every table is somewhere.
+#[test]
+fn the_tables_of_keys_are_those_of_the_descriptions() {
+    let tables = named();
+    let mut shown = Vec::new();
+    for page in pages() {
+        let text = fs::read_to_string(&page).unwrap();
+        let deep = page.parent().unwrap().ends_with("mechanisms");
+        let mut parts = text.split("<!-- keys: ");
+        let mut made = parts.next().unwrap().to_owned();
+        for part in parts {
+            let (name, rest) = part.split_once(" -->\n").unwrap();
+            let (_, after) = rest
+                .split_once("<!-- end -->")
+                .unwrap_or_else(|| panic!("{}: no end of {name}", page.display()));
+            let (of, keys) = Shown::of(name);
+            let table = tables.iter().find(|table| table.name == of);
+            let table = table.unwrap_or_else(|| panic!("{}: no table {of}", page.display()));
+            shown.push(of.to_owned());
+            write!(
+                made,
+                "<!-- keys: {name} -->\n{}<!-- end -->{after}",
+                markdown(table, keys, deep)
+            )
+            .unwrap();
+        }
+        if blesses() {
+            fs::write(&page, &made).unwrap();
+        } else {
+            assert!(
+                made == text,
+                "{}: JRED_BLESS=1 writes its tables anew",
+                page.display()
+            );
+        }
+    }
+    // A carriage moves like the drive link.
+    shown.push("carriage.motion".to_owned());
+    let mut missing: Vec<_> = tables.iter().map(|table| table.name).collect();
+    missing.retain(|name| !shown.iter().any(|known| known == name));
+    assert!(missing.is_empty(), "not in the documentation: {missing:?}");
+}
