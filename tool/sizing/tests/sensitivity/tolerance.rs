@@ -138,7 +138,8 @@ fn a_quantity_has_one_tolerance() {
     assert_eq!(all.len(), 1);
     within("amount", all[0].amount, 0.02 * 85.0, 1e-12);
     let refused = |study: &Study, tolerances: &[Tolerance]| {
-        let report = format!("{:?}", Scatter::all(study, tolerances).unwrap_err());
+        let refused = Scatter::all(study, tolerances).unwrap_err();
+        let report = format!("{:?}", miette::Report::new(refused));
         assert!(
             report.contains("mechanism.rack.mass has two tolerances"),
             "{report}"
