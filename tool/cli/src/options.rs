@@ -40,14 +40,14 @@ impl Cli {
     /// # Errors
     /// Words that the command does not accept.
     pub fn read(words: impl IntoIterator<Item = OsString>) -> Result<Self, clap::Error> {
-        let mut command = numbers(Self::command());
+        let mut command = completed(Self::command());
         let matches = command.try_get_matches_from_mut(words)?;
         Self::from_arg_matches(&matches).map_err(|error| error.format(&mut command))
     }
 }
 
-/// Lets numeric options accept negative values, so that errors concern the value and not an unknown option.
-fn numbers(command: clap::Command) -> clap::Command {
+/// Lets numeric options accept negative values, so that errors concern the value and not an unknown option; adds the exit codes of most commands.
+fn completed(command: clap::Command) -> clap::Command {
     let kinds = [
         TypeId::of::<f64>(),
         TypeId::of::<u8>(),
@@ -65,7 +65,11 @@ fn numbers(command: clap::Command) -> clap::Command {
             arg
         }
     };
-    command.mut_args(number).mut_subcommands(numbers)
+    let command = command.mut_args(number).mut_subcommands(completed);
+    if command.get_after_help().is_some() {
+        return command;
+    }
+    command.after_help("Exit codes: 0 done; 2 bad input.")
 }
 
 const EXIT_CODES: &str = "Exit codes: 0 done, every rule satisfied; 1 a sizing rule is violated (or a torque error not \
@@ -96,7 +100,7 @@ pub enum Command {
     Merge(search::Merge),
     /// Check the DC bus of one or more axes: power, voltage, brake resistor, and the worst phases between axes.
     Bus(bus::Bus),
-    /// Simulate the free motion under the motor torque in `[simulation]`.
+    /// Simulate the motion under the motor, the loads, the brake and the controller in `[simulation]`; several machines on one shaft.
     Simulate(simulate::Simulate),
     /// Find the steady cycle under the motor in `[simulation]`, its fluctuation of speed, and the flywheel that smooths it.
     Steady(Steady),
@@ -168,6 +172,7 @@ pub struct Reduce {
 
 /// `jred check`
 #[derive(Debug, Args)]
+#[command(after_help = "Exit codes: 0 the mechanism can be used; 1 a check fails; 2 bad input.")]
 pub struct Check {
     /// Machine file.
     pub file: PathBuf,
@@ -331,6 +336,7 @@ fn fluctuation(text: &str) -> Result<f64, String> {
 
 /// `jred export`
 #[derive(Debug, Args)]
+#[command(after_help = "Exit codes: 0 done; 1 no table meets the error, or its proof fails; 2 bad input.")]
 #[command(group = ArgGroup::new("target").required(true).multiple(true).args(["torque_error", "max_bytes"]))]
 pub struct Export {
     /// Machine file.

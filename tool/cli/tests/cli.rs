@@ -204,10 +204,28 @@ fn help_names_the_exit_codes() {
             "docs/machine-file.md",
         ],
     );
-    for command in ["reduce", "size", "simulate", "export"] {
+    for command in [
+        "reduce",
+        "check",
+        "size",
+        "vary",
+        "ratio",
+        "sensitivity",
+        "tolerance",
+        "merge",
+        "bus",
+        "simulate",
+        "steady",
+        "fastest",
+        "retime",
+        "balance",
+        "export",
+        "rules",
+        "split",
+    ] {
         done_says(&help, &[command]);
         let help = run(&[command, "--help"]).ends(0);
-        done_says(&help, &["Usage: jred", "--format"]);
+        done_says(&help, &["Usage: jred", "Exit codes: 0"]);
     }
     done_says(&run(&["--version"]).ends(0), &["jred 0."]);
 }

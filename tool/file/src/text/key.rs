@@ -63,11 +63,11 @@ pub enum Form {
     Words(&'static [&'static str]),
     /// A table.
     Table(&'static Table),
-    /// A list of tables, at most so many; the cure if there are more.
+    /// A list of tables, from the first number to the second; the cure if there are more.
     Tables(&'static Table, [usize; 2], &'static str),
     /// A table of points, or of other values of this form, whose keys are names that the user chooses.
     Named(&'static Form),
-    /// A list of values of this form, from so many to so many.
+    /// A list of values of this form, from the first number to the second.
     List(&'static Form, [usize; 2]),
     /// A list of one value of each form.
     Tuple(&'static [Form]),
