@@ -72,7 +72,7 @@ fn a_ratio_through_points_keeps_the_energy() {
     for (to, words) in [
         (
             "ratio = [[\"0 s\", 0.5], [\"1 s\", 0.6]]",
-            "at least 5 points",
+            "must have 5 to 1000 points",
         ),
         (
             "ratio = [[\"0 s\", 0.5], [\"1 s\", 0.6], [\"0.5 s\", 0.6], [\"2 s\", 0.6], [\"3 s\", 0.6]]",

@@ -336,7 +336,9 @@ fn fluctuation(text: &str) -> Result<f64, String> {
 
 /// `jred export`
 #[derive(Debug, Args)]
-#[command(after_help = "Exit codes: 0 done; 1 no table meets the error, or its proof fails; 2 bad input.")]
+#[command(
+    after_help = "Exit codes: 0 done; 1 no table meets the error, or its proof fails; 2 bad input."
+)]
 #[command(group = ArgGroup::new("target").required(true).multiple(true).args(["torque_error", "max_bytes"]))]
 pub struct Export {
     /// Machine file.

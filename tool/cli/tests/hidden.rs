@@ -85,7 +85,7 @@ fn hidden_characters_are_refused_where_they_are_read() {
             &format!("title = \"Servo{written} press"),
         );
         let run = jred([&"check", &folder.file("m.toml", machine)]).ends(2);
-        run.says(&["the text of `title` contains", code, "m.toml:5:"]);
+        run.says(&["the text of `title` contains", code, "m.toml:6:"]);
         let rules = format!("title = \"x\"\n[rules]\n\"{written}\" = \"90 %\"\n");
         let run = jred([&"rules", &folder.file("own.toml", rules)]).ends(2);
         run.says(&["the key `", code, "own.toml:3:"]);

@@ -223,7 +223,7 @@ fn more_drives(bench: &mut Bench, ready: &Ready) {
     bench.band(what, [1.0, 2.0], spread(&each));
 }
 
-/// The catalogue, the machine's cycle of so many instants, and what the catalogue is.
+/// The catalogue, the machine's cycle of this number of instants, and a description of the catalogue.
 fn ready(instants: usize) -> (Ready, MachineFile, String) {
     let file = machine::machine();
     let (catalogue, name) = drives::catalogue();

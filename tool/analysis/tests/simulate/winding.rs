@@ -187,11 +187,11 @@ fn an_induction_motor_by_its_name_plate() {
         ),
         (
             "breakdown_slip = \"20 %\", rated_speed = \"950 rpm\", rated_power = \"2.2 kW\"",
-            "follows from the name plate",
+            "both `breakdown_slip` and `rated_speed`",
         ),
         (
             "rated_speed = \"950 rpm\", rated_torque = \"20 N m\", rated_power = \"2.2 kW\"",
-            "both given",
+            "both `rated_torque` and `rated_power`",
         ),
     ] {
         let report = rendered(&of(plate).unwrap_err());

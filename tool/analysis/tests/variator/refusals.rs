@@ -79,24 +79,24 @@ fn wrong_creep_curves_are_refused() {
     let creep = "creep = { slip = \"3 %\", torque = \"45 N m\" }";
     let edits: [(&str, &[&str]); 5] = [
         (
-            "curve = [[\"1 %\", \"15 N m\"], [\"2 %\", \"14 N m\"]]",
+            "curve = [[\"1 %\", \"15 N m\"], [\"2 %\", \"14 N m\"], [\"3 %\", \"20 N m\"]]",
             &["is 14 N m, not more than the one before", "slips more"],
         ),
         (
-            "curve = [[\"0 %\", \"0 N m\"], [\"2 %\", \"14 N m\"]]",
+            "curve = [[\"0 %\", \"0 N m\"], [\"2 %\", \"14 N m\"], [\"3 %\", \"20 N m\"]]",
             &["greater than zero"],
         ),
         (
             "curve = [[\"1 %\", \"15 N m\"]]",
-            &["has 1 points, but needs 3 to 1000"],
+            &["must have 3 to 1000 points, but has 1"],
         ),
         (
-            "curve = [[\"1 %\", \"15 N m\"], [\"100 %\", \"20 N m\"]]",
+            "curve = [[\"1 %\", \"15 N m\"], [\"2 %\", \"17 N m\"], [\"100 %\", \"20 N m\"]]",
             &["must be below 100 %"],
         ),
         (
             "slip = \"3 %\", curve = [[\"1 %\", \"15 N m\"], [\"2 %\", \"20 N m\"]]",
-            &["is given together with `slip`"],
+            &["has both `slip` and `curve`"],
         ),
     ];
     for (curve, words) in edits {

@@ -11,7 +11,9 @@ use jred_report::table::output::Format;
 
 /// `jred bus`
 #[derive(Debug, Args)]
-#[command(after_help = "Exit codes: 0 the bus satisfies every rule; 1 it violates one; 2 bad input.")]
+#[command(
+    after_help = "Exit codes: 0 the bus satisfies every rule; 1 it violates one; 2 bad input."
+)]
 pub struct Bus {
     /// Machine files, one for each axis; at least one of them describes the common bus in its `[supply]`.
     #[arg(required = true)]

@@ -74,7 +74,7 @@ const fn with<const N: usize>(mut keys: [Key; N], only: &'static [&'static str])
 
 const PROFILE: &[&str] = &["profile"];
 
-/// What to write into `of`.
+/// The proposed values of `of`.
 pub(crate) const SUCH_AS: &str = "write of = { point = \"slider\", along = \"x\" }, of = { link = \"table\" } or of = { slide = \"guide\" }";
 
 static OF: Table = Table::of("motion.of", &[&[

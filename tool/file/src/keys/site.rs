@@ -1,4 +1,4 @@
-//! What is given for sizing: supply, surroundings, duty, tool, rules, tolerances.
+//! Entries for sizing: supply, surroundings, duty, tool, rules, tolerances.
 
 use super::inner;
 use crate::model::rule::Rule;

@@ -24,7 +24,7 @@ pub struct Item<'a> {
     /// The key in the text; for the elements of a list, the value.
     key_span: Range<usize>,
     value: &'a Spanned<DeValue<'a>>,
-    /// What it holds, and what messages propose, if its key is described.
+    /// Its form, and the value that messages propose, if its key is described.
     form: Option<Form>,
     example: &'static str,
     /// Whether the coordinate of its quantities is a length.
@@ -150,7 +150,7 @@ impl<'a> Item<'a> {
         }
     }
 
-    /// What messages propose.
+    /// The value that messages propose.
     fn example(&self) -> String {
         let form = self.form;
         form.map_or_else(String::new, |form| form.example(self.example, self.slides))
@@ -378,7 +378,12 @@ impl<'a> Item<'a> {
                 (least, usize::MAX) => format!("at least {least}"),
                 _ => format!("{least} to {most}"),
             };
-            let what = format!("must have {counts} {word}s, but has {}", array.len());
+            let plural = if least == 1 && most == usize::MAX {
+                ""
+            } else {
+                "s"
+            };
+            let what = format!("must have {counts} {word}{plural}, but has {}", array.len());
             let problem = self.problem(&what, "here");
             return Err(problem.help(format!("write {} = {example}", self.key)));
         }

@@ -18,7 +18,7 @@ pub const SPEED: Kinds = [&ANGULAR_SPEED, &VELOCITY];
 pub const ACCELERATIONS: Kinds = [&ANGULAR_ACCELERATION, &ACCELERATION];
 /// Its jerks.
 pub const JERKS: Kinds = [&ANGULAR_JERK, &JERK];
-/// What drives it.
+/// The torque or force that drives it.
 pub const EFFORT: Kinds = [&TORQUE, &FORCE];
 /// How fast its effort changes.
 pub const EFFORT_RATES: Kinds = [&TORQUE_RATE, &FORCE_RATE];
@@ -40,7 +40,7 @@ pub enum Limit {
     Between(f64, f64),
 }
 
-/// What a key holds.
+/// The form of a key's value.
 #[derive(Clone, Copy, Debug)]
 pub enum Form {
     /// A quantity.
@@ -150,7 +150,7 @@ impl Form {
 pub enum Need {
     /// It is an error if the key is missing.
     Required,
-    /// What its absence means is said in its help.
+    /// Its help states the meaning of its absence.
     Optional,
     /// This value, as a file would give it, is used if the key is missing.
     Default(&'static str),
@@ -161,7 +161,7 @@ pub enum Need {
 pub struct Key {
     /// Its name.
     pub name: &'static str,
-    /// What it holds.
+    /// The form of its value.
     pub form: Form,
     /// Whether it is needed.
     pub need: Need,
@@ -169,7 +169,7 @@ pub struct Key {
     pub example: &'static str,
     /// The words of the table's choice with which the key is used; with all if empty.
     pub only: &'static [&'static str],
-    /// What it means, in one line.
+    /// Its meaning, in one line.
     pub help: &'static str,
 }
 
@@ -201,7 +201,7 @@ impl Key {
         Self { need, ..self }
     }
 
-    /// What messages propose.
+    /// The value that messages propose.
     #[must_use]
     pub const fn such_as(self, example: &'static str) -> Self {
         Self { example, ..self }
@@ -232,7 +232,7 @@ pub struct Table {
     pub name: &'static str,
     /// Its keys, in groups.
     pub keys: &'static [&'static [Key]],
-    /// The key whose word decides which other keys are used; empty if there is none.
+    /// The key whose word decides which other keys are used; empty without such a key.
     pub by: &'static str,
     /// Tables of further keys, by that word.
     pub variants: &'static [&'static Table],
@@ -242,7 +242,7 @@ pub struct Table {
     pub either: &'static [(&'static [&'static str], &'static str)],
 }
 
-/// What to do with one key too many.
+/// The cure for one key too many.
 pub const KEEP_ONE: &str = "keep one of them";
 
 /// A table without descriptions: any key may be asked for.

@@ -54,7 +54,7 @@ impl Problem {
         self
     }
 
-    /// Adds the cure; an empty one is none.
+    /// Adds the cure; an empty one is left out.
     #[must_use]
     pub fn help(mut self, help: impl Into<String>) -> Self {
         self.0.help = Some(help.into()).filter(|help| !help.is_empty());

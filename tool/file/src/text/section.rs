@@ -32,7 +32,7 @@ pub struct Section<'a> {
     keys: &'static Table,
     variant: Cell<Option<&'static Table>>,
     word: Cell<Option<&'static str>>,
-    /// What its entries hold, if the user chooses their names.
+    /// The form of its entries, if the user chooses their names.
     entry: Option<Form>,
     /// Whether the coordinate of its quantities is a length.
     slides: Cell<bool>,
@@ -434,7 +434,7 @@ impl<'a> Section<'a> {
         }
     }
 
-    /// What the word of a key stands for; `values` are in the order of the words.
+    /// The meaning of a key's word; `values` are in the order of the words.
     pub(crate) fn pick<T: Copy, const N: usize>(
         &self,
         name: &'static str,

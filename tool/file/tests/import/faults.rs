@@ -1,4 +1,4 @@
-//! What is wrong with a file is shown in the file: row, column, value, cure.
+//! Faults of a file are shown in the file: row, column, value, cure.
 
 use std::fmt::Write;
 

@@ -25,7 +25,7 @@ struct Maker {
     tables: Map<String, Value>,
 }
 
-/// A member that is left out if the limit is none.
+/// A member, left out without a limit.
 fn bound(object: &mut Value, name: &str, bound: Option<Value>) {
     if let Some(bound) = bound {
         object[name] = bound;
@@ -316,7 +316,7 @@ pub(super) fn schema() -> Value {
     schema
 }
 
-/// What fits into a line is one.
+/// A value that fits into a line stays on one line.
 fn printed(value: &Value, indent: usize, text: &mut String) {
     let line = value.to_string();
     let (open, close, entries): (_, _, Vec<(String, &Value)>) = match value {

@@ -53,7 +53,7 @@ fn count([least, most]: [usize; 2]) -> String {
     }
 }
 
-/// What a key holds, in words.
+/// The form of a key's value, in words.
 fn value(form: Form, words: &[&str]) -> String {
     match form {
         Form::Quantity(kinds, bound) => nouns(kinds, "") + &limit(kinds, bound),
@@ -210,7 +210,7 @@ fn rows(
 fn markdown(table: &'static Table, shown: Shown, deep: bool) -> String {
     let mut found = Vec::new();
     rows(table, "", &[], shown, &mut found);
-    // What every link has comes last.
+    // The keys of every link come last.
     let common = |names: &[String]| {
         ["mass", "inertia", "com"].iter().any(|key| {
             names[0]

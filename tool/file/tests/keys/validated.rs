@@ -174,7 +174,7 @@ fn a_word_decides_which_keys_are_used() {
     assert_ne!(change("/drive_train/0/efficiency", json!("-4 %")).len(), 0);
 }
 
-/// What the reader makes of a text, and the pattern.
+/// The reader's verdict on a text, and the pattern's.
 fn both(text: &str, kind: &Kind) -> [bool; 2] {
     let schema = json!({ "type": "string", "pattern": quantity(&[kind], false) });
     let pattern = jsonschema::draft202012::new(&schema).unwrap();

@@ -1,4 +1,4 @@
-//! What the example files say.
+//! The values of the example files.
 
 use std::f64::consts::{PI, TAU};
 use std::path::Path;

@@ -68,7 +68,7 @@ pub(crate) fn machine() -> MachineFile {
     }
 }
 
-/// A cycle of it with at least so many instants.
+/// A cycle of it with at least this number of instants.
 pub(crate) fn duty(file: &MachineFile, instants: usize) -> Duty {
     let Some(motion) = &file.motion else {
         panic!("the benchmark's own machine has no motion");
