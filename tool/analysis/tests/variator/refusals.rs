@@ -96,7 +96,7 @@ fn wrong_creep_curves_are_refused() {
         ),
         (
             "slip = \"3 %\", curve = [[\"1 %\", \"15 N m\"], [\"2 %\", \"20 N m\"]]",
-            &["has both `slip` and `curve`"],
+            &["both `curve` and `slip`"],
         ),
     ];
     for (curve, words) in edits {
