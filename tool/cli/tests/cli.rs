@@ -11,7 +11,9 @@ use std::io::Read as _;
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-use crate::support::{Folder, Run, edited, edited_press, jred, jred_with, press_file, press_text};
+use crate::support::{
+    COMMANDS, Folder, Run, edited, edited_press, jred, jred_with, press_file, press_text,
+};
 
 fn export(file: &Path, more: &[&str], out: &Path) -> Run {
     let mut arguments: Vec<&str> = vec!["export", file.to_str().unwrap()];
@@ -204,28 +206,13 @@ fn help_names_the_exit_codes() {
             "docs/machine-file.md",
         ],
     );
-    for command in [
-        "reduce",
-        "check",
-        "size",
-        "vary",
-        "ratio",
-        "sensitivity",
-        "tolerance",
-        "merge",
-        "bus",
-        "simulate",
-        "steady",
-        "fastest",
-        "retime",
-        "balance",
-        "export",
-        "rules",
-        "split",
-    ] {
+    for command in COMMANDS {
         done_says(&help, &[command]);
         let help = run(&[command, "--help"]).ends(0);
         done_says(&help, &["Usage: jred", "Exit codes: 0"]);
+        if command != "merge" {
+            done_says(&help, &["--format"]);
+        }
     }
     done_says(&run(&["--version"]).ends(0), &["jred 0."]);
 }

@@ -4,7 +4,7 @@ use miette::{Result, miette};
 
 use crate::busy;
 use crate::commands::core_error::{core_report, duty_report};
-use crate::commands::{Done, print_answer, read_warned, warn};
+use crate::commands::{Done, print_answer, quantity, read_warned, warn};
 use crate::options;
 use crate::output;
 use jred::machine::Reducible as _;
@@ -115,21 +115,16 @@ pub(super) fn run(options: &options::Export) -> Result<Done> {
     variator::refuse(&file, "export")?;
     let reciprocal = reciprocal(options)?;
     let coordinate = file.machine.mechanism().coordinate();
-    let quantity = |name: &str, text: &Option<String>, argument: Argument| {
-        let value = text.as_deref().map(|text| {
-            argument
-                .read(text, coordinate)
-                .map_err(|why| miette!("--{name} {} cannot be used: {why}", plain::quoted(text)))
-        });
-        value.transpose()
+    let given = |name: &str, text: &Option<String>, argument: Argument| {
+        quantity(name, text.as_deref(), argument, coordinate)
     };
-    let torque_error = quantity(
+    let torque_error = given(
         "torque-error",
         &options.torque_error,
         Argument::positive(EFFORT),
     )?;
-    let omega = quantity("omega", &options.omega, Argument::positive(SPEED))?;
-    let alpha = quantity("alpha", &options.alpha, Argument::positive(ACCELERATIONS))?;
+    let omega = given("omega", &options.omega, Argument::positive(SPEED))?;
+    let alpha = given("alpha", &options.alpha, Argument::positive(ACCELERATIONS))?;
     let (omega, alpha) = range([omega, alpha], &file)?;
     let task = Task {
         number: options.number,

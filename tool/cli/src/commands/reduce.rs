@@ -3,7 +3,7 @@
 use miette::{Result, miette};
 
 use crate::commands::core_error::core_report;
-use crate::commands::{Done, print_answer, warn};
+use crate::commands::{Done, print_answer, quantity, warn};
 use crate::options;
 use crate::output;
 use jred::machine::Reducible as _;
@@ -131,23 +131,15 @@ fn check_size(file: &MachineFile, request: &reduce::Request) -> Result<()> {
 
 /// Speed and acceleration of the command line.
 fn state(options: &options::Reduce, file: &MachineFile) -> Result<Option<[f64; 2]>> {
-    let Some(speed) = &options.speed else {
+    let coordinate = file.machine.mechanism().coordinate();
+    let given = |name: &str, text: &Option<String>, kinds| {
+        quantity(name, text.as_deref(), Argument::any(kinds), coordinate)
+    };
+    let Some(omega) = given("speed", &options.speed, SPEED)? else {
         return Ok(None);
     };
-    let coordinate = file.machine.mechanism().coordinate();
-    let refused = |name: &str, text: &str, why: &str| {
-        miette!("--{name} {} cannot be used: {why}", plain::quoted(text))
-    };
-    let omega = Argument::any(SPEED)
-        .read(speed, coordinate)
-        .map_err(|why| refused("speed", speed, &why))?;
-    let alpha = match &options.accel {
-        Some(accel) => Argument::any(ACCELERATIONS)
-            .read(accel, coordinate)
-            .map_err(|why| refused("accel", accel, &why))?,
-        None => 0.0,
-    };
-    Ok(Some([omega, alpha]))
+    let alpha = given("accel", &options.accel, ACCELERATIONS)?;
+    Ok(Some([omega, alpha.unwrap_or(0.0)]))
 }
 
 /// The positions of the command line with their states.

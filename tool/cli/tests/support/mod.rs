@@ -12,6 +12,27 @@ use serde_json::Value;
 
 pub(crate) use shared::*;
 
+/// All commands.
+pub(crate) const COMMANDS: [&str; 17] = [
+    "reduce",
+    "check",
+    "size",
+    "vary",
+    "ratio",
+    "sensitivity",
+    "tolerance",
+    "merge",
+    "bus",
+    "simulate",
+    "steady",
+    "fastest",
+    "retime",
+    "balance",
+    "export",
+    "rules",
+    "split",
+];
+
 /// Output of a run of `jred`.
 pub(crate) struct Run {
     pub(crate) code: i32,

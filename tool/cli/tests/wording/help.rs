@@ -1,38 +1,21 @@
 //! Help of the command and of each of its commands.
 
 use super::{Desk, compare};
+use crate::support::COMMANDS;
 
 #[test]
 fn help_of_every_command() {
     let desk = Desk::new();
     compare("help", &desk.runs(&[&["-h"], &["--help"]]));
-    for command in [
-        "reduce",
-        "check",
-        "size",
-        "vary",
-        "ratio",
-        "sensitivity",
-        "tolerance",
-        "merge",
-        "bus",
-        "simulate",
-        "steady",
-        "fastest",
-        "retime",
-        "balance",
-        "export",
-        "rules",
-        "split",
-    ] {
+    for command in COMMANDS {
         compare(&format!("help-{command}"), &desk.run(&[command, "--help"]));
     }
 }
 
-/// Every command must be in the list above.
+/// Every command must be in the list.
 #[test]
 fn no_command_is_left_out() {
     use clap::CommandFactory as _;
     let commands = jred_cli::options::Cli::command();
-    assert_eq!(commands.get_subcommands().count(), 17);
+    assert_eq!(commands.get_subcommands().count(), COMMANDS.len());
 }

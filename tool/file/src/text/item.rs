@@ -10,6 +10,7 @@ use super::key::{Form, Kinds, Limit, OPEN};
 use super::problem::{Problem, Result, quoted};
 use super::section::Section;
 use crate::number::rounding::figure;
+use crate::number::words::counted;
 use crate::plain;
 use crate::units::kind::{Kind, SHARE};
 use crate::units::quantity::{self, Quantity};
@@ -373,19 +374,7 @@ impl<'a> Item<'a> {
         if let Some((_, [least, most])) = described
             && !(least..=most).contains(&array.len())
         {
-            let counts = match (least, most) {
-                (2, 2) => "two".to_owned(),
-                (least, usize::MAX) => format!("at least {least}"),
-                _ => format!("{least} to {most}"),
-            };
-            let plural = if least == 1 && most == usize::MAX {
-                ""
-            } else {
-                "s"
-            };
-            let what = format!("must have {counts} {word}{plural}, but has {}", array.len());
-            let problem = self.problem(&what, "here");
-            return Err(problem.help(format!("write {} = {example}", self.key)));
+            return Err(self.wrong_count(array.len(), [least, most], (word, example)));
         }
         let element = |(k, value): (usize, &'a Spanned<DeValue<'a>>)| {
             let name = format!("{word} {} of {}", k + 1, self.name);
@@ -398,11 +387,25 @@ impl<'a> Item<'a> {
     /// The two elements of a list.
     pub(crate) fn both(&self, word: &str, example: &str) -> Result<[Self; 2]> {
         let list = self.list(word, example)?;
-        list.try_into().map_err(|list: Vec<Self>| {
-            let what = format!("must have two {word}s, but has {}", list.len());
-            let problem = self.problem(&what, "here");
-            problem.help(format!("write {} = {example}", self.key))
-        })
+        list.try_into()
+            .map_err(|list: Vec<Self>| self.wrong_count(list.len(), [2, 2], (word, example)))
+    }
+
+    /// The problem of a list with too few or too many elements, each called `word`.
+    fn wrong_count(
+        &self,
+        count: usize,
+        counts: [usize; 2],
+        (word, example): (&str, &str),
+    ) -> Problem {
+        let words = format!("{word}s");
+        let counts = match counts {
+            [2, 2] => format!("two {words}"),
+            [least, usize::MAX] => format!("at least {}", counted(least, word, &words)),
+            [least, most] => format!("{least} to {most} {words}"),
+        };
+        let problem = self.problem(&format!("must have {counts}, but has {count}"), "here");
+        problem.help(format!("write {} = {example}", self.key))
     }
 
     /// Two quantities.

@@ -10,7 +10,7 @@ use jred_file::units::kind::{Kind, SHARE};
 use serde_json::{Map, Value, json};
 
 use super::pattern::{is_share, quantity};
-use super::tables::cell;
+use super::tables::{cell, noun};
 use super::{blesses, plain, root, words_of};
 
 /// Where the schema is.
@@ -34,8 +34,7 @@ fn bound(object: &mut Value, name: &str, bound: Option<Value>) {
 
 /// "a viscous coefficient (force per speed)" is "viscous-coefficient-force-per-speed".
 fn slug(kind: &Kind) -> String {
-    let name = kind.name.trim_start_matches("an ").trim_start_matches("a ");
-    let words = name.split(|c: char| !c.is_alphanumeric());
+    let words = noun(kind).split(|c: char| !c.is_alphanumeric());
     words
         .filter(|word| !word.is_empty())
         .collect::<Vec<_>>()

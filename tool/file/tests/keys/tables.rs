@@ -13,7 +13,7 @@ use super::{blesses, named, root, words_of};
 const MANY: usize = 9;
 
 /// "length", "pair of angles"
-fn noun(kind: &Kind) -> &'static str {
+pub(super) fn noun(kind: &Kind) -> &'static str {
     kind.name.trim_start_matches("an ").trim_start_matches("a ")
 }
 
