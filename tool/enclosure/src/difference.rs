@@ -3,7 +3,7 @@
 use jred::table::CellCurves;
 
 use crate::curves::Curves;
-use crate::form::Form;
+use crate::form::TaylorForm;
 use crate::interval::Interval;
 use crate::series::REMAINDER;
 
@@ -104,7 +104,7 @@ fn shift(terms: &mut [Interval], x: Interval) {
 }
 
 /// A form in powers of the distance from a position, with its remainder in the first coefficient.
-fn shifted(form: &Form, middle: f64, rest: Interval) -> [Interval; REMAINDER] {
+fn shifted(form: &TaylorForm, middle: f64, rest: Interval) -> [Interval; REMAINDER] {
     let mut terms = [Interval::ZERO; REMAINDER];
     terms.copy_from_slice(&form.at.0[..REMAINDER]);
     shift(&mut terms, Interval::of(middle));

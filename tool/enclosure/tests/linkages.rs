@@ -10,7 +10,7 @@ use jred::mechanism::{
 use jred::table::{Format, Table};
 use jred::tabulate::{Request, measure};
 use jred::{Cubic, Domain, Q31, Quadratic, Rows16, Scale, Spline, Spline16, curves};
-use jred_enclosure::{Closure, Unproven};
+use jred_enclosure::{Closure, ProofError};
 
 use crate::mechanics::{EVERY, Enclosed, Made, Silent, made, proof, read, searched};
 
@@ -245,10 +245,10 @@ fn what_cannot_be_enclosed_is_named() {
     let links = [Link::rotor(0.1).unwrap(), Link::point_mass(2.0).unwrap()];
     let rack = jred::mechanism::RackAndPinion::new(0.03, links).unwrap();
     let open = Closure::new(&rack, 2, 3, 0.1).err();
-    assert_eq!(open, Some(Unproven::Joint { number: 2 }));
+    assert_eq!(open, Some(ProofError::Joint { number: 2 }));
     let press = press();
     let missing = Closure::new(press.mechanism(), 3, 3, 0.1).err();
-    let expected = Unproven::Freedoms {
+    let expected = ProofError::Freedoms {
         equations: 7,
         coordinates: 9,
     };
@@ -257,7 +257,7 @@ fn what_cannot_be_enclosed_is_named() {
     let all = Closure::new(press.mechanism(), 3, 4, 0.1)
         .unwrap()
         .places([0.0, 6.0]);
-    assert_eq!(all.err(), Some(Unproven::Pose { phi: 3.0 }));
+    assert_eq!(all.err(), Some(ProofError::Pose { phi: 3.0 }));
 }
 
 /// A proof that is stopped, or that would take too long, proves nothing.
@@ -287,6 +287,6 @@ fn a_proof_can_be_stopped() {
             share < 0.5
         },
     );
-    assert_eq!(stopped, Err(Unproven::Stopped));
+    assert_eq!(stopped, Err(ProofError::Stopped));
     assert!(seen.len() > 10 && seen.is_sorted() && seen.last().is_some_and(|share| *share < 0.6));
 }

@@ -4,7 +4,7 @@ use jred::machine::{Jointed, Machine, Reducible, Reduction};
 use jred::table::{CurveValues, Format, Table, words_len};
 use jred::tabulate::{Request, fill, measure, scratch_len, torque_between};
 use jred::{CurveSet, Phase, Scale, curves};
-use jred_enclosure::{Closure, Curves, Goal, Parts, Proof, Unproven, prove};
+use jred_enclosure::{Closure, Curves, Goal, Parts, Proof, ProofError, prove};
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt as _, SeedableRng as _};
 
@@ -32,7 +32,7 @@ impl<'m> Enclosed<'m> {
         }
     }
 
-    pub(crate) fn curves(&self, stretch: [f64; 2]) -> Result<Curves, Unproven> {
+    pub(crate) fn curves(&self, stretch: [f64; 2]) -> Result<Curves, ProofError> {
         Curves::of(&self.parts, &self.closure.places(stretch)?, stretch)
     }
 }
@@ -71,8 +71,8 @@ pub(crate) fn proof<F: Format>(
     machine: &impl Reducible,
     made: &Made<F>,
     range: [f64; 2],
-    curves: &dyn Fn([f64; 2]) -> Result<Curves, Unproven>,
-) -> Result<Proof, Unproven> {
+    curves: &dyn Fn([f64; 2]) -> Result<Curves, ProofError>,
+) -> Result<Proof, ProofError> {
     let table = Table::new(&made.words, made.shape).unwrap();
     let found = measure(machine, &table, &request(range)).unwrap();
     let edges: Vec<f64> = (0..).map_while(|k| machine.edge(k)).collect();

@@ -34,14 +34,14 @@ mod ticks;
 mod ways;
 
 pub use c_source::plan_c_source;
-pub use candidate::{Answer, Candidate, Made};
+pub use candidate::{Candidate, RangeTable, SearchResult};
 pub use choice::{Choice, LayoutChoice, LayoutName, Number};
 pub use cost::Core;
 pub use export::{Export, identifier};
-pub use form::Form;
+pub use form::OutputForm;
 pub use name::Name;
 pub use plan::plan_source;
-pub use proven::Proven;
+pub use proven::ProofResult;
 pub use search::EXHAUSTIVE;
 pub use task::{Failure, Task};
 pub use ticks::Ticks;

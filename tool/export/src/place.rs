@@ -93,13 +93,13 @@ fn piece_end(file: &MachineFile, coordinate: Coordinate, at: f64, near: f64) -> 
 }
 
 /// Name of a curve in messages.
-type Name = fn(Coordinate) -> String;
+type CurveName = fn(Coordinate) -> String;
 
 /// A curve of the reduced machine.
-type Curve = fn(&Reduction) -> f64;
+type CurveValue = fn(&Reduction) -> f64;
 
 /// The curves that a table follows.
-const CURVES: [(Name, Curve); 5] = [
+const CURVES: [(CurveName, CurveValue); 5] = [
     (|c| c.inertia().to_owned(), |r| r.inertia),
     (|c| format!("{}'", c.inertia()), |r| r.inertia_slope),
     (|_| "the curve of load".to_owned(), |r| r.load_torque()),

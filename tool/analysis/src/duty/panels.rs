@@ -7,9 +7,9 @@
 mod signs;
 mod stretch;
 
-use super::fault::Fault;
-use super::integrands::{Allowed, COUNT, Sums, integrands, of_whole};
-use super::moving::{Evaluated, Moving};
+use super::fault::DutyError;
+use super::integrands::{COUNT, PanelTolerance, Sums, integrands, of_whole};
+use super::moving::{DutyInstant, MovingMachine};
 use super::stretches::turns;
 use super::{INSIDE, Instant, Sampling, Smooth, refined};
 use jred_file::number::quadrature::GAUSS_3;
@@ -54,16 +54,16 @@ const OF_LAWS: f64 = 1e-7;
 
 /// An end of a panel.
 #[derive(Clone, Copy)]
-struct End {
+struct PanelEnd {
     t: f64,
-    now: Evaluated,
+    now: DutyInstant,
     /// Whether a torque is zero there, so that its sign is rounding.
     is_zero: bool,
 }
 
 /// History of a panel.
 #[derive(Clone, Copy)]
-struct Way {
+struct PanelHistory {
     /// Halvings.
     depth: u32,
     /// Number of the last halvings that hardly reduced the error.
@@ -72,7 +72,7 @@ struct Way {
     error: f64,
 }
 
-impl Default for Way {
+impl Default for PanelHistory {
     fn default() -> Self {
         Self {
             depth: 0,
@@ -82,7 +82,7 @@ impl Default for Way {
     }
 }
 
-impl Way {
+impl PanelHistory {
     fn further(self, error: f64) -> Self {
         let is_idle = error > LITTLE * self.error;
         Self {
@@ -95,7 +95,7 @@ impl Way {
 
 /// The duty under construction.
 pub(super) struct Panels<'a, 'm> {
-    moving: &'a mut Moving<'m>,
+    moving: &'a mut MovingMachine<'m>,
     tolerance: f64,
     duration: f64,
     pub(super) instants: Vec<Instant>,
@@ -119,10 +119,10 @@ pub(super) struct Panels<'a, 'm> {
 impl<'a, 'm> Panels<'a, 'm> {
     /// The instants of a motion with these smooth stretches.
     pub(super) fn new(
-        moving: &'a mut Moving<'m>,
+        moving: &'a mut MovingMachine<'m>,
         stretches: &[(f64, f64)],
         sampling: Sampling,
-    ) -> Result<Self, Fault> {
+    ) -> Result<Self, DutyError> {
         let (file, motion) = (moving.file, moving.motion);
         let duration = motion.duration();
         let each: Vec<f64> = stretches.iter().map(|s| turns(file, motion, *s)).collect();
@@ -130,7 +130,7 @@ impl<'a, 'm> Panels<'a, 'm> {
         let of_turn = (FOR_TURNS / 15.0 / all).clamp(OF_TURN[0], OF_TURN[1]);
         let fewest = (15.0 * OF_TURN[0] * all).max(15.0 * stretches.len() as f64);
         if fewest > MOST_INSTANTS as f64 {
-            return Err(Fault::Fine {
+            return Err(DutyError::Fine {
                 until: duration * MOST_INSTANTS as f64 / fewest,
                 duration,
                 tolerance: sampling.tolerance,
@@ -180,7 +180,7 @@ impl<'a, 'm> Panels<'a, 'm> {
     }
 
     /// Approximate sizes of the integrals, and the largest torques.
-    fn look(&mut self, borders: &[(Stretch, Vec<f64>)], count: usize) -> Result<(), Fault> {
+    fn look(&mut self, borders: &[(Stretch, Vec<f64>)], count: usize) -> Result<(), DutyError> {
         let stride = count.div_ceil(LOOKED_AT);
         let mut number = 0;
         let mut noise = 0.0f64;
@@ -219,12 +219,12 @@ impl<'a, 'm> Panels<'a, 'm> {
         Ok(())
     }
 
-    fn end(&mut self, stretch: &Stretch, t: f64, is_zero: bool) -> Result<End, Fault> {
+    fn end(&mut self, stretch: &Stretch, t: f64, is_zero: bool) -> Result<PanelEnd, DutyError> {
         let now = self.moving.at(stretch.clamp(t))?;
-        Ok(End { t, now, is_zero })
+        Ok(PanelEnd { t, now, is_zero })
     }
 
-    fn stretch(&mut self, stretch: &Stretch, borders: &[f64]) -> Result<(), Fault> {
+    fn stretch(&mut self, stretch: &Stretch, borders: &[f64]) -> Result<(), DutyError> {
         let span = [stretch.from, stretch.to];
         let before = self.sums;
         if let Some(direction) = self.moving.starts(span) {
@@ -238,7 +238,7 @@ impl<'a, 'm> Panels<'a, 'm> {
         let mut left = first;
         for border in borders.get(1..).unwrap_or_default() {
             let right = self.end(stretch, *border, false)?;
-            self.panel(stretch, [&left, &right], Way::default())?;
+            self.panel(stretch, [&left, &right], PanelHistory::default())?;
             left = right;
         }
         if stretch.moves {
@@ -260,7 +260,12 @@ impl<'a, 'm> Panels<'a, 'm> {
     }
 
     /// Adds a panel, or its parts.
-    fn panel(&mut self, stretch: &Stretch, ends: [&End; 2], way: Way) -> Result<(), Fault> {
+    fn panel(
+        &mut self,
+        stretch: &Stretch,
+        ends: [&PanelEnd; 2],
+        way: PanelHistory,
+    ) -> Result<(), DutyError> {
         let [from, to] = ends.map(|end| end.t);
         let inner = stretch.between([from, to]);
         let by_rows = !stretch.rows.is_empty() && inner.is_empty();
@@ -283,7 +288,7 @@ impl<'a, 'm> Panels<'a, 'm> {
                 return self.parts(stretch, ends, &[middle], false, way.further(f64::INFINITY));
             }
         }
-        let allowed = Allowed {
+        let allowed = PanelTolerance {
             tolerance: self.tolerance,
             sizes: &self.sizes,
             share: (to - from) / self.duration,
@@ -310,11 +315,11 @@ impl<'a, 'm> Panels<'a, 'm> {
     fn parts(
         &mut self,
         stretch: &Stretch,
-        [first, last]: [&End; 2],
+        [first, last]: [&PanelEnd; 2],
         cuts: &[f64],
         is_zero: bool,
-        way: Way,
-    ) -> Result<(), Fault> {
+        way: PanelHistory,
+    ) -> Result<(), DutyError> {
         let mut left = *first;
         for cut in cuts {
             let right = self.end(stretch, *cut, is_zero)?;
@@ -327,11 +332,11 @@ impl<'a, 'm> Panels<'a, 'm> {
     fn accept(
         &mut self,
         stretch: &Stretch,
-        [left, right]: [&End; 2],
+        [left, right]: [&PanelEnd; 2],
         rule: &Rule,
-        places: &[Evaluated],
+        places: &[DutyInstant],
         sums: &Sums,
-    ) -> Result<(), Fault> {
+    ) -> Result<(), DutyError> {
         let span = [left.t, right.t];
         let half = 0.5 * (right.t - left.t);
         self.sums.add(sums);
@@ -364,7 +369,7 @@ impl<'a, 'm> Panels<'a, 'm> {
             before = next;
         }
         if self.instants.len() > MOST_INSTANTS {
-            return Err(Fault::Fine {
+            return Err(DutyError::Fine {
                 until: right.t,
                 duration: self.duration,
                 tolerance: self.tolerance,
@@ -376,10 +381,10 @@ impl<'a, 'm> Panels<'a, 'm> {
     }
 
     /// Whether the errors are within the tolerance and the energy balances.
-    fn judge(&self) -> Result<(), Fault> {
+    fn judge(&self) -> Result<(), DutyError> {
         let reached = self.sums.reached();
         if reached > MOST_OF_TOLERANCE * self.tolerance {
-            return Err(Fault::Rough {
+            return Err(DutyError::Rough {
                 span: self.worst.0,
                 reached,
                 tolerance: self.tolerance,
@@ -401,7 +406,7 @@ impl<'a, 'm> Panels<'a, 'm> {
             OF_LAWS
         };
         if is_whole && share > most + MOST_OF_TOLERANCE * self.tolerance {
-            return Err(Fault::Unbalanced {
+            return Err(DutyError::Unbalanced {
                 work,
                 spent,
                 share,

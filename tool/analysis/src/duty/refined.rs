@@ -2,7 +2,7 @@
 
 use jred::error::Error;
 
-use super::moving::Moving;
+use super::moving::MovingMachine;
 use super::{Instant, Smooth};
 use jred_file::number::parabola;
 
@@ -49,7 +49,7 @@ pub(super) fn parts(torques: &[(f64, f64)], largest: f64, most: f64) -> Vec<u32>
 
 /// Inserts instants of zero weight at the extremes of quantities that do not depend on the motor, where they lie between the instants.
 pub(super) fn insert_extremes(
-    moving: &mut Moving,
+    moving: &mut MovingMachine,
     instants: &mut Vec<Instant>,
     smooth: &mut Smooth,
 ) -> Result<(), Error> {

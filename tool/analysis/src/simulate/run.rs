@@ -13,7 +13,7 @@ mod turned;
 
 use edges::Edges;
 pub(crate) use plant::Plant;
-pub(crate) use rows::{Row, Terms, Works, cells, heads};
+pub(crate) use rows::{OutputRow, Terms, Works, cells, heads};
 
 use std::cell::Cell;
 
@@ -21,13 +21,13 @@ use jred::error::Error;
 
 use super::SimulationError;
 use super::clock::{Corners, EDGE};
-use super::observe::{Controlling, Giving, Observer};
-use super::simulated::{Impacts, Rest, Simulated, Stuck, Turned};
-use super::watch::{At, Watch};
+use super::observe::{ControlStatistics, EffortSums, Observer};
+use super::simulated::{Impacts, Rest, SimulationResult, Stall, TurnWorks};
+use super::watch::{LinkState, Watch};
 use jred_file::model::machine::MachineFile;
 use jred_file::model::simulation::{EndStops, Halt, Simulation};
 use jred_file::number::columns::Columns;
-use jred_file::number::numerics::dormand_prince::{Accuracy, Point};
+use jred_file::number::numerics::dormand_prince::{Accuracy, StatePoint};
 
 /// The most steps within one output step.
 const MOST_STEPS: u32 = 1_000_000;
@@ -46,7 +46,7 @@ pub(super) fn run<const N: usize>(
     plant: &impl Plant<N>,
     simulation: &Simulation,
     observer: &mut dyn Observer,
-) -> Result<Simulated, SimulationError> {
+) -> Result<SimulationResult, SimulationError> {
     let machines = plant.machines();
     let corners = plant.corners();
     let [has_payloads, has_carriages] = machines.guests();
@@ -110,7 +110,7 @@ pub(super) fn run<const N: usize>(
         time,
         way: phi - begin,
     };
-    Ok(Simulated {
+    Ok(SimulationResult {
         columns,
         halted_at: run.halt.map(|[_, phi]| phi),
         held: run.held.filter(|_| runs_down).map(since_start),
@@ -141,7 +141,7 @@ struct Run<'a, P> {
     ends: Option<[f64; 2]>,
     impacts: Option<Impacts>,
     /// Works in whole turns.
-    turned: Option<Turned>,
+    turned: Option<TurnWorks>,
     /// Start position, if the drive link can turn endlessly.
     begin: Option<f64>,
     direction: f64,
@@ -158,11 +158,11 @@ struct Run<'a, P> {
     driven: Option<f64>,
     rest: Option<Rest>,
     turned_back: Option<Rest>,
-    stuck: Option<Stuck>,
-    controlling: Controlling,
+    stuck: Option<Stall>,
+    controlling: ControlStatistics,
     has_payloads: bool,
     /// Effort of the motor.
-    giving: Giving,
+    giving: EffortSums,
     to_speed: Option<f64>,
     /// Time and position at which that speed was reached.
     reached: Option<[f64; 2]>,
@@ -353,7 +353,7 @@ impl<P> Run<'_, P> {
         Ok(omega * self.direction < 0.0 || self.stop_behind([phi, omega]).is_some())
     }
 
-    fn at<const N: usize>(&self, t: f64, y: &[f64; N]) -> Result<At, Error>
+    fn at<const N: usize>(&self, t: f64, y: &[f64; N]) -> Result<LinkState, Error>
     where
         P: Plant<N>,
     {
@@ -365,14 +365,14 @@ impl<P> Run<'_, P> {
             self.plant.alpha(&moment, y)?
         };
         let state = [phi, omega, alpha];
-        Ok(At { moment, state })
+        Ok(LinkState { moment, state })
     }
 
     /// Refuses the interval from one step to the next if a joint separates or the equations become invalid.
     fn check<const N: usize>(
         &mut self,
-        from: &Point<N>,
-        to: &Point<N>,
+        from: &StatePoint<N>,
+        to: &StatePoint<N>,
     ) -> Result<(), SimulationError>
     where
         P: Plant<N>,

@@ -4,9 +4,9 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::SteadyError;
-use super::cycle::Missing;
-use super::figures::Figures;
-use super::turn::{self, Reached, Turning};
+use super::cycle::TorqueDeficit;
+use super::figures::SteadyFigures;
+use super::turn::{self, TurnEnd, TurningMachine};
 use crate::simulate::run::HAIR;
 
 /// Parts of a turn after which the speed is compared with the cycle's.
@@ -35,7 +35,7 @@ pub enum Start {
         turns: f64,
         /// Where, and how much torque is missing.
         #[serde(flatten)]
-        missing: Missing,
+        missing: TorqueDeficit,
     },
     /// It takes more turns than are simulated.
     Slow {
@@ -49,7 +49,7 @@ pub enum Start {
 }
 
 impl Start {
-    pub(super) fn of(turning: &Turning, cycle: &Figures) -> Result<Self, SteadyError> {
+    pub(super) fn of(turning: &TurningMachine, cycle: &SteadyFigures) -> Result<Self, SteadyError> {
         let parts = PARTS * cycle.turns as usize;
         let every = (cycle.nodes.len() / parts).max(1);
         let last = cycle.nodes.len() - 1;
@@ -61,7 +61,7 @@ impl Start {
         if alpha <= 0.0 {
             return Ok(Self::Stuck {
                 turns: 0.0,
-                missing: Missing::at(turning, 0.0)?,
+                missing: TorqueDeficit::at(turning, 0.0)?,
             });
         }
         // The very first part of the path, with the acceleration at its start.
@@ -79,11 +79,11 @@ impl Start {
             for (to, z) in &places {
                 let speed = cycle.max_speed;
                 match turning.advance_by(turn::ROUGH, y, [x, *to], speed, &mut |_, _| ())? {
-                    Reached::End(end) => y = end,
-                    Reached::Stopped(at) => {
+                    TurnEnd::End(end) => y = end,
+                    TurnEnd::Stopped(at) => {
                         return Ok(Self::Stuck {
                             turns: turns * f64::from(turn) + at / std::f64::consts::TAU,
-                            missing: Missing::at(turning, at)?,
+                            missing: TorqueDeficit::at(turning, at)?,
                         });
                     }
                 }

@@ -8,7 +8,7 @@ use jred::machine::{Action, Mechanism as _};
 
 use crate::duty::Instant;
 use jred_file::model::machine::MachineFile;
-use jred_file::model::tabulated::Course;
+use jred_file::model::tabulated::LinkCurve;
 
 /// Share of a torque that is rounding.
 const SAME: f64 = 1e-9;
@@ -24,7 +24,7 @@ pub struct Rest {
 
 /// The sources of a motion's holding torques.
 #[derive(Clone, Copy, Debug)]
-pub struct Held<'a> {
+pub struct HoldingTorques<'a> {
     /// The instants of the motion.
     pub instants: &'a [Instant],
     /// Torque (N·m, or N) at the drive link against the constant loads, one for each instant; zero in motion.
@@ -37,7 +37,7 @@ pub struct Held<'a> {
 
 impl Rest {
     /// The torques at rest in a motion, and against weight and springs wherever else the machine may rest, all at the drive link.
-    pub fn new(held: &Held, weights: impl Iterator<Item = f64>) -> Self {
+    pub fn new(held: &HoldingTorques, weights: impl Iterator<Item = f64>) -> Self {
         let mut endless = weights.fold(0.0, |most, weight| f64::max(most, weight.abs()));
         for (instant, constant) in held.instants.iter().zip(held.constant) {
             if instant.omega == 0.0 {
@@ -96,7 +96,7 @@ impl Rest {
     }
 }
 
-impl Held<'_> {
+impl HoldingTorques<'_> {
     /// The stretches at rest: times (s) with the torque against weight and process loads. A stretch over the end of a cycle is one.
     fn runs(&self) -> Vec<Vec<[f64; 2]>> {
         let mut runs: Vec<Vec<[f64; 2]>> = Vec::new();
@@ -172,7 +172,7 @@ pub fn constant_loads(file: &MachineFile, instants: &[Instant]) -> Result<Vec<f6
         // A curve over the position is tied to it, except for a torque that is a property of the machine.
         let curve = load.link().checked_sub(first_curve);
         let curve = curve.and_then(|k| courses.get(k));
-        constant && !tied && curve.is_none_or(|course| matches!(course, Course::Torque(_)))
+        constant && !tied && curve.is_none_or(|course| matches!(course, LinkCurve::Torque(_)))
     };
     let loads = machine.loads().iter().enumerate();
     let loads: Vec<_> = loads.filter(|(k, load)| always(*k, load)).collect();

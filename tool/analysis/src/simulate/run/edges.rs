@@ -7,9 +7,9 @@ use jred::machine::Reducible as _;
 
 use super::{Plant, Run};
 use crate::simulate::SimulationError;
-use crate::simulate::geared::{Geared, Together};
+use crate::simulate::geared::{CoupledMachines, GearedMachine};
 use jred_file::number::numerics;
-use jred_file::number::numerics::dormand_prince::Point;
+use jred_file::number::numerics::dormand_prince::StatePoint;
 
 /// Relative distance at which an edge is still ahead, or behind after it was passed: some rounding errors.
 const HAIR: f64 = 4e-15;
@@ -18,14 +18,14 @@ const HAIR: f64 = 4e-15;
 pub(super) struct Edges<'a>(Vec<Machine<'a>>);
 
 struct Machine<'a> {
-    geared: Geared<'a>,
+    geared: GearedMachine<'a>,
     /// Positions of its own drive link, sorted; for a turning one within a turn.
     places: Vec<f64>,
     turns: bool,
 }
 
 impl<'a> Edges<'a> {
-    pub(super) fn of(machines: &Together<'a>) -> Self {
+    pub(super) fn of(machines: &CoupledMachines<'a>) -> Self {
         let all = machines.all().map(|geared| {
             let file = geared.file;
             let turns = file.machine.domain() == Domain::Turn;
@@ -90,9 +90,9 @@ impl<P> Run<'_, P> {
     /// The state just behind the edge, which lies in the integrator's step between these two.
     pub(super) fn on_edge<const N: usize>(
         &self,
-        start: Point<N>,
-        last: Point<N>,
-    ) -> Result<Point<N>, SimulationError>
+        start: StatePoint<N>,
+        last: StatePoint<N>,
+    ) -> Result<StatePoint<N>, SimulationError>
     where
         P: Plant<N>,
     {
@@ -107,18 +107,18 @@ impl<P> Run<'_, P> {
     pub(super) fn on_place<const N: usize>(
         &self,
         place: f64,
-        start: Point<N>,
-        last: Point<N>,
-    ) -> Result<Point<N>, SimulationError>
+        start: StatePoint<N>,
+        last: StatePoint<N>,
+    ) -> Result<StatePoint<N>, SimulationError>
     where
         P: Plant<N>,
     {
         let direction = self.direction;
-        let at = |x: f64| -> Result<Point<N>, SimulationError> {
+        let at = |x: f64| -> Result<StatePoint<N>, SimulationError> {
             let steps = self.integrate_until(start.0, start.0 + x, &start.1, |_, _| Ok(false))?;
             Ok(steps.last().copied().unwrap_or(start))
         };
-        let beyond = |(t, y): &Point<N>| -> Result<f64, SimulationError> {
+        let beyond = |(t, y): &StatePoint<N>| -> Result<f64, SimulationError> {
             Ok((self.plant.link(*t, y)?[0] - place) * direction)
         };
         let ends = [beyond(&start)?, beyond(&last)?];

@@ -4,7 +4,7 @@ use jred::error::Error;
 
 use super::{HAIR, Plant, Run};
 use crate::simulate::clock::Moment;
-use crate::simulate::simulated::Stuck;
+use crate::simulate::simulated::Stall;
 
 impl<P> Run<'_, P> {
     /// The direction of motion at the start; at rest, the direction in which it will start.
@@ -59,7 +59,7 @@ impl<P> Run<'_, P> {
     {
         if self.stuck.is_none() {
             let missing = self.plant.missing(self.within(time), y)?;
-            self.stuck = missing.map(|missing| Stuck { time, missing });
+            self.stuck = missing.map(|missing| Stall { time, missing });
         }
         Ok(())
     }

@@ -15,7 +15,7 @@
 use std::f64::consts::TAU;
 
 use super::Motion;
-use super::piece::Kind;
+use super::piece::PieceKind;
 use crate::number::spline::Spline;
 
 /// Median magnitude of normal errors with σ = 1.
@@ -86,8 +86,8 @@ impl Motion {
     pub(super) fn curve(&self) -> Option<(&Spline, bool)> {
         match self.pieces.as_slice() {
             [piece] => match &piece.kind {
-                Kind::Positions { curve, .. } => Some((curve, false)),
-                Kind::Speeds { curve, .. } => Some((curve, true)),
+                PieceKind::Positions { curve, .. } => Some((curve, false)),
+                PieceKind::Speeds { curve, .. } => Some((curve, true)),
                 _ => None,
             },
             _ => None,

@@ -2,7 +2,7 @@
 
 use std::convert::Infallible;
 
-use super::piece::{Kind, Piece};
+use super::piece::{MotionPiece, PieceKind};
 use super::{Motion, ToolCoordinate};
 use crate::model::coordinate::Coordinate;
 use crate::number::numerics;
@@ -68,16 +68,16 @@ impl Motion {
     }
 }
 
-fn overshoot(pieces: &[Piece]) -> Option<Overshoot> {
+fn overshoot(pieces: &[MotionPiece]) -> Option<Overshoot> {
     let [first, last] = [pieces.first()?, pieces.last()?];
-    let polynomial = |piece: &Piece| matches!(piece.kind, Kind::Polynomial { .. });
+    let polynomial = |piece: &MotionPiece| matches!(piece.kind, PieceKind::Polynomial { .. });
     if !pieces.iter().all(polynomial) {
         return None;
     }
     let [start, end] = [first.at(0.0), last.at(last.duration)];
     let way = end.phi - start.phi;
     let direction = way.signum();
-    let time = |piece: &Piece, k: u32| piece.duration * f64::from(k) / f64::from(PARTS);
+    let time = |piece: &MotionPiece, k: u32| piece.duration * f64::from(k) / f64::from(PARTS);
     let speeds =
         (pieces.iter()).flat_map(|piece| (0..=PARTS).map(move |k| piece.at(time(piece, k)).omega));
     let largest = speeds.fold(0.0_f64, |most, omega| most.max(omega.abs()));

@@ -2,7 +2,7 @@
 
 use jred_enclosure::Interval;
 
-use super::{FUNCTIONS, Formula, Node, Operation};
+use super::{Expression, FUNCTIONS, Formula, Operation};
 
 /// Largest relative error of standard library functions, with a margin.
 const OFF: f64 = 8.0 * f64::EPSILON;
@@ -17,12 +17,12 @@ impl Formula {
     }
 }
 
-fn bounds(node: &Node, variables: &[Interval]) -> Interval {
+fn bounds(node: &Expression, variables: &[Interval]) -> Interval {
     match node {
-        Node::Number(number) => Interval::of(*number),
-        Node::Variable(k) => variables.get(*k).copied().unwrap_or(Interval::ALL),
-        Node::Negative(inner) => -bounds(inner, variables),
-        Node::Call(function, inner) => {
+        Expression::Number(number) => Interval::of(*number),
+        Expression::Variable(k) => variables.get(*k).copied().unwrap_or(Interval::ALL),
+        Expression::Negative(inner) => -bounds(inner, variables),
+        Expression::Call(function, inner) => {
             let inner = bounds(inner, variables);
             if inner.is_bounded() {
                 FUNCTIONS[*function].1.1(inner)
@@ -30,7 +30,7 @@ fn bounds(node: &Node, variables: &[Interval]) -> Interval {
                 Interval::ALL
             }
         }
-        Node::Pair(operation, pair) => {
+        Expression::Pair(operation, pair) => {
             let [a, b] = [&pair[0], &pair[1]].map(|node| bounds(node, variables));
             match operation {
                 Operation::Plus => a + b,

@@ -6,7 +6,7 @@ use crate::text::columns::Columns;
 use crate::text::problem::{Problem, Result};
 
 use super::{POSITION, SPEED, TIME_COLUMN};
-use crate::number::spline::{Fault, Spline, Way};
+use crate::number::spline::{FitMethod, Spline, SplineError};
 
 /// Tolerances between rows: of the position in shares of the largest speed times the step, of the speed in shares of the largest acceleration times
 /// the step. Larger deviations mean a wrong unit.
@@ -23,13 +23,16 @@ pub(super) fn slopes(
     columns: &Columns,
     times: &[f64],
     cyclic: bool,
-) -> std::result::Result<Vec<f64>, Fault> {
+) -> std::result::Result<Vec<f64>, SplineError> {
     let speeds = columns.get(SPEED).unwrap_or_default();
     let curve = match times {
-        [inner @ .., end] if cyclic && speeds.len() == times.len() => {
-            Spline::periodic(inner, &speeds[..inner.len()], *end, Way::Interpolating)?
-        }
-        _ => Spline::bounded(times, speeds, Way::Interpolating)?,
+        [inner @ .., end] if cyclic && speeds.len() == times.len() => Spline::periodic(
+            inner,
+            &speeds[..inner.len()],
+            *end,
+            FitMethod::Interpolating,
+        )?,
+        _ => Spline::bounded(times, speeds, FitMethod::Interpolating)?,
     };
     Ok(times.iter().map(|t| curve.at(*t)[1]).collect())
 }
