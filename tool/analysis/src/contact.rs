@@ -19,7 +19,7 @@ use jred_file::number::rounding::figure;
 const ROUNDING: f64 = 1e-6;
 
 /// Number of positions at which a whole range is examined.
-const SCANNED: usize = 1440;
+const POSITIONS: usize = 1440;
 
 /// A joint that may separate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -80,7 +80,7 @@ impl OneWay {
     ) -> Result<Option<String>, Error> {
         for joint in Self::all(machine.mechanism()) {
             let mut worst = (f64::INFINITY, 0.0);
-            for phi in positions(machine.mechanism().domain(), SCANNED) {
+            for phi in positions(machine.mechanism().domain(), POSITIONS) {
                 let force = joint.force(machine, [phi, omega, alpha])?;
                 if force < worst.0 {
                     worst = (force, phi);

@@ -109,7 +109,7 @@ impl From<usize> for Sampling {
 }
 
 /// Share of the largest torque of the motion below which weight and loads do not move the machine: the motor's own friction and cogging hold it.
-const UNHELD: f64 = 0.01;
+const HELD_SHARE: f64 = 0.01;
 
 impl Duty {
     /// Samples the machine's motion so that the error of every integral over it is known and not above the tolerance. It uses Gauss-Kronrod
@@ -160,7 +160,7 @@ impl Duty {
         }
         let largest = (instants.iter()).fold(0.0, |most, i| f64::max(most, i.terms.total().abs()));
         let mechanics = Mechanics {
-            falls: unheld > UNHELD * largest,
+            falls: unheld > HELD_SHARE * largest,
             ..Mechanics::new(file, (&instants, &smooth), duration, rest)
         };
         Ok(Self {

@@ -24,7 +24,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::simulate::CoupledMachines;
-use crate::simulate::run::HAIR;
+use crate::simulate::run::SIGN_SPEED;
 use aim::CycleSearch;
 use jred_file::model::by_motion::ByMotion;
 use jred_file::model::machine::{MachineFile, least_common_multiple};
@@ -35,7 +35,7 @@ use jred_file::units::RPM;
 use turn::TurningMachine;
 
 /// Tolerance within which the turns of a machine are a whole number: rounding.
-const WHOLE: f64 = 1e-12;
+const TURNS_TOLERANCE: f64 = 1e-12;
 
 /// A request.
 #[derive(Clone, Debug)]
@@ -121,7 +121,7 @@ pub fn steady_together(
             return Err(SteadyError::Scheduled { what, cure });
         }
         let own = machine.ratio().abs() * f64::from(turns);
-        if (own - own.round()).abs() > WHOLE * own || own < 0.5 {
+        if (own - own.round()).abs() > TURNS_TOLERANCE * own || own < 0.5 {
             return Err(SteadyError::NotWhole {
                 title: machine.file.title.clone(),
                 turns: short(own),
@@ -212,7 +212,7 @@ fn direction(
     let turning = |direction| TurningMachine::new(machines, simulation, own, direction, turns);
     let process_drives = |direction| -> Result<bool, SteadyError> {
         let turning = turning(direction)?;
-        Ok(turning.keeping(HAIR)? < -1e-9 * turning.effort(HAIR) / turning.plant.ratio().abs())
+        Ok(turning.keeping(SIGN_SPEED)? < -1e-9 * turning.effort(SIGN_SPEED) / turning.plant.ratio().abs())
     };
     let motor = own.characteristic;
     let at_rest = motor.torque(0.0) * turning(1.0)?.plant.ratio();

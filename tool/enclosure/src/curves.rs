@@ -149,7 +149,7 @@ impl Curves {
 #[must_use]
 pub fn factor(window: &Window, [from, to]: [f64; 2]) -> TaylorForm {
     /// The largest ε, as a part of the ramp.
-    const BESIDE: f64 = 1e-3;
+    const RAMP_MARGIN: f64 = 1e-3;
     let [start, ..] = window.edges();
     let (ramp, width) = (window.ramp(), window.width());
     let middle = from.midpoint(to);
@@ -184,7 +184,7 @@ pub fn factor(window: &Window, [from, to]: [f64; 2]) -> TaylorForm {
     let beyond =
         (low - values.lo()).max(values.hi() - high).max(0.0) + 1e-15 * (1.0 + width + start.abs());
     let beyond = beyond / ramp;
-    if beyond > BESIDE {
+    if beyond > RAMP_MARGIN {
         return TaylorForm::somewhere(Interval::between(0.0, 1.0));
     }
     form + TaylorForm::somewhere(Interval::within(62.1 * beyond * beyond * beyond))

@@ -58,7 +58,7 @@ impl LinkPoint {
 }
 
 /// Tolerance for the drive's constant in double precision, with rounding.
-const SAME: f64 = 1e-11;
+const COINCIDENCE: f64 = 1e-11;
 
 /// The equations of a joint; `None` if they do not contain its geometry.
 pub(crate) fn of_joint(joint: &Joint, frames: &Frames) -> Option<Vec<Equation>> {
@@ -156,10 +156,10 @@ fn agree([a, b]: [&Marker; 2], frames: &Frames) -> Equation {
 pub(crate) fn of_drive(joint: &Joint, frames: &Frames, phi: f64) -> Option<Equation> {
     let offset = joint.coordinate(frames).value - phi;
     // Most are zero, and rounding is removed from them.
-    let offset = if offset.abs() < SAME {
+    let offset = if offset.abs() < COINCIDENCE {
         Interval::ZERO
     } else {
-        Interval::around(offset, SAME)
+        Interval::around(offset, COINCIDENCE)
     };
     match joint {
         Joint::Revolute([a, b]) => Some(Equation::Angle {

@@ -9,12 +9,12 @@ use rand::rngs::ChaCha8Rng;
 use rand::{RngExt as _, SeedableRng as _};
 
 /// A machine in intervals.
-pub(crate) struct Enclosed<'m> {
+pub(crate) struct EnclosedMachine<'m> {
     closure: Closure<'m>,
     parts: Parts<'m>,
 }
 
-impl<'m> Enclosed<'m> {
+impl<'m> EnclosedMachine<'m> {
     pub(crate) fn new<M: Jointed>(machine: &'m Machine<M>) -> Self {
         let mechanism = machine.mechanism();
         let phi = mechanism.domain().position(0.1);
@@ -38,7 +38,7 @@ impl<'m> Enclosed<'m> {
 }
 
 /// The words of a table, and their shape.
-pub(crate) struct Made<F: Format> {
+pub(crate) struct TestTable<F: Format> {
     pub(crate) words: Vec<F::Word>,
     pub(crate) shape: jred::table::Shape<F>,
 }
@@ -48,7 +48,7 @@ pub(crate) fn made<F: Format>(
     set: CurveSet,
     cells: u32,
     scale: Scale,
-) -> Made<F> {
+) -> TestTable<F> {
     let mut scratch = vec![0.0; scratch_len(cells, set)];
     let mut words = vec![F::Word::default(); words_len::<F>(cells, set)];
     let whole = F::WHOLE_FACTOR.then(|| scale.for_cells(cells, machine.domain().span()));
@@ -56,7 +56,7 @@ pub(crate) fn made<F: Format>(
     let shape = fill::<F>(machine, set, cells, &scale, &mut scratch, &mut words)
         .unwrap()
         .shape();
-    Made { words, shape }
+    TestTable { words, shape }
 }
 
 /// The request for a range of speed and acceleration.
@@ -69,7 +69,7 @@ fn request([omega, alpha]: [f64; 2]) -> Request {
 /// Proves a table of a turn.
 pub(crate) fn proof<F: Format>(
     machine: &impl Reducible,
-    made: &Made<F>,
+    made: &TestTable<F>,
     range: [f64; 2],
     curves: &dyn Fn([f64; 2]) -> Result<Curves, ProofError>,
 ) -> Result<Proof, ProofError> {
@@ -92,7 +92,7 @@ pub(crate) fn proof<F: Format>(
 /// The largest error of a table at random positions and around the worst of them, evaluated without the rounding of a tick.
 pub(crate) fn searched<F: Format>(
     machine: &impl Reducible,
-    made: &Made<F>,
+    made: &TestTable<F>,
     range: [f64; 2],
 ) -> f64 {
     let table = Table::new(&made.words, made.shape).unwrap();

@@ -151,7 +151,7 @@ fn narrow(
     const PARTS: u32 = 16;
     const DEPTH: u32 = 8;
     // In an interval of three parts of the last one, the value is 150 times smaller for a smooth curve, 5 times for a kink.
-    const KEPT: f64 = 0.5;
+    const JUMP_SHARE: f64 = 0.5;
     let mut first = None;
     for depth in 0..DEPTH {
         if depth > 1 && to - from < finest * f64::from(PARTS) {
@@ -170,7 +170,7 @@ fn narrow(
             return Ok(None);
         };
         // Only rounding, or smooth.
-        if step <= 1e-6 * size || step < KEPT * *first.get_or_insert(step) {
+        if step <= 1e-6 * size || step < JUMP_SHARE * *first.get_or_insert(step) {
             return Ok(None);
         }
         (from, to) = (at(k - 1), at(k + 2));

@@ -23,7 +23,7 @@ use jred_file::number::rounding::short;
 /// Places at which both directions are compared.
 const PLACES: u32 = 1440;
 /// Share of the largest value that counts as zero: rounding.
-const NOTHING: f64 = 1e-12;
+const LOAD_ROUNDING: f64 = 1e-12;
 
 /// The machine of each direction; one, if no load depends on it.
 #[derive(Clone, Debug)]
@@ -89,7 +89,7 @@ impl MachineByDirection {
         let coordinate = file.machine.mechanism().coordinate();
         for (phi, coulomb, difference, sum) in found {
             let at = coordinate.place(phi);
-            if difference.abs() > NOTHING * sum.abs() {
+            if difference.abs() > LOAD_ROUNDING * sum.abs() {
                 return Err(Failure::Impossible {
                     message: format!(
                         "the viscous friction goes by the direction: at {at} it is another one forwards than backwards, and a table has one b"
@@ -97,7 +97,7 @@ impl MachineByDirection {
                     help: "remove the direction of the viscous load, or give it to the firmware as a torque of its own".to_owned(),
                 });
             }
-            if coulomb < -NOTHING * largest {
+            if coulomb < -LOAD_ROUNDING * largest {
                 return Err(Failure::Impossible {
                     message: format!(
                         "the loads by direction drive the motion: at {at} they take {} {} less forwards than backwards, and friction takes more",

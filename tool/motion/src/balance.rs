@@ -88,7 +88,7 @@ pub enum Fault {
     /// The mechanism cannot be assembled at a position.
     Machine(Error),
     /// The duty of the motion cannot be computed.
-    Duty(duty::Fault),
+    Duty(duty::DutyError),
     /// The goal is a torque over the motion, but the file has no motion.
     NoMotion,
     /// The torque, or the deviation of the inertia, is already zero everywhere.
@@ -107,10 +107,10 @@ impl From<Error> for Fault {
     }
 }
 
-impl From<duty::Fault> for Fault {
-    fn from(fault: duty::Fault) -> Self {
+impl From<duty::DutyError> for Fault {
+    fn from(fault: duty::DutyError) -> Self {
         match fault {
-            duty::Fault::Machine(error) => Self::Machine(error),
+            duty::DutyError::Machine(error) => Self::Machine(error),
             fault => Self::Duty(fault),
         }
     }

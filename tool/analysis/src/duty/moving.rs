@@ -12,7 +12,7 @@ use jred_file::model::motion::Motion;
 use jred_file::model::schedule::ScheduleInstant;
 
 /// Share of a stretch at which a move from rest counts as moving; at its start it has at most this share of that speed.
-const SLIGHTLY: f64 = 1e-3;
+const START_SHARE: f64 = 1e-3;
 
 /// The machine in its motion. A dwell requests one position at every time step, so the last one is cached.
 pub(super) struct MovingMachine<'a> {
@@ -73,8 +73,8 @@ impl<'a> MovingMachine<'a> {
             return None;
         }
         let speed = |share: f64| self.motion.at(from + share * (to - from)).omega;
-        let ahead = speed(SLIGHTLY);
-        (speed(0.0).abs() <= SLIGHTLY * ahead.abs() && ahead != 0.0).then(|| ahead.signum())
+        let ahead = speed(START_SHARE);
+        (speed(0.0).abs() <= START_SHARE * ahead.abs() && ahead != 0.0).then(|| ahead.signum())
     }
 
     /// The machine at time `t` of its motion.

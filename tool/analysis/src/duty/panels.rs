@@ -14,7 +14,7 @@ use super::stretches::turns;
 use super::{INSIDE, Instant, Sampling, Smooth, refined};
 use jred_file::number::quadrature::GAUSS_3;
 use jred_file::number::quadrature::kronrod::{KRONROD_7, KRONROD_15, Rule};
-use signs::UNSIGNED;
+use signs::SIGN_ROUNDING;
 use stretch::{Stretch, near_whole};
 
 /// Most instants of a duty; with derived data they take 200 bytes each.
@@ -27,19 +27,19 @@ const OF_TURN: [f64; 2] = [2.0, 8.0];
 const FOR_TURNS: f64 = 1e6;
 
 /// Most panels that are evaluated for the size of the integrals.
-const LOOKED_AT: usize = 256;
+const MOST_FOR_SIZES: usize = 256;
 
 /// Most cuts of a panel at changes of sign; with more it is halved first.
 const MOST_CUTS: usize = 16;
 
 /// A halving that leaves a larger share of the error than this is ineffective: over a smooth part it leaves a thousandth, at a kink half.
-const LITTLE: f64 = 0.7;
+const INEFFECTIVE: f64 = 0.7;
 
 /// After this number of ineffective halvings, an error up to this share counts as rounding, which smaller panels do not reduce.
 const IDLE: [(u32, f64); 2] = [(2, 1e-10), (5, 1e-6)];
 
 /// Largest error by rounding of the times, in rounding errors.
-const TIMES: f64 = 4.0;
+const TIME_ROUNDINGS: f64 = 4.0;
 
 /// Most halvings of a panel.
 const DEEPEST: u32 = 60;
@@ -84,7 +84,7 @@ impl Default for PanelHistory {
 
 impl PanelHistory {
     fn further(self, error: f64) -> Self {
-        let is_idle = error > LITTLE * self.error;
+        let is_idle = error > INEFFECTIVE * self.error;
         Self {
             depth: self.depth + 1,
             idle: if is_idle { self.idle + 1 } else { 0 },
@@ -181,7 +181,7 @@ impl<'a, 'm> Panels<'a, 'm> {
 
     /// Approximate sizes of the integrals, and the largest torques.
     fn look(&mut self, borders: &[(Stretch, Vec<f64>)], count: usize) -> Result<(), DutyError> {
-        let stride = count.div_ceil(LOOKED_AT);
+        let stride = count.div_ceil(MOST_FOR_SIZES);
         let mut number = 0;
         let mut noise = 0.0f64;
         for (stretch, borders) in borders {
@@ -209,7 +209,7 @@ impl<'a, 'm> Panels<'a, 'm> {
             }
         }
         for most in &mut self.flows {
-            *most = if *most < UNSIGNED * noise {
+            *most = if *most < SIGN_ROUNDING * noise {
                 f64::INFINITY
             } else {
                 // A torque below the rounding of its terms has no sign either.
@@ -299,7 +299,7 @@ impl<'a, 'm> Panels<'a, 'm> {
             Sums::over(rule, places, ends.map(|end| &end.now), half, allowed);
         let way = way.further(rough);
         // The times of a short stretch late in a long motion are rounded.
-        let rounded = TIMES * f64::EPSILON * to.abs() / (stretch.to - stretch.from);
+        let rounded = TIME_ROUNDINGS * f64::EPSILON * to.abs() / (stretch.to - stretch.from);
         let is_noise = IDLE
             .iter()
             .any(|(idle, noise)| way.idle >= *idle && rough <= *noise)

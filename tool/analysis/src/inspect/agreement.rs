@@ -49,7 +49,7 @@ const SHARE: f64 = 1e-11;
 const TIMES: f64 = 2.0;
 
 /// Share of a stretch by which its ends are moved inside.
-const HAIR: f64 = 1e-13;
+const INSIDE: f64 = 1e-13;
 
 /// The moving masses.
 #[derive(Clone, Copy, Debug, Serialize, schemars::JsonSchema)]
@@ -117,7 +117,7 @@ fn extremes(
 ) -> Result<[f64; 3], Error> {
     let (mut places, mut firsts) = (Vec::new(), Vec::new());
     for ([from, to], steps) in parts {
-        let hair = HAIR * (to - from);
+        let hair = INSIDE * (to - from);
         for k in 0..=*steps {
             firsts.push(places.len() - k);
             let even = from + (to - from) * k as f64 / *steps as f64;
@@ -319,10 +319,10 @@ impl<'m> SmoothStretch<'m> {
         }
     }
 
-    /// The machine at a time, moved inside the stretch by [`HAIR`]: at its ends the acceleration of a carriage may jump.
+    /// The machine at a time, moved inside the stretch by [`INSIDE`]: at its ends the acceleration of a carriage may jump.
     fn at(&self, t: f64) -> Result<MachineState<'m>, Error> {
         let [from, to] = self.span;
-        let hair = HAIR * (to - from);
+        let hair = INSIDE * (to - from);
         let state = self.motion.at(t);
         let inside = t.clamp(from + hair, to - hair);
         let now = ScheduleInstant::of(inside, state.omega);

@@ -14,7 +14,7 @@ use jred_file::number::numerics::edge;
 const SAMPLES: usize = 1440;
 
 /// Share of the largest transfer function below which a link is at rest.
-const STILL: f64 = 1e-9;
+const REST_TOLERANCE: f64 = 1e-9;
 
 /// Places (rad) closer than this to a whole turn are its start.
 const ROUNDING: f64 = 1e-8;
@@ -124,7 +124,7 @@ fn samples(
                     most
                 }
             });
-    let still = STILL * most;
+    let still = REST_TOLERANCE * most;
     let first = if domain == Domain::Turn {
         place(domain, fastest)
     } else {

@@ -17,7 +17,7 @@ use jred_file::number::parabola;
 use jred_file::number::rounding::short;
 
 /// Least number of positions that are searched: the quarter degrees of a turn.
-const SEARCHED: usize = 1440;
+const LEAST_POSITIONS: usize = 1440;
 
 /// Fewest steps per turn or stroke, in a motion over many.
 const OF_TURN: f64 = 180.0;
@@ -72,7 +72,7 @@ pub fn largest(file: &MachineFile, request: &Request) -> Result<Vec<Largest>, Er
     let Some(course) = SearchDomain::of(&source, request) else {
         return Ok(Vec::new());
     };
-    let stretches = course.stretches(&source, request.positions.max(SEARCHED));
+    let stretches = course.stretches(&source, request.positions.max(LEAST_POSITIONS));
     let search = PeakSearch {
         reactions: Reactions::new(&source)?,
         source: &source,

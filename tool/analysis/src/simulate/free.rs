@@ -7,7 +7,7 @@ use super::clock::{Corners, Moment};
 use super::geared::CoupledMachines;
 use super::machine::{Instant, Plant};
 use super::observe::MotorState;
-use super::run::{self, HAIR, OutputRow};
+use super::run::{self, SIGN_SPEED, OutputRow};
 use super::simulated::TorqueDeficit;
 use jred_file::model::motor::Motor;
 use jred_file::model::simulation::Simulation;
@@ -150,7 +150,7 @@ impl<M: Motor, const N: usize> run::Plant<N> for Plant<'_, M> {
         let moments = [Moment::starting(t, push), Moment::new(t, push)];
         let mut needed = f64::NEG_INFINITY;
         for moment in moments {
-            needed = needed.max(sign * self.keeping(&moment, [y[0], push * HAIR])?);
+            needed = needed.max(sign * self.keeping(&moment, [y[0], push * SIGN_SPEED])?);
         }
         Ok((needed > given * sign).then_some(TorqueDeficit {
             phi: y[0],

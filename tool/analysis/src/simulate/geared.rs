@@ -20,7 +20,7 @@ use jred_file::model::schedule::Schedule;
 use jred_file::model::simulation::{Shaft, Simulation};
 
 /// Tolerance within which a number of turns is whole: some rounding errors.
-const WHOLE: f64 = 1e-9;
+const TURNS_TOLERANCE: f64 = 1e-9;
 
 /// A machine whose drive link moves in proportion to that of the first one: φ_k = offset + ratio·φ.
 #[derive(Clone, Copy, Debug)]
@@ -171,7 +171,7 @@ impl<'a> CoupledMachines<'a> {
 
     /// Whether all machines are in the same position after a turn of the first drive link.
     pub(super) fn go_by_turns(&self) -> bool {
-        let whole = |ratio: f64| (ratio - ratio.round()).abs() <= WHOLE * (1.0 + ratio.abs());
+        let whole = |ratio: f64| (ratio - ratio.round()).abs() <= TURNS_TOLERANCE * (1.0 + ratio.abs());
         self.all()
             .all(|machine| machine.file.machine.domain() == Domain::Turn && whole(machine.ratio()))
     }

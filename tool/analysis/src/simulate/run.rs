@@ -36,7 +36,7 @@ const MOST_STEPS: u32 = 1_000_000;
 const MOST_TURNS: u32 = 10_000;
 
 /// Smallest speed (rad/s) that determines the direction of a motion to come, and with it the losses of each stage.
-pub(crate) const HAIR: f64 = 1e-12;
+pub(crate) const SIGN_SPEED: f64 = 1e-12;
 
 /// Runs a simulation.
 ///

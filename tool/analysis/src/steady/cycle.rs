@@ -8,7 +8,7 @@ use super::figures::SteadyFigures;
 use super::start::Start;
 use super::turn::{TurnEnd, TurningMachine};
 use super::{SteadyError, speed, torque};
-use crate::simulate::run::HAIR;
+use crate::simulate::run::SIGN_SPEED;
 use jred_file::number::numerics;
 use jred_file::number::rounding::short;
 
@@ -17,7 +17,7 @@ const FASTEST: f64 = 1e5;
 const SLOWEST: f64 = 1e-3;
 
 /// Share of the energy below which a rise has few significant digits.
-const LOST: f64 = 1e-6;
+const CANCELLATION: f64 = 1e-6;
 
 /// Ratio of successive speeds.
 const STEP: f64 = 1.25;
@@ -26,7 +26,7 @@ const STEP: f64 = 1.25;
 const MOST_TURNS: u32 = 2000;
 
 /// A small relative change of speed or energy.
-const BIT: f64 = 1e-3;
+const SMALL_CHANGE: f64 = 1e-3;
 
 /// The motion that repeats with every turn.
 #[derive(Debug, Serialize, JsonSchema)]
@@ -75,7 +75,7 @@ impl Cycle {
             Ok(share * (1.0 + turning.rise(begin * share.sqrt())?))
         };
         Ok(Self {
-            left_over: (energy(1.0 + BIT)? - energy(1.0 - BIT)?) / (2.0 * BIT),
+            left_over: (energy(1.0 + SMALL_CHANGE)? - energy(1.0 - SMALL_CHANGE)?) / (2.0 * SMALL_CHANGE),
             residual: turning.rise(begin)?.abs(),
             caught_from: caught_from(turning, begin)?,
             start: Start::of(turning, &figures)?,
@@ -163,7 +163,7 @@ fn search(turning: &TurningMachine) -> Result<CycleResult, SteadyError> {
 fn between(turning: &TurningMachine, ends: [f64; 2], gains: [f64; 2]) -> Result<f64, SteadyError> {
     if gains[1] == 0.0 {
         // The cycle itself, if a turn that begins faster loses energy.
-        if turning.gain(ends[1] * (1.0 + BIT))? < 0.0 {
+        if turning.gain(ends[1] * (1.0 + SMALL_CHANGE))? < 0.0 {
             return Ok(ends[1]);
         }
         return Err(SteadyError::Indifferent {
@@ -171,7 +171,7 @@ fn between(turning: &TurningMachine, ends: [f64; 2], gains: [f64; 2]) -> Result<
         });
     }
     let rises = [turning.rise(ends[0])?, turning.rise(ends[1])?];
-    if rises[0] > LOST && rises[1] < -LOST {
+    if rises[0] > CANCELLATION && rises[1] < -CANCELLATION {
         numerics::zero(|at| turning.rise(at), ends, rises, 1e-15)
     } else {
         // The work of a cycle is below the digits of the energy.
@@ -310,7 +310,7 @@ pub struct TorqueDeficit {
 impl TorqueDeficit {
     pub(super) fn at(turning: &TurningMachine, x: f64) -> Result<Self, SteadyError> {
         let phi = turning.at(x).rem_euclid(turning.span());
-        let state = [phi, turning.direction * HAIR];
+        let state = [phi, turning.direction * SIGN_SPEED];
         let coordinate = turning.machines.first.machine.mechanism().coordinate();
         Ok(Self {
             place: coordinate.place(phi),

@@ -11,7 +11,7 @@ use super::aim::{CycleOutcome, CycleSearch, Guess, Scaling};
 use super::cycle::{self, Cycle, CycleResult};
 use super::figures::{self, MotorTorque, SteadyFigures};
 use super::turn::TurningMachine;
-use crate::simulate::run::HAIR;
+use crate::simulate::run::SIGN_SPEED;
 use jred_file::model::machine::{MachineFile, ReductionCache};
 use jred_file::model::simulation::Shaft;
 use jred_file::number::numerics;
@@ -296,7 +296,7 @@ impl FlywheelSearch<'_> {
 
     /// The motor torque with which a slow turn neither gains nor loses energy.
     fn mean_torque(&self) -> Result<f64, SteadyError> {
-        Ok(self.turning.keeping(HAIR)?.abs())
+        Ok(self.turning.keeping(SIGN_SPEED)?.abs())
     }
 }
 

@@ -7,13 +7,13 @@ use super::SteadyError;
 use super::cycle::TorqueDeficit;
 use super::figures::SteadyFigures;
 use super::turn::{self, TurnEnd, TurningMachine};
-use crate::simulate::run::HAIR;
+use crate::simulate::run::SIGN_SPEED;
 
 /// Parts of a turn after which the speed is compared with the cycle's.
 const PARTS: usize = 24;
 
 /// Relative difference of the speed that counts as reached.
-const NEAR: f64 = 0.01;
+const SPEED_TOLERANCE: f64 = 0.01;
 
 /// Most turns of the simulation.
 const MOST_TURNS: u32 = 300;
@@ -57,7 +57,7 @@ impl Start {
         let places = nodes.filter(|(k, _)| *k == last || k % every == 0);
         let places: Vec<(f64, f64)> = places.map(|(_, (x, y))| (*x, y[0])).collect();
         let full = 0.5 * cycle.max_speed * cycle.max_speed;
-        let alpha = turning.instant(0.0, HAIR)?.alpha * turning.direction;
+        let alpha = turning.instant(0.0, SIGN_SPEED)?.alpha * turning.direction;
         if alpha <= 0.0 {
             return Ok(Self::Stuck {
                 turns: 0.0,
@@ -65,7 +65,7 @@ impl Start {
             });
         }
         // The very first part of the path, with the acceleration at its start.
-        let least = 2.0 * turn::STOPPED * full;
+        let least = 2.0 * turn::STANDSTILL_ENERGY * full;
         let first = (least / alpha).min(0.5 * places[0].0);
         let mut y = turn::starting((2.0 * (alpha * first).max(least)).sqrt());
         y[1] = (2.0 * first / alpha).sqrt();
@@ -89,7 +89,7 @@ impl Start {
                 }
                 x = *to;
                 share = (y[0] / z).sqrt();
-                if (share - 1.0).abs() > NEAR {
+                if (share - 1.0).abs() > SPEED_TOLERANCE {
                     near = None;
                     continue;
                 }

@@ -34,7 +34,7 @@ pub(super) const ROUGH: Accuracy = Accuracy {
 const CLOSE: f64 = 1e-6;
 
 /// Share of z at full speed (a three-thousandth of the speed) below which the drive link has stopped.
-pub(super) const STOPPED: f64 = 1e-7;
+pub(super) const STANDSTILL_ENERGY: f64 = 1e-7;
 
 /// How far a motion came.
 pub(super) enum TurnEnd {
@@ -208,7 +208,7 @@ impl<'a> TurningMachine<'a> {
             torque / speed,
             torque * torque / speed,
         ];
-        let least = STOPPED * full;
+        let least = STANDSTILL_ENERGY * full;
         let slope = |x: f64, y: &TurnState| -> Result<TurnState, Error> {
             let speed = (2.0 * (y[0] * full).max(least)).sqrt();
             let now = self.instant(from + x, speed)?;
@@ -230,7 +230,7 @@ impl<'a> TurningMachine<'a> {
             self.plant.bends_under(&self.moment(), link, torque)
         };
         let scaled = std::array::from_fn(|i| y[i] / sizes[i]);
-        let steps = accuracy.steps(slope, bends, scaled, to - from, |_, y| Ok(y[0] <= STOPPED));
+        let steps = accuracy.steps(slope, bends, scaled, to - from, |_, y| Ok(y[0] <= STANDSTILL_ENERGY));
         let steps = steps.map_err(|why| match why {
             IntegrationError::Function(error) => SteadyError::Machine(error),
             IntegrationError::TooManySteps { .. } | IntegrationError::StepTooSmall { .. } => {
@@ -240,7 +240,7 @@ impl<'a> TurningMachine<'a> {
         let [.., before, (x, end)] = steps.as_slice() else {
             return Ok(TurnEnd::End(y));
         };
-        if end[0] <= STOPPED {
+        if end[0] <= STANDSTILL_ENERGY {
             // Near rest z falls linearly.
             let share = (before.1[0] / (before.1[0] - end[0])).clamp(0.0, 1.0);
             return Ok(TurnEnd::Stopped(from + before.0 + share * (x - before.0)));

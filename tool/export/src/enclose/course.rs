@@ -6,7 +6,7 @@ use jred::machine::Window;
 use jred_enclosure::{Curves, Interval, LinkFrame, TaylorForm, factor};
 
 use jred_file::model::tabulated::{
-    Direction, LinkCurve, LinkPoint as Point, LoadTable, TableVariable,
+    Direction, LinkCurve, LinkPoint, LoadTable, TableVariable,
 };
 use jred_file::number::spline::{CubicPiece, Spline};
 

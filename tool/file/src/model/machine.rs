@@ -73,7 +73,7 @@ impl Clone for ReductionCache {
 impl fmt::Debug for ReductionCache {
     /// It follows from the rest of the machine, so a digest does not need it.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("OverRange")
+        f.write_str("ReductionCache")
     }
 }
 

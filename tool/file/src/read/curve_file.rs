@@ -14,7 +14,7 @@ use crate::text::problem::{Problem, Result};
 const CLOSEST: f64 = 1e-6;
 
 /// Largest difference between the first and the last row of a turn, as a share of the column's largest magnitude.
-const CLOSED: f64 = 1e-6;
+const CLOSURE_TOLERANCE: f64 = 1e-6;
 
 /// Without a closing last row, a turn may be open by this many of its largest steps.
 const OPEN: f64 = 2.0;
@@ -233,7 +233,7 @@ impl<'c> Positions<'c> {
         };
         if let (true, [first, .., last]) = (self.closing, values) {
             let most = values.iter().fold(0.0f64, |most, v| most.max(v.abs()));
-            if (last - first).abs() > CLOSED * most {
+            if (last - first).abs() > CLOSURE_TOLERANCE * most {
                 return Err(self
                     .columns
                     .problem(
@@ -247,7 +247,7 @@ impl<'c> Positions<'c> {
                     .help(format!(
                         "after a turn the machine is back where it was: make the two rows equal to within {} of the \
                          largest value, or remove the last row",
-                        figure(CLOSED)
+                        figure(CLOSURE_TOLERANCE)
                     )));
             }
         }

@@ -20,14 +20,14 @@ mod closing;
 mod form;
 mod states;
 
-use closing::{CLOSED, check_speed_closes, closed};
+use closing::{CLOSURE_TOLERANCE, check_speed_closes, closed};
 use form::{ACCELERATION, POSITION, SPEED, TIME_COLUMN, read_columns};
 
 /// A time step this many times the median step is a gap in the recording.
 const GAP: f64 = 20.0;
 
 /// A time step this many times shorter than the median means two rows of one instant.
-const TWICE: f64 = 1000.0;
+const DOUBLE_ROW: f64 = 1000.0;
 
 /// Cure for most faults of the time column.
 const TIMES: &str =
@@ -174,7 +174,7 @@ fn curve(
         if let ([first, .., last], true) = (nodes.as_slice(), request.cyclic) {
             check_speed_closes(columns, columns.get(SPEED).unwrap_or_default())?;
             let way = [first.phi, last.phi - first.phi];
-            closed(way, most(CLOSED * span), columns, prescribed, repeats)?;
+            closed(way, most(CLOSURE_TOLERANCE * span), columns, prescribed, repeats)?;
         }
         Motion::nodes(&nodes, request.cyclic)
     } else if let Some(positions) = columns.get(POSITION) {
@@ -184,7 +184,7 @@ fn curve(
         );
         if request.cyclic {
             let way = [first, last - first];
-            advance = closed(way, most(CLOSED * span), columns, prescribed, repeats)?;
+            advance = closed(way, most(CLOSURE_TOLERANCE * span), columns, prescribed, repeats)?;
         }
         let recording = Recording {
             times: &times,
@@ -215,7 +215,7 @@ fn curve(
                 .phi
                 - start;
             let way = [start, way];
-            advance = closed(way, most(CLOSED * span), columns, prescribed, repeats)?;
+            advance = closed(way, most(CLOSURE_TOLERANCE * span), columns, prescribed, repeats)?;
             recording.closing = Repetition::After(advance);
         }
         Motion::speeds(&recording, start).map_err(unmade)?
@@ -275,7 +275,7 @@ fn times(columns: &Columns, request: &ProfileKeys) -> Result<Vec<f64>> {
             "a curve through a gap of more than {GAP} steps would be guesswork: add the missing rows, including those at standstill"
         )));
     }
-    let twice = steps.iter().position(|step| *step * TWICE < usual);
+    let twice = steps.iter().position(|step| *step * DOUBLE_ROW < usual);
     if let (Some(row), None) = (twice, &request.smoothing) {
         return Err(Problem::new(format!(
             "row {} is {} s after the previous row; the usual step is {} s",

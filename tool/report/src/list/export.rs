@@ -4,7 +4,7 @@ use crate::answer::Answer;
 use crate::answer::schema::Data;
 use crate::table::reading::Reading;
 use jred_export::data::{ExportData, FORM};
-use jred_export::{Export, SearchResult as Found};
+use jred_export::{Export, SearchResult};
 use jred_file::number::rounding::short;
 use jred_sizing::study::cell::Cell;
 

@@ -11,7 +11,7 @@ use jred_file::model::machine::MachineFile;
 use jred_file::model::tabulated::LinkCurve;
 
 /// Share of a torque that is rounding.
-const SAME: f64 = 1e-9;
+const TORQUE_ROUNDING: f64 = 1e-9;
 
 /// Torques (N·m, or N) that hold the machine at rest.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -77,7 +77,7 @@ impl Rest {
 
     /// The longest time (s) for which more than this torque is held; `None` if it never is.
     pub fn longest_above(&self, torque: f64) -> Option<f64> {
-        let above = |most: f64| most > torque * (1.0 + SAME);
+        let above = |most: f64| most > torque * (1.0 + TORQUE_ROUNDING);
         if above(self.endless) {
             return Some(f64::INFINITY);
         }
@@ -137,7 +137,7 @@ fn lengths(run: &[[f64; 2]], spans: &mut Vec<[f64; 2]>) {
     let mut open: Vec<[f64; 2]> = Vec::new();
     let mut close = |open: &mut Vec<[f64; 2]>, at: f64, below: f64| {
         let mut since = at;
-        while let Some([from, torque]) = open.pop_if(|last| last[1] * (1.0 - SAME) > below) {
+        while let Some([from, torque]) = open.pop_if(|last| last[1] * (1.0 - TORQUE_ROUNDING) > below) {
             since = from;
             spans.push([at - from, torque]);
         }

@@ -9,7 +9,7 @@ use jred_file::number::numerics;
 use jred_file::number::parabola::Parabola;
 
 /// Share of the largest torque below which the sign of a torque is rounding.
-pub(super) const UNSIGNED: f64 = 1e-11;
+pub(super) const SIGN_ROUNDING: f64 = 1e-11;
 
 /// Share of the middle value: where the parabola through three instants comes closer to zero than this, the torque may change sign between them, and
 /// the panel is cut there.
@@ -53,7 +53,7 @@ impl Panels<'_, '_> {
             .collect();
         let mut cuts = Vec::new();
         for which in 0..self.flows.len() {
-            let least = UNSIGNED * self.flows[which];
+            let least = SIGN_ROUNDING * self.flows[which];
             if least.is_infinite() {
                 continue;
             }

@@ -1,7 +1,7 @@
 //! Output of a machine under its motor: the columns of a row, and the state of the motor.
 
 use jred::error::Error;
-use jred::machine::motion::State as Moving;
+use jred::machine::motion::State;
 
 use super::{Plant, StoredEnergy, beside_name};
 use crate::simulate::clock::Moment;
@@ -94,7 +94,7 @@ impl<M: Motor> Plant<'_, M> {
             beyond,
             potential,
         } = self.stored(moment, [phi, omega])?;
-        let shown = self.axis.state(&Moving { phi, omega, alpha });
+        let shown = self.axis.state(&State { phi, omega, alpha });
         let own = [
             self.axis.shown(phi),
             shown.omega,

@@ -12,7 +12,7 @@ use jred_file::number::numerics;
 use jred_file::number::numerics::dormand_prince::StatePoint;
 
 /// Relative distance at which an edge is still ahead, or behind after it was passed: some rounding errors.
-const HAIR: f64 = 4e-15;
+const EDGE_ROUNDING: f64 = 4e-15;
 
 /// The edges of each machine.
 pub(super) struct Edges<'a>(Vec<Machine<'a>>);
@@ -35,7 +35,7 @@ impl<'a> Edges<'a> {
             let edges = edges.map(|edge| if turns { edge.rem_euclid(TAU) } else { edge });
             let mut places: Vec<f64> = edges.collect();
             places.sort_by(f64::total_cmp);
-            places.dedup_by(|b, a| *b - *a <= HAIR * (1.0 + a.abs()));
+            places.dedup_by(|b, a| *b - *a <= EDGE_ROUNDING * (1.0 + a.abs()));
             Machine {
                 geared,
                 places,
@@ -59,7 +59,7 @@ impl<'a> Edges<'a> {
 
 impl Machine<'_> {
     fn ahead(&self, own: f64, way: f64) -> f64 {
-        let hair = HAIR * (1.0 + own.abs());
+        let hair = EDGE_ROUNDING * (1.0 + own.abs());
         let turn = if self.turns { (own / TAU).floor() } else { 0.0 };
         let rounds: &[f64] = if self.turns {
             &[-1.0, 0.0, 1.0]
@@ -99,7 +99,7 @@ impl<P> Run<'_, P> {
         let (edge, direction) = (self.edge, self.direction);
         let (t, y) = self.on_place(edge, start, last)?;
         let [_, omega] = self.plant.link(t, &y)?;
-        let behind = edge + direction * HAIR * (1.0 + edge.abs());
+        let behind = edge + direction * EDGE_ROUNDING * (1.0 + edge.abs());
         Ok((t, self.plant.with_link(t, &y, [behind, omega])?))
     }
 

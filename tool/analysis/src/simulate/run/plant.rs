@@ -63,7 +63,7 @@ pub(crate) trait Plant<const N: usize> {
         Ok(None)
     }
 
-    /// The columns of the figures of a [`OutputRow`].
+    /// The columns of the figures of an [`OutputRow`].
     fn heads(&self) -> Vec<Column>;
 
     /// The output for a state.

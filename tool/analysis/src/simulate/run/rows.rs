@@ -35,7 +35,7 @@ pub(crate) struct Terms {
     pub(crate) carriages: bool,
 }
 
-/// The columns of a motion: the time, the `figures` of a [`OutputRow`], energies and their balance.
+/// The columns of a motion: the time, the `figures` of an [`OutputRow`], energies and their balance.
 pub(crate) fn heads(figures: Vec<Column>, terms: Terms) -> impl Iterator<Item = Column> {
     let energies = [
         Some("kinetic energy"),

@@ -2,7 +2,7 @@
 
 use jred::error::Error;
 
-use super::{HAIR, Plant, Run};
+use super::{SIGN_SPEED, Plant, Run};
 use crate::simulate::clock::Moment;
 use crate::simulate::simulated::Stall;
 
@@ -31,7 +31,7 @@ impl<P> Run<'_, P> {
             if self.is_at_stop(phi, direction) {
                 continue;
             }
-            let moved = self.plant.with_link(t, y, [phi, direction * HAIR])?;
+            let moved = self.plant.with_link(t, y, [phi, direction * SIGN_SPEED])?;
             if self.plant.starts(&Moment::new(t, direction), &moved)? {
                 return Ok(direction);
             }

@@ -15,7 +15,7 @@ const PARTS: u32 = 256;
 const REST: f64 = 1e-12;
 
 /// An acceleration at rest counts from this share of the largest speed per duration.
-const PUSHED: f64 = 1e-9;
+const REST_ACCELERATION: f64 = 1e-9;
 
 /// A segment of polynomials that turns back, although it neither starts nor ends against its move.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -111,7 +111,7 @@ fn overshoot(pieces: &[MotionPiece]) -> Option<Overshoot> {
     let least = turns.iter().fold(0.0_f64, |least, way| least.min(*way));
     let most = turns.iter().fold(distance, |most, way| most.max(*way));
     let span = [first.start, last.end()];
-    let pushes = PUSHED * largest / (span[1] - span[0]);
+    let pushes = REST_ACCELERATION * largest / (span[1] - span[0]);
     let at_rest = |omega: f64| omega.abs() <= rest;
     Some(Overshoot {
         segment: first.segment,

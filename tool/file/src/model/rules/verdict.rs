@@ -34,6 +34,7 @@ impl Finding {
 /// Verdict of a rule.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, schemars::JsonSchema)]
 #[serde(rename_all = "kebab-case")]
+#[schemars(rename = "Verdict")]
 pub enum RuleVerdict {
     /// Not checked by this rule set.
     Off,

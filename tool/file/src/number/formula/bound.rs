@@ -5,7 +5,7 @@ use jred_enclosure::Interval;
 use super::{Expression, FUNCTIONS, Formula, Operation};
 
 /// Largest relative error of standard library functions, with a margin.
-const OFF: f64 = 8.0 * f64::EPSILON;
+const FUNCTION_ERROR: f64 = 8.0 * f64::EPSILON;
 
 /// Largest whole exponent that is multiplied out.
 const LARGEST_EXPONENT: f64 = 64.0;
@@ -74,7 +74,7 @@ fn power(a: Interval, b: Interval) -> Interval {
 
 /// A value of the standard library, with its error.
 fn rounded(value: f64) -> Interval {
-    Interval::around(value, OFF * value.abs())
+    Interval::around(value, FUNCTION_ERROR * value.abs())
 }
 
 /// A rising function.

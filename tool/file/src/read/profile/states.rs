@@ -10,7 +10,7 @@ use crate::number::spline::{FitMethod, Spline, SplineError};
 
 /// Tolerances between rows: of the position in shares of the largest speed times the step, of the speed in shares of the largest acceleration times
 /// the step. Larger deviations mean a wrong unit.
-const MISSED: [f64; 2] = [0.05, 0.7];
+const ROW_TOLERANCE: [f64; 2] = [0.05, 0.7];
 
 /// Share of the range of positions, and of the largest speed, that is added for short steps: rounding of the digits.
 const DIGITS: f64 = 1e-4;
@@ -79,7 +79,7 @@ pub(super) fn nodes(columns: &Columns, times: &[f64], accelerations: &[f64]) -> 
         let [before, after] = [&pair[0], &pair[1]];
         let [position, speed] = after.missed_since(before).map(f64::abs);
         let step = after.step;
-        if position > MISSED[0] * step * fastest + DIGITS * range {
+        if position > ROW_TOLERANCE[0] * step * fastest + DIGITS * range {
             return Err(columns
                 .problem(
                     POSITION,
@@ -88,7 +88,7 @@ pub(super) fn nodes(columns: &Columns, times: &[f64], accelerations: &[f64]) -> 
                 )
                 .help(CURE));
         }
-        if speed > MISSED[1] * step * hardest + DIGITS * fastest {
+        if speed > ROW_TOLERANCE[1] * step * hardest + DIGITS * fastest {
             return Err(columns
                 .problem(
                     SPEED,

@@ -25,7 +25,7 @@ pub(super) const MOST: usize = 8;
 const ROUNDING: f64 = 1e-4;
 
 /// Largest angular velocity, relative to the drive's, that counts as standstill.
-const STILL: f64 = 1e-6;
+const STANDSTILL: f64 = 1e-6;
 
 /// Points of the profile for drawings.
 const OUTLINE: u32 = 720;
@@ -191,7 +191,7 @@ fn stands(
                 .help("the follower slides along +y of the arrangement, which `axis_direction` turns, at x = offset"));
         }
         let turn = on_follower.direction(frames).d1 - base.direction(frames).d1;
-        if turn.abs() > STILL {
+        if turn.abs() > STANDSTILL {
             return Err(misfit(
                 &format!("the follower {name} turns, but its type is for a translating follower"),
                 &cam.follower,

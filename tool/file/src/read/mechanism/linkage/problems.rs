@@ -19,7 +19,7 @@ use super::cam;
 use super::joints::JointEntry;
 
 /// An error nearer than this to the drawn position (rad or m) is an error of the drawing.
-const HAIR: f64 = 1e-6;
+const DRAWING_TOLERANCE: f64 = 1e-6;
 
 /// Data for messages.
 pub(super) struct Context<'a> {
@@ -118,7 +118,7 @@ impl Context<'_> {
             {
                 return self.crossing(joint, &flat);
             }
-            if (phi - self.drawn_at).abs() < HAIR {
+            if (phi - self.drawn_at).abs() < DRAWING_TOLERANCE {
                 return self.drawn_flat(phi, joint);
             }
         }
