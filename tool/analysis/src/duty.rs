@@ -9,17 +9,17 @@ use jred_file::model::machine::MachineFile;
 use jred_file::model::motion::Motion;
 use jred_file::number::figures::Figures;
 
-mod fault;
+mod error;
 mod integrands;
 pub mod mechanics;
-mod moving;
+mod moving_machine;
 mod panels;
 mod refined;
 mod smooth;
 mod stretches;
 
-pub use fault::DutyError;
-use moving::MovingMachine;
+pub use error::DutyError;
+use moving_machine::MovingMachine;
 pub use panels::MOST_INSTANTS;
 use panels::Panels;
 use refined::insert_extremes;

@@ -4,29 +4,29 @@
 //! reduction agree.
 
 mod clock;
-mod commanded;
+mod commander;
 mod control;
+mod coupled;
 mod emergency;
 mod error;
 mod free;
-mod geared;
 pub(super) mod machine;
 mod observe;
 mod point;
+mod result;
 pub(super) mod run;
-mod simulated;
 mod variator;
 pub(super) mod watch;
 mod winding;
 
 pub use clock::Moment;
-use commanded::{COMMANDED, COMMANDED_WITH_GUESTS, CommandedPlant, Commander};
+use commander::{COMMANDED, COMMANDED_WITH_GUESTS, CommandedPlant, Commander};
+pub use coupled::{CoupledMachines, GearedMachine};
 pub use emergency::{Stop, stops};
 pub use error::SimulationError;
-pub use geared::{CoupledMachines, GearedMachine};
 pub use machine::beside_name;
 pub use observe::{MotorState, NoObserver, Observer};
-pub use simulated::{
+pub use result::{
     BRIEFEST_FLIGHT, Effort, FollowingError, Impacts, Rest, SimulationResult, Stall, TorqueDeficit,
     TorqueLimit, TurnWorks,
 };

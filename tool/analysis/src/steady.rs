@@ -212,7 +212,8 @@ fn direction(
     let turning = |direction| TurningMachine::new(machines, simulation, own, direction, turns);
     let process_drives = |direction| -> Result<bool, SteadyError> {
         let turning = turning(direction)?;
-        Ok(turning.keeping(SIGN_SPEED)? < -1e-9 * turning.effort(SIGN_SPEED) / turning.plant.ratio().abs())
+        Ok(turning.keeping(SIGN_SPEED)?
+            < -1e-9 * turning.effort(SIGN_SPEED) / turning.plant.ratio().abs())
     };
     let motor = own.characteristic;
     let at_rest = motor.torque(0.0) * turning(1.0)?.plant.ratio();

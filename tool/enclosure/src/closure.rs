@@ -14,12 +14,12 @@ use jred::machine::{Frames, Jointed};
 use jred::mechanism::linkage::Pair;
 
 use crate::equation::{Equation, of_drive, of_joint, of_pair};
-use crate::fault::ProofError;
-use crate::form::TaylorForm;
+use crate::error::ProofError;
 use crate::interval::Interval;
+use crate::link_frame::LinkFrame;
 use crate::matrix::{Matrix, Solver};
-use crate::place::LinkFrame;
 use crate::series::{Series, TERMS, sin_cos_term};
+use crate::taylor_form::TaylorForm;
 
 /// The joints of a mechanism as equations.
 #[derive(Clone)]

@@ -5,10 +5,10 @@ use std::f64::consts::TAU;
 use jred::machine::Link;
 use jred::machine::{Action, Element, ElementLaw, Load, Window};
 
-use crate::fault::ProofError;
-use crate::form::TaylorForm;
+use crate::error::ProofError;
 use crate::interval::Interval;
-use crate::place::{LinkFrame, body, direction};
+use crate::link_frame::{LinkFrame, body, direction};
+use crate::taylor_form::TaylorForm;
 
 /// Masses, loads and elements of a machine.
 #[derive(Clone, Copy, Debug)]

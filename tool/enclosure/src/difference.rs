@@ -3,9 +3,9 @@
 use jred::table::CellCurves;
 
 use crate::curves::Curves;
-use crate::form::TaylorForm;
 use crate::interval::Interval;
 use crate::series::REMAINDER;
+use crate::taylor_form::TaylorForm;
 
 /// Weight of each curve in a drive torque: J, J′, load, b, c.
 pub(crate) const fn weights([omega, alpha]: [f64; 2]) -> [f64; 5] {

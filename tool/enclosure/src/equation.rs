@@ -6,7 +6,7 @@ use jred::machine::{Body, Frames, Joint, Marker};
 use jred::mechanism::linkage::Pair;
 
 use crate::interval::Interval;
-use crate::place::LinkFrame;
+use crate::link_frame::LinkFrame;
 use crate::series::Series;
 
 /// An equation whose left-hand side is zero.

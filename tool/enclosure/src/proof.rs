@@ -6,7 +6,7 @@ use jred::table::{CellCurves, Format};
 
 use crate::curves::Curves;
 use crate::difference::{Difference, weights};
-use crate::fault::ProofError;
+use crate::error::ProofError;
 use crate::interval::Interval;
 use crate::tick::Tick;
 

@@ -6,7 +6,7 @@ use jred::tabulate::TableFigures;
 use jred::{CurveSet, Scale};
 
 use crate::choice::{LayoutName, Number};
-use crate::proven::ProofResult;
+use crate::proof_result::ProofResult;
 use crate::ticks::Ticks;
 
 /// The table of one range, with its image.

@@ -6,7 +6,7 @@ use serde::Serialize;
 use crate::candidate::{Candidate, RangeTable, SearchResult};
 use crate::export::Export;
 use crate::figures::{headroom, rust_call, rust_type};
-use crate::proven::ProofResult;
+use crate::proof_result::ProofResult;
 use jred_file::model::coordinate::Coordinate;
 
 /// Name and version of the form in JSON.

@@ -12,9 +12,9 @@ use jred::{Cubic, CurveSet, Domain, Q31, Quadratic, Rows16, Spline, Spline16, cu
 
 use crate::candidate::SearchResult;
 use crate::choice::{LayoutName, Number, PLACES};
+use crate::directions::MachineByDirection;
 use crate::reference::Range;
 use crate::search::{Search, TableRequirements};
-use crate::ways::MachineByDirection;
 
 /// Edges closer than this share of the range are one.
 const SAME: f64 = 1e-9;

@@ -11,7 +11,7 @@ use crate::candidate::{RangeTable, SearchResult};
 use crate::choice::{LayoutName, Number};
 use crate::enclose::EnclosedMachine;
 use crate::export::Export;
-use crate::proven::ProofResult;
+use crate::proof_result::ProofResult;
 use crate::search::rounded_up;
 use crate::task::{Failure, Task};
 use crate::ticks;

@@ -10,7 +10,7 @@ use jred::table::CurveValues;
 use jred::tabulate::{Part, Request, edge_places, torque_between};
 use jred::{Domain, Phase};
 
-use crate::ways::MachineByDirection;
+use crate::directions::MachineByDirection;
 
 /// Places of the range, a prime number: it has no common divisor with a number of cells, so the places fall on every part of a cell.
 const PLACES: u32 = 16_381;

@@ -16,9 +16,9 @@ use jred::machine::{Element, Mechanism as _, Reducible as _};
 use jred_analysis::contact::{OneWay, Separation};
 use jred_analysis::duty::{self, Duty};
 use jred_file::model::coordinate::positions;
-use jred_file::model::laden::AttachedMass;
 use jred_file::model::machine::MachineFile;
 use jred_file::model::schedule::ScheduleInstant;
+use jred_file::model::with_mass::AttachedMass;
 
 use self::rows::Rows;
 use self::unknowns::{Made, Unknowns};

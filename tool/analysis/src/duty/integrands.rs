@@ -3,7 +3,7 @@
 //! The integrands are the quantities of which all later sums consist: torque, speed, acceleration and inertia at the input and their products in
 //! pairs, power and its square, |n|·|T|³ for the cubic mean torque, losses, and the powers of the energy balance.
 
-use super::moving::DutyInstant;
+use super::moving_machine::DutyInstant;
 use jred_file::number::quadrature::kronrod::{Estimate, MOST_PLACES, Rule};
 
 /// Number of integrands.

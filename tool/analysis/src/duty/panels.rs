@@ -7,9 +7,9 @@
 mod signs;
 mod stretch;
 
-use super::fault::DutyError;
+use super::error::DutyError;
 use super::integrands::{COUNT, PanelTolerance, Sums, integrands, of_whole};
-use super::moving::{DutyInstant, MovingMachine};
+use super::moving_machine::{DutyInstant, MovingMachine};
 use super::stretches::turns;
 use super::{INSIDE, Instant, Sampling, Smooth, refined};
 use jred_file::number::quadrature::GAUSS_3;

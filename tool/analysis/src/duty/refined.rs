@@ -2,7 +2,7 @@
 
 use jred::error::Error;
 
-use super::moving::MovingMachine;
+use super::moving_machine::MovingMachine;
 use super::{Instant, Smooth};
 use jred_file::number::parabola;
 

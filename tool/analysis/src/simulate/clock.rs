@@ -4,7 +4,7 @@ use jred_file::model::machine::MachineFile;
 use jred_file::model::motion::Motion;
 use jred_file::model::schedule::ScheduleInstant;
 
-use super::geared::GearedMachine;
+use super::coupled::GearedMachine;
 
 /// Distance from a corner, per second of time, at which a step is evaluated: a jump belongs to both sides.
 pub(super) const EDGE: f64 = 1e-13;

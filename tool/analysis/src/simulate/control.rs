@@ -5,8 +5,8 @@ use jred::machine::Reducible as _;
 use jred::machine::motion::State as Reference;
 
 use super::clock::{Clock, Corners, Moment};
-use super::commanded::{Command, Commander};
-use super::geared::CoupledMachines;
+use super::commander::{Command, Commander};
+use super::coupled::CoupledMachines;
 use super::machine::Plant;
 use jred_file::model::axis::Axis;
 use jred_file::model::coordinate::whole_range;

@@ -4,11 +4,11 @@ use jred::error::Error;
 
 use super::SimulationError;
 use super::clock::{Corners, Moment};
-use super::geared::CoupledMachines;
+use super::coupled::CoupledMachines;
 use super::machine::{Instant, Plant};
 use super::observe::MotorState;
-use super::run::{self, SIGN_SPEED, OutputRow};
-use super::simulated::TorqueDeficit;
+use super::result::TorqueDeficit;
+use super::run::{self, OutputRow, SIGN_SPEED};
 use jred_file::model::motor::Motor;
 use jred_file::model::simulation::Simulation;
 use jred_file::number::columns::Column;

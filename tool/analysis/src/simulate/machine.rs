@@ -1,13 +1,13 @@
 //! One or several machines that a motor drives through fixed ratios.
 
 mod bends;
-mod shown;
+mod output;
 
 use jred::error::Error;
 use jred::mechanism::{TrainInput, TrainOutput};
 
 use super::clock::{Corners, Moment};
-use super::geared::{CoupledMachines, GearedMachine};
+use super::coupled::{CoupledMachines, GearedMachine};
 use super::point::{ReducedLink, ReducedLinks, sign};
 use bends::Bends;
 use jred_file::model::axis::Axis;

@@ -1,6 +1,6 @@
 //! The motor during a simulation, and its observers.
 
-use crate::simulate::simulated::{Effort, FollowingError, TorqueLimit};
+use crate::simulate::result::{Effort, FollowingError, TorqueLimit};
 use jred_file::number::columns::Column;
 use jred_file::number::numerics;
 

@@ -4,7 +4,7 @@ use jred::error::Error;
 use jred::machine::{Frames, Mechanism as _, Reduction};
 
 use super::clock::Moment;
-use super::geared::GearedMachine;
+use super::coupled::GearedMachine;
 use jred_file::model::carriage::Carriage;
 
 /// The reduced link of a machine at an instant.

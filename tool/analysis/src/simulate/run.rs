@@ -9,7 +9,7 @@ mod setup;
 mod start;
 mod stops;
 mod stretch;
-mod turned;
+mod turns;
 
 use edges::Edges;
 pub(crate) use plant::Plant;
@@ -22,7 +22,7 @@ use jred::error::Error;
 use super::SimulationError;
 use super::clock::{Corners, EDGE};
 use super::observe::{ControlStatistics, EffortSums, Observer};
-use super::simulated::{Impacts, Rest, SimulationResult, Stall, TurnWorks};
+use super::result::{Impacts, Rest, SimulationResult, Stall, TurnWorks};
 use super::watch::{LinkState, Watch};
 use jred_file::model::machine::MachineFile;
 use jred_file::model::simulation::{EndStops, Halt, Simulation};

@@ -8,7 +8,7 @@ use jred::number::RangeError;
 
 use super::SimulationError;
 use super::clock::{Corners, Moment};
-use super::geared::CoupledMachines;
+use super::coupled::CoupledMachines;
 use super::run::{self, OutputRow};
 use jred_file::model::coordinate::Coordinate;
 use jred_file::model::machine::MachineFile;

@@ -9,7 +9,7 @@ use jred::machine::{Machine, Reducible as _};
 
 use super::SimulationError;
 use super::clock::Moment;
-use super::geared::{CoupledMachines, GearedMachine};
+use super::coupled::{CoupledMachines, GearedMachine};
 use crate::contact::OneWay;
 use jred_file::model::mechanism::AnyMechanism;
 use jred_file::number::numerics;

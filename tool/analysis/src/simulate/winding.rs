@@ -6,7 +6,7 @@
 
 use jred::error::Error;
 
-use super::commanded::{Command, Commander};
+use super::commander::{Command, Commander};
 use super::machine::Plant;
 use jred_file::model::motor::Motor;
 use jred_file::model::simulation::Winding;

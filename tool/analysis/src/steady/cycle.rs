@@ -75,7 +75,8 @@ impl Cycle {
             Ok(share * (1.0 + turning.rise(begin * share.sqrt())?))
         };
         Ok(Self {
-            left_over: (energy(1.0 + SMALL_CHANGE)? - energy(1.0 - SMALL_CHANGE)?) / (2.0 * SMALL_CHANGE),
+            left_over: (energy(1.0 + SMALL_CHANGE)? - energy(1.0 - SMALL_CHANGE)?)
+                / (2.0 * SMALL_CHANGE),
             residual: turning.rise(begin)?.abs(),
             caught_from: caught_from(turning, begin)?,
             start: Start::of(turning, &figures)?,

@@ -230,7 +230,9 @@ impl<'a> TurningMachine<'a> {
             self.plant.bends_under(&self.moment(), link, torque)
         };
         let scaled = std::array::from_fn(|i| y[i] / sizes[i]);
-        let steps = accuracy.steps(slope, bends, scaled, to - from, |_, y| Ok(y[0] <= STANDSTILL_ENERGY));
+        let steps = accuracy.steps(slope, bends, scaled, to - from, |_, y| {
+            Ok(y[0] <= STANDSTILL_ENERGY)
+        });
         let steps = steps.map_err(|why| match why {
             IntegrationError::Function(error) => SteadyError::Machine(error),
             IntegrationError::TooManySteps { .. } | IntegrationError::StepTooSmall { .. } => {

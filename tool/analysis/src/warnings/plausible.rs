@@ -7,9 +7,9 @@ use jred::error::Error;
 use jred::machine::{Body, Joint, Jointed as _, Link, Marker, Mechanism as _};
 
 use jred_file::model::coordinate::Coordinate;
-use jred_file::model::laden::AttachedMass;
 use jred_file::model::machine::MachineFile;
 use jred_file::model::motion::ToolCoordinate;
+use jred_file::model::with_mass::AttachedMass;
 use jred_file::number::rounding::{short, significant};
 
 /// Gravity (m/s²): a tenth of the moon's, five times the earth's.

@@ -5,9 +5,7 @@ use std::f64::consts::TAU;
 use jred::machine::Window;
 use jred_enclosure::{Curves, Interval, LinkFrame, TaylorForm, factor};
 
-use jred_file::model::tabulated::{
-    Direction, LinkCurve, LinkPoint, LoadTable, TableVariable,
-};
+use jred_file::model::virtual_link::{Direction, LinkCurve, LinkPoint, LoadTable, TableVariable};
 use jred_file::number::spline::{CubicPiece, Spline};
 
 /// A curve and its derivative by its variable.

@@ -14,7 +14,7 @@ use jred_enclosure::{Closure, Curves, Interval, LinkFrame, Parts, ProofError, Ta
 use std::any::Any;
 
 use jred_file::model::mechanism::{AnyMechanism, Inner};
-use jred_file::model::tabulated::LinkCurve;
+use jred_file::model::virtual_link::LinkCurve;
 
 /// A machine whose curves can be enclosed on any stretch of its range.
 pub(crate) struct EnclosedMachine<'m> {

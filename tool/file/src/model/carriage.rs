@@ -13,8 +13,8 @@
 use jred::machine::Frame;
 use jred::machine::motion::State;
 
-use crate::model::laden::AttachedMass;
 use crate::model::motion::Motion;
+use crate::model::with_mass::AttachedMass;
 
 /// A mass that a second axis moves along a guide on a link.
 #[derive(Clone, Debug)]

@@ -10,7 +10,6 @@ use jred::machine::{Element, Machine, Mechanism as _, Reducible as _, Reduction}
 use crate::model::axis::Axis;
 use crate::model::coordinate::positions;
 use crate::model::drive_train::DriveTrain;
-use crate::model::laden::{AttachedMass, laden};
 use crate::model::mechanism::{AnyMechanism, NamedElement, NamedLoad};
 use crate::model::motion::{Motion, Steady};
 use crate::model::rules::RuleSet;
@@ -19,6 +18,7 @@ use crate::model::simulation::Simulation;
 use crate::model::site::Site;
 use crate::model::tolerance::Tolerance;
 use crate::model::variator::Variator;
+use crate::model::with_mass::{AttachedMass, laden};
 
 /// Positions over the range at which inertia and holding torque are evaluated.
 pub const POSITIONS: usize = 720;

@@ -14,9 +14,9 @@ use jred::mechanism::linkage::Pair;
 
 use crate::model::axis::Axis;
 use crate::model::coordinate::Coordinate;
-use crate::model::laden::WithMass;
-use crate::model::on_stroke::StrokeMechanism;
-use crate::model::tabulated::{CurveMechanism, LinkCurve, VirtualLink};
+use crate::model::stroke::StrokeMechanism;
+use crate::model::virtual_link::{CurveMechanism, LinkCurve, VirtualLink};
+use crate::model::with_mass::WithMass;
 
 pub use parts::{ChangePoint, Contact, Fact, NamedElement, NamedLoad, NamedPoint};
 

@@ -11,9 +11,9 @@ use jred::machine::Mechanism as _;
 use jred::machine::{Action, Load, Machine};
 
 use crate::model::carriage::Carriage;
-use crate::model::laden::{AttachedMass, laden};
 use crate::model::mechanism::AnyMechanism;
 use crate::model::motion::Motion;
+use crate::model::with_mass::{AttachedMass, laden};
 
 mod when;
 

@@ -14,7 +14,7 @@ use crate::keys::loads::LOAD_TABLE;
 use crate::model::coordinate::Coordinate;
 use crate::model::machine::least_common_multiple;
 use crate::model::mechanism::AnyMechanism;
-use crate::model::tabulated::{Direction, LinkPoint, TableVariable, VirtualLink};
+use crate::model::virtual_link::{Direction, LinkPoint, TableVariable, VirtualLink};
 use crate::number::spline::FitMethod;
 use crate::text::columns::{CsvFile, Layout};
 use crate::text::file::Files;

@@ -1,8 +1,8 @@
 //! `[[mass]]`: a mass fixed to a link, for example a counterweight or a tool.
 
 use super::names::Names;
-use crate::model::laden::{AttachedMass, laden};
 use crate::model::mechanism::AnyMechanism;
+use crate::model::with_mass::{AttachedMass, laden};
 use crate::text::item::Item;
 use crate::text::problem::Result;
 use crate::text::section::Section;

@@ -1,8 +1,8 @@
 //! The unknowns, their bounds, and their conversion to bodies and springs.
 
 use jred::machine::Element;
-use jred_file::model::laden::AttachedMass;
 use jred_file::model::machine::MachineFile;
+use jred_file::model::with_mass::AttachedMass;
 
 use super::barrier::{Bound, Problem};
 use super::rows::{Rows, product};

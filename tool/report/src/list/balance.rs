@@ -7,8 +7,8 @@ use crate::answer::Answer;
 use crate::answer::schema::Data;
 use jred::machine::Element;
 use jred_file::model::coordinate::Coordinate;
-use jred_file::model::laden::AttachedMass;
 use jred_file::model::machine::MachineFile;
+use jred_file::model::with_mass::AttachedMass;
 use jred_file::number::rounding::{figure, percent, short};
 use jred_motion::balance::{Balanced, Figures, Goal, Request};
 

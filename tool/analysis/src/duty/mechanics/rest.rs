@@ -8,7 +8,7 @@ use jred::machine::{Action, Mechanism as _};
 
 use crate::duty::Instant;
 use jred_file::model::machine::MachineFile;
-use jred_file::model::tabulated::LinkCurve;
+use jred_file::model::virtual_link::LinkCurve;
 
 /// Share of a torque that is rounding.
 const TORQUE_ROUNDING: f64 = 1e-9;
@@ -137,7 +137,9 @@ fn lengths(run: &[[f64; 2]], spans: &mut Vec<[f64; 2]>) {
     let mut open: Vec<[f64; 2]> = Vec::new();
     let mut close = |open: &mut Vec<[f64; 2]>, at: f64, below: f64| {
         let mut since = at;
-        while let Some([from, torque]) = open.pop_if(|last| last[1] * (1.0 - TORQUE_ROUNDING) > below) {
+        while let Some([from, torque]) =
+            open.pop_if(|last| last[1] * (1.0 - TORQUE_ROUNDING) > below)
+        {
             since = from;
             spans.push([at - from, torque]);
         }

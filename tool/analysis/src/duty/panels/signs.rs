@@ -3,8 +3,8 @@
 use super::stretch::Stretch;
 use super::{PanelEnd, Panels};
 use crate::duty::Instant;
-use crate::duty::fault::DutyError;
-use crate::duty::moving::{DutyInstant, MovingMachine};
+use crate::duty::error::DutyError;
+use crate::duty::moving_machine::{DutyInstant, MovingMachine};
 use jred_file::number::numerics;
 use jred_file::number::parabola::Parabola;
 

@@ -7,7 +7,7 @@ use jred::mechanism::TrainOutput;
 
 use super::{Instant, Plant};
 use crate::simulate::clock::Moment;
-use crate::simulate::geared::CoupledMachines;
+use crate::simulate::coupled::CoupledMachines;
 use crate::simulate::point::ReducedLinks;
 use jred_file::model::motor::Motor;
 

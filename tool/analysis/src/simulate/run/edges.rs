@@ -7,7 +7,7 @@ use jred::machine::Reducible as _;
 
 use super::{Plant, Run};
 use crate::simulate::SimulationError;
-use crate::simulate::geared::{CoupledMachines, GearedMachine};
+use crate::simulate::coupled::{CoupledMachines, GearedMachine};
 use jred_file::number::numerics;
 use jred_file::number::numerics::dormand_prince::StatePoint;
 

@@ -5,9 +5,9 @@ use jred::error::Error;
 use super::OutputRow;
 use crate::simulate::SimulationError;
 use crate::simulate::clock::{Corners, Moment};
-use crate::simulate::geared::CoupledMachines;
+use crate::simulate::coupled::CoupledMachines;
 use crate::simulate::observe::MotorState;
-use crate::simulate::simulated::TorqueDeficit;
+use crate::simulate::result::TorqueDeficit;
 use jred_file::number::columns::Column;
 
 /// A machine in free motion as a system of differential equations of its state y. The last three values of y are the work of the motor (and then of

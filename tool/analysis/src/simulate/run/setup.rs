@@ -4,7 +4,7 @@ use std::cell::Cell;
 
 use super::edges::Edges;
 use super::{MOST_STEPS, Run};
-use crate::simulate::geared::CoupledMachines;
+use crate::simulate::coupled::CoupledMachines;
 use crate::simulate::observe::{ControlStatistics, EffortSums, Observer};
 use crate::simulate::watch::Watch;
 use jred_file::model::simulation::Simulation;

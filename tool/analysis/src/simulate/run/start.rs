@@ -2,9 +2,9 @@
 
 use jred::error::Error;
 
-use super::{SIGN_SPEED, Plant, Run};
+use super::{Plant, Run, SIGN_SPEED};
 use crate::simulate::clock::Moment;
-use crate::simulate::simulated::Stall;
+use crate::simulate::result::Stall;
 
 impl<P> Run<'_, P> {
     /// The direction of motion at the start; at rest, the direction in which it will start.

@@ -81,7 +81,12 @@ impl Motion {
             let most = &mut accelerations[usize::from(apart > NEIGHBOURS)];
             *most = most.max(curve.at(*t)[order].abs());
         }
-        let wrong = by.abs() * if of_speeds { 1.0 / h } else { SPLINE_BEND / (h * h) };
+        let wrong = by.abs()
+            * if of_speeds {
+                1.0 / h
+            } else {
+                SPLINE_BEND / (h * h)
+            };
         (wrong > LEAST_SHARE * accelerations[1]).then_some(Outlier {
             row,
             t: t[before + row],

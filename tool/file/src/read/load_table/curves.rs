@@ -2,7 +2,7 @@
 
 use super::Target;
 use crate::model::coordinate::Coordinate;
-use crate::model::tabulated::{Direction, LinkCurve, LoadTable, TableVariable, VirtualLink};
+use crate::model::virtual_link::{Direction, LinkCurve, LoadTable, TableVariable, VirtualLink};
 use crate::number::rounding::figure;
 use crate::number::spline::{FitMethod, MIN_POINTS, Spline};
 use crate::read::curve_file::Positions;

@@ -6,7 +6,7 @@ use jred::machine::Link;
 use super::core;
 use crate::model::coordinate::Coordinate;
 use crate::model::mechanism::AnyMechanism;
-use crate::model::tabulated::{DriveLinkAlone, LinkCurve, VirtualLink};
+use crate::model::virtual_link::{DriveLinkAlone, LinkCurve, VirtualLink};
 use crate::number::rounding::figure;
 use crate::number::spline::{FitMethod, MIN_POINTS, Spline};
 use crate::read::curve_file::{Positions, RowVariable};

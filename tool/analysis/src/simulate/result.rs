@@ -2,7 +2,7 @@
 
 use super::SimulationError;
 use super::clock::Moment;
-use super::geared::GearedMachine;
+use super::coupled::GearedMachine;
 use jred_file::model::schedule::ScheduleInstant;
 use jred_file::number::columns::Columns;
 

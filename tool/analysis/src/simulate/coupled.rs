@@ -171,7 +171,8 @@ impl<'a> CoupledMachines<'a> {
 
     /// Whether all machines are in the same position after a turn of the first drive link.
     pub(super) fn go_by_turns(&self) -> bool {
-        let whole = |ratio: f64| (ratio - ratio.round()).abs() <= TURNS_TOLERANCE * (1.0 + ratio.abs());
+        let whole =
+            |ratio: f64| (ratio - ratio.round()).abs() <= TURNS_TOLERANCE * (1.0 + ratio.abs());
         self.all()
             .all(|machine| machine.file.machine.domain() == Domain::Turn && whole(machine.ratio()))
     }

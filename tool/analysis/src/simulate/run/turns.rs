@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use super::{Plant, Run};
 use crate::simulate::SimulationError;
-use crate::simulate::simulated::TurnWorks;
+use crate::simulate::result::TurnWorks;
 use jred_file::number::numerics::dormand_prince::StatePoint;
 
 impl<P> Run<'_, P> {

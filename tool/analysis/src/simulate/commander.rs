@@ -4,12 +4,12 @@ use jred::error::Error;
 
 use super::SimulationError;
 use super::clock::{Corners, Moment};
+use super::coupled::CoupledMachines;
 use super::free::{PLAIN, WITH_GUESTS, guests_of, slope_in_motion};
-use super::geared::CoupledMachines;
 use super::machine::{Instant, Plant};
 use super::observe::MotorState;
+use super::result::TorqueDeficit;
 use super::run::{self, OutputRow};
-use super::simulated::TorqueDeficit;
 use jred_file::model::motor::Motor;
 use jred_file::number::columns::Column;
 

@@ -2,9 +2,9 @@
 
 use jred::machine::Marker;
 
-use crate::form::TaylorForm;
 use crate::interval::Interval;
 use crate::series::Series;
+use crate::taylor_form::TaylorForm;
 
 /// A link's frame with its Taylor series: origin, angle, and sine and cosine of the angle.
 #[derive(Clone, Copy, Debug, PartialEq)]
