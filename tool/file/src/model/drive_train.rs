@@ -214,7 +214,7 @@ impl DriveTrain {
         for k in (0..=self.steps.len()).rev() {
             for branch in self.branches.iter().filter(|branch| branch.shaft == k) {
                 let own = branch.input(&shaft, |stage, torque| {
-                    seen(StagePosition::Branch(stage), torque)
+                    seen(StagePosition::Branch(stage), torque);
                 });
                 shaft.torque += own.torque;
                 shaft.torque_per_alpha += own.torque_per_alpha;

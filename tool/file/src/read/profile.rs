@@ -20,7 +20,7 @@ mod closing;
 mod form;
 mod states;
 
-use closing::{CLOSURE_TOLERANCE, check_speed_closes, closed};
+use closing::{CLOSURE, check_speed_closes, closed};
 use form::{ACCELERATION, POSITION, SPEED, TIME_COLUMN, read_columns};
 
 /// A time step this many times the median step is a gap in the recording.
@@ -174,13 +174,7 @@ fn curve(
         if let ([first, .., last], true) = (nodes.as_slice(), request.cyclic) {
             check_speed_closes(columns, columns.get(SPEED).unwrap_or_default())?;
             let way = [first.phi, last.phi - first.phi];
-            closed(
-                way,
-                most(CLOSURE_TOLERANCE * span),
-                columns,
-                prescribed,
-                repeats,
-            )?;
+            closed(way, most(CLOSURE * span), columns, prescribed, repeats)?;
         }
         Motion::nodes(&nodes, request.cyclic)
     } else if let Some(positions) = columns.get(POSITION) {
@@ -190,13 +184,7 @@ fn curve(
         );
         if request.cyclic {
             let way = [first, last - first];
-            advance = closed(
-                way,
-                most(CLOSURE_TOLERANCE * span),
-                columns,
-                prescribed,
-                repeats,
-            )?;
+            advance = closed(way, most(CLOSURE * span), columns, prescribed, repeats)?;
         }
         let recording = Recording {
             times: &times,
@@ -227,13 +215,7 @@ fn curve(
                 .phi
                 - start;
             let way = [start, way];
-            advance = closed(
-                way,
-                most(CLOSURE_TOLERANCE * span),
-                columns,
-                prescribed,
-                repeats,
-            )?;
+            advance = closed(way, most(CLOSURE * span), columns, prescribed, repeats)?;
             recording.closing = Repetition::After(advance);
         }
         Motion::speeds(&recording, start).map_err(unmade)?

@@ -8,7 +8,7 @@ use crate::text::problem::{Problem, Result};
 
 /// A cyclic profile closes if it misses a whole number of turns, or on a stroke its start, by less than this share of a turn or of the stroke. The
 /// file can give another tolerance.
-pub(super) const CLOSURE_TOLERANCE: f64 = 1e-5;
+pub(super) const CLOSURE: f64 = 1e-5;
 
 /// Share of the largest speed by which the first and the last speed of a cycle may differ.
 const SPEED_CLOSED: f64 = 0.01;
