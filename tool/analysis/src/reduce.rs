@@ -151,12 +151,12 @@ pub fn reduce(file: &MachineFile, request: &Request) -> Result<Columns, Error> {
     let in_time = request.over == Over::Time || request.state.is_some();
     // Rows at given states have no time, so the position of a carriage is unknown.
     let of_motion = request.state.is_none();
-    columns(
-        file,
-        request,
-        [moves, in_time, of_motion],
-        rows(file, request),
-    )
+    let kind = RowKind {
+        moves,
+        in_time,
+        of_motion,
+    };
+    columns(file, request, kind, rows(file, request))
 }
 
 /// The requested columns at these positions, in their order. Without a given state they use that of the request, or of the motion if it passes each
@@ -171,12 +171,12 @@ pub fn reduce_at(
 ) -> Result<Columns, Error> {
     let given = at.iter().any(|at| at.state.is_some()) || request.state.is_some();
     let moves = file.motion.is_some() || given;
-    columns(
-        file,
-        request,
-        [moves, given, !given],
-        rows_at(file, request, at),
-    )
+    let kind = RowKind {
+        moves,
+        in_time: given,
+        of_motion: !given,
+    };
+    columns(file, request, kind, rows_at(file, request, at))
 }
 
 fn rows_at(
@@ -191,16 +191,27 @@ fn rows_at(
     })
 }
 
-/// The columns of these rows. The flags: some rows have a motion; some have velocities and accelerations in time; the motion is that of the file.
+/// The state of the drive link in the rows.
+#[derive(Clone, Copy)]
+struct RowKind {
+    /// Some rows have a motion.
+    moves: bool,
+    /// Some have velocities and accelerations in time.
+    in_time: bool,
+    /// The motion is that of the file.
+    of_motion: bool,
+}
+
+/// The columns of these rows.
 fn columns(
     file: &MachineFile,
     request: &Request,
-    [moves, in_time, of_motion]: [bool; 3],
+    kind: RowKind,
     rows: impl Iterator<Item = RowMotion>,
 ) -> Result<Columns, Error> {
     let source = Source::new(file)?;
-    let mut sets = sets(&source, request.sets, [moves, in_time])?;
-    if of_motion && file.schedule.flows() {
+    let mut sets = sets(&source, request.sets, kind)?;
+    if kind.of_motion && file.schedule.flows() {
         let shares = request.sets.curves && request.sets.links;
         sets.push(Box::new(carriages::Carriages { shares }));
     }
@@ -220,11 +231,11 @@ fn columns(
     Ok(columns)
 }
 
-/// The requested sets. The flags: some rows have a motion; some have velocities and accelerations in time.
+/// The requested sets.
 fn sets(
     source: &Source,
     sets: Sets,
-    [moves, in_time]: [bool; 2],
+    RowKind { moves, in_time, .. }: RowKind,
 ) -> Result<Vec<Box<dyn Set>>, Error> {
     let Sets {
         curves,
@@ -285,7 +296,12 @@ pub fn add_columns(
     (asked, prefix): (Sets, &str),
 ) -> Result<Columns, Error> {
     let source = Source::new(file)?;
-    let sets = sets(&source, asked, [false, true])?;
+    let kind = RowKind {
+        moves: false,
+        in_time: true,
+        of_motion: true,
+    };
+    let sets = sets(&source, asked, kind)?;
     let heads = sets.iter().flat_map(|set| set.heads(&source));
     let heads = heads.map(|head| Column {
         part: format!("{prefix}{}", head.part),
@@ -366,7 +382,7 @@ fn row_at(phi: f64, given: Option<[f64; 2]>, pass: Option<&Pass>) -> RowMotion {
 struct Pass<'m> {
     motion: &'m Motion,
     start: f64,
-    way: f64,
+    direction: f64,
     length: f64,
     turn: bool,
 }
@@ -374,18 +390,18 @@ struct Pass<'m> {
 impl<'m> Pass<'m> {
     fn of(motion: &'m Motion, domain: Domain) -> Option<Self> {
         let (start, end) = (motion.at(0.0).phi, motion.at(motion.duration()).phi);
-        let way = (end - start).signum();
+        let direction = (end - start).signum();
         let length = (end - start).abs();
         let turn = domain == Domain::Turn;
         let one_turn = !turn || (length - domain.span()).abs() < 1e-9;
         let one_way = (0..=1000).all(|k| {
             let t = motion.duration() * f64::from(k) / 1000.0;
-            motion.at(t).omega * way >= -1e-12
+            motion.at(t).omega * direction >= -1e-12
         });
         (one_turn && one_way).then_some(Self {
             motion,
             start,
-            way,
+            direction,
             length,
             turn,
         })
@@ -394,7 +410,7 @@ impl<'m> Pass<'m> {
     /// Time and state at which the motion passes the position `phi`, for a turn modulo 2π.
     fn at(&self, phi: f64) -> Option<(f64, State<f64>)> {
         let motion = self.motion;
-        let ahead = (phi - self.start) * self.way;
+        let ahead = (phi - self.start) * self.direction;
         let distance = if self.turn {
             ahead.rem_euclid(std::f64::consts::TAU)
         } else {
@@ -408,7 +424,7 @@ impl<'m> Pass<'m> {
         let (mut early, mut late) = (0.0, motion.duration());
         for _ in 0..60 {
             let middle = 0.5 * (early + late);
-            if (motion.at(middle).phi - self.start) * self.way < distance {
+            if (motion.at(middle).phi - self.start) * self.direction < distance {
                 early = middle;
             } else {
                 late = middle;

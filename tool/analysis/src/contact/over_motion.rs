@@ -89,9 +89,9 @@ fn smallest(
         let share = (motion.at(to).phi - motion.at(from).phi).abs() / span;
         let count = (samples * share).ceil().clamp(FEWEST, MOST);
         // The acceleration may jump between stretches, so the ends are moved inside.
-        let hair = 1e-9 * (to - from);
-        let last = (to - hair).min(to.next_down()).max(from);
-        let at = |share: f64| (from + share * (to - from)).max(from + hair).min(last);
+        let inset = 1e-9 * (to - from);
+        let last = (to - inset).min(to.next_down()).max(from);
+        let at = |share: f64| (from + share * (to - from)).max(from + inset).min(last);
         let (mut place, mut least) = (0.0, f64::INFINITY);
         for k in 0..=count as u32 {
             let value = force(at(f64::from(k) / count))?;

@@ -264,7 +264,7 @@ impl<'a, 'm> Panels<'a, 'm> {
         &mut self,
         stretch: &Stretch,
         ends: [&PanelEnd; 2],
-        way: PanelHistory,
+        history: PanelHistory,
     ) -> Result<(), DutyError> {
         let [from, to] = ends.map(|end| end.t);
         let inner = stretch.between([from, to]);
@@ -278,14 +278,21 @@ impl<'a, 'm> Panels<'a, 'm> {
         }
         // Where a move comes to rest the sign of the speed is rounding for about this time.
         let shortest = INSIDE * (stretch.to - stretch.from);
-        let is_short = half <= shortest.max(4.0 * f64::EPSILON * to.abs()) || way.depth > DEEPEST;
+        let is_short =
+            half <= shortest.max(4.0 * f64::EPSILON * to.abs()) || history.depth > DEEPEST;
         if stretch.moves && !is_short {
             let cuts = self.changes(stretch, ends, places)?;
             if (1..=MOST_CUTS).contains(&cuts.len()) {
-                return self.parts(stretch, ends, &cuts, true, way.further(f64::INFINITY));
+                return self.parts(stretch, ends, &cuts, true, history.further(f64::INFINITY));
             }
             if cuts.len() > MOST_CUTS {
-                return self.parts(stretch, ends, &[middle], false, way.further(f64::INFINITY));
+                return self.parts(
+                    stretch,
+                    ends,
+                    &[middle],
+                    false,
+                    history.further(f64::INFINITY),
+                );
             }
         }
         let allowed = PanelTolerance {
@@ -293,20 +300,20 @@ impl<'a, 'm> Panels<'a, 'm> {
             sizes: &self.sizes,
             share: (to - from) / self.duration,
             of_whole: self.of_whole,
-            largest: (way.idle == 0).then_some(self.largest),
+            largest: (history.idle == 0).then_some(self.largest),
         };
         let (sums, [excess, rough]) =
             Sums::over(rule, places, ends.map(|end| &end.now), half, allowed);
-        let way = way.further(rough);
+        let history = history.further(rough);
         // The times of a short stretch late in a long motion are rounded.
         let rounded = TIME_ROUNDINGS * f64::EPSILON * to.abs() / (stretch.to - stretch.from);
         let is_noise = IDLE
             .iter()
-            .any(|(idle, noise)| way.idle >= *idle && rough <= *noise)
-            || way.idle >= 1 && rough <= rounded;
+            .any(|(idle, noise)| history.idle >= *idle && rough <= *noise)
+            || history.idle >= 1 && rough <= rounded;
         if excess > 1.0 && !is_short && !is_noise {
             let cut = inner.get(inner.len() / 2).copied().unwrap_or(middle);
-            return self.parts(stretch, ends, &[cut], false, way);
+            return self.parts(stretch, ends, &[cut], false, history);
         }
         self.accept(stretch, ends, rule, places, &sums)
     }
@@ -318,15 +325,15 @@ impl<'a, 'm> Panels<'a, 'm> {
         [first, last]: [&PanelEnd; 2],
         cuts: &[f64],
         is_zero: bool,
-        way: PanelHistory,
+        history: PanelHistory,
     ) -> Result<(), DutyError> {
         let mut left = *first;
         for cut in cuts {
             let right = self.end(stretch, *cut, is_zero)?;
-            self.panel(stretch, [&left, &right], way)?;
+            self.panel(stretch, [&left, &right], history)?;
             left = right;
         }
-        self.panel(stretch, [&left, last], way)
+        self.panel(stretch, [&left, last], history)
     }
 
     fn accept(

@@ -76,7 +76,7 @@ pub struct Agreement {
     pub energy: Option<f64>,
 }
 
-/// The inertia of a file's machine with its drive train, and of its laden machines.
+/// The inertia of a file's machine with its drive train, and of its machines with payloads.
 pub(super) fn inertia(
     file: &MachineFile,
     machine: &Machine<AnyMechanism>,
@@ -117,11 +117,11 @@ fn extremes(
 ) -> Result<[f64; 3], Error> {
     let (mut places, mut firsts) = (Vec::new(), Vec::new());
     for ([from, to], steps) in parts {
-        let hair = INSIDE * (to - from);
+        let inset = INSIDE * (to - from);
         for k in 0..=*steps {
             firsts.push(places.len() - k);
             let even = from + (to - from) * k as f64 / *steps as f64;
-            places.push(even.clamp(from + hair, to - hair));
+            places.push(even.clamp(from + inset, to - inset));
         }
     }
     let values = places
@@ -322,9 +322,9 @@ impl<'m> SmoothStretch<'m> {
     /// The machine at a time, moved inside the stretch by [`INSIDE`]: at its ends the acceleration of a carriage may jump.
     fn at(&self, t: f64) -> Result<MachineState<'m>, Error> {
         let [from, to] = self.span;
-        let hair = INSIDE * (to - from);
+        let inset = INSIDE * (to - from);
         let state = self.motion.at(t);
-        let inside = t.clamp(from + hair, to - hair);
+        let inside = t.clamp(from + inset, to - inset);
         let now = ScheduleInstant::of(inside, state.omega);
         let machine = self.machines.flowing(self.machine, &now, state.phi)?;
         Ok((inside, state, machine))

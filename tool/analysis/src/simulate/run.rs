@@ -207,10 +207,10 @@ impl<P> Run<'_, P> {
     {
         for _ in 0..MOST_STEPS {
             let [before, after] = corners.around(t);
-            let hair = EDGE * (1.0 + t);
+            let inset = EDGE * (1.0 + t);
             let inside = [
-                before.map_or(f64::NEG_INFINITY, |at| at + hair),
-                after.map_or(f64::INFINITY, |at| at - hair),
+                before.map_or(f64::NEG_INFINITY, |at| at + inset),
+                after.map_or(f64::INFINITY, |at| at - inset),
             ];
             y = self.enter(inside, t, y)?;
             if self.halt.is_none() && halt.is_some_and(|halt| halt.time <= t) {

@@ -1,6 +1,6 @@
 //! Tabulated curves as virtual links of a mechanism.
 //!
-//! A curve in a machine file over the position of the drive link is represented by a *virtual link* (`StandIn`): a rotor on its own bearing, geared
+//! A curve in a machine file over the position of the drive link is represented by a *virtual link* ([`VirtualLink`]): a rotor on its own bearing, geared
 //! to the drive link with a ratio ψ′(φ) that follows from the curve. The method of reduction then reproduces the curve, with consistent derivatives,
 //! and d'Alembert's principle gives the same torque through the gearing:
 //!

@@ -49,8 +49,8 @@ impl<'a> Edges<'a> {
     pub(super) fn ahead(&self, phi: f64, direction: f64) -> f64 {
         let nearest = self.0.iter().map(|machine| {
             let [own, ..] = machine.geared.state([phi, 0.0, 0.0]);
-            let way = direction * machine.geared.ratio().signum();
-            let next = machine.ahead(own, way);
+            let sense = direction * machine.geared.ratio().signum();
+            let next = machine.ahead(own, sense);
             ((next - own) / machine.geared.ratio()).abs()
         });
         phi + direction * nearest.fold(f64::INFINITY, f64::min)
@@ -58,8 +58,8 @@ impl<'a> Edges<'a> {
 }
 
 impl Machine<'_> {
-    fn ahead(&self, own: f64, way: f64) -> f64 {
-        let hair = EDGE_ROUNDING * (1.0 + own.abs());
+    fn ahead(&self, own: f64, sense: f64) -> f64 {
+        let rounding = EDGE_ROUNDING * (1.0 + own.abs());
         let turn = if self.turns { (own / TAU).floor() } else { 0.0 };
         let rounds: &[f64] = if self.turns {
             &[-1.0, 0.0, 1.0]
@@ -70,9 +70,9 @@ impl Machine<'_> {
             let start = (turn + round) * TAU;
             self.places.iter().map(move |place| start + place)
         });
-        let ahead = all.filter(|edge| (edge - own) * way > hair);
-        ahead.fold(way * f64::INFINITY, |nearest, edge| {
-            if (edge - nearest) * way < 0.0 {
+        let ahead = all.filter(|edge| (edge - own) * sense > rounding);
+        ahead.fold(sense * f64::INFINITY, |nearest, edge| {
+            if (edge - nearest) * sense < 0.0 {
                 edge
             } else {
                 nearest
