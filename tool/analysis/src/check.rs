@@ -10,7 +10,7 @@ use jred_file::model::axis::Axis;
 use jred_file::model::coordinate::Coordinate;
 use jred_file::model::machine::{MachineFile, POSITIONS};
 use jred_file::number::numerics;
-use jred_file::read::Unchecked;
+use jred_file::read::UncheckedFile;
 use jred_file::text::problem::{Problem, Result};
 
 use crate::contact;
@@ -23,7 +23,7 @@ const ZERO: f64 = 1e-12;
 ///
 /// # Errors
 /// The reduced inertia vanishes somewhere, the motion passes too many edges, a follower lifts off or a rope goes slack.
-pub fn check(unchecked: Unchecked) -> Result<MachineFile> {
+pub fn check(unchecked: UncheckedFile) -> Result<MachineFile> {
     inertia(&unchecked)?;
     passages(&unchecked)?;
     contacts(&unchecked)?;
@@ -31,7 +31,7 @@ pub fn check(unchecked: Unchecked) -> Result<MachineFile> {
 }
 
 /// Checks that the reduced inertia is positive at every angle, including the drive train.
-fn inertia(unchecked: &Unchecked) -> Result<()> {
+fn inertia(unchecked: &UncheckedFile) -> Result<()> {
     let file = unchecked.file();
     let report = |error: Error| unchecked.in_mechanism(Problem::of(error), "in this machine");
     let train = file.train_inertia();
@@ -80,7 +80,7 @@ fn inertia(unchecked: &Unchecked) -> Result<()> {
 }
 
 /// The error that the reduced inertia is zero at a position, or everywhere; the cure names the mechanism's links.
-fn no_inertia(unchecked: &Unchecked, place: Option<f64>) -> Problem {
+fn no_inertia(unchecked: &UncheckedFile, place: Option<f64>) -> Problem {
     let mechanism = unchecked.file().machine.mechanism();
     let drive = Axis::of_drive(mechanism.coordinate());
     let place = place.map_or_else(|| "every position".to_owned(), |phi| drive.place(phi));
@@ -101,7 +101,7 @@ fn no_inertia(unchecked: &Unchecked, place: Option<f64>) -> Problem {
 const MOST_PASSAGES: u64 = 5000;
 
 /// Refuses a motion that passes more edges than are resolved.
-fn passages(unchecked: &Unchecked) -> Result<()> {
+fn passages(unchecked: &UncheckedFile) -> Result<()> {
     let file = unchecked.file();
     let passed = (file.motion.as_ref()).map_or(0, |motion| duty::passages(file, motion));
     if passed <= MOST_PASSAGES {
@@ -116,7 +116,7 @@ fn passages(unchecked: &Unchecked) -> Result<()> {
 }
 
 /// Checks that every cam contact presses and every rope pulls over the whole motion. A cam that guides its follower on both sides needs no check.
-fn contacts(unchecked: &Unchecked) -> Result<()> {
+fn contacts(unchecked: &UncheckedFile) -> Result<()> {
     let file = unchecked.file();
     let Some(motion) = &file.motion else {
         return Ok(());

@@ -3,7 +3,7 @@
 
 mod over_motion;
 
-pub use over_motion::{Lost, lost};
+pub use over_motion::{ContactLoss, lost};
 
 use std::f64::consts::TAU;
 
@@ -19,7 +19,7 @@ use jred_file::number::rounding::figure;
 const ROUNDING: f64 = 1e-6;
 
 /// Number of positions at which a whole range is examined.
-const SCANNED: usize = 1440;
+const POSITIONS: usize = 1440;
 
 /// A joint that may separate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -32,7 +32,7 @@ pub struct OneWay {
 
 /// A contact that has separated: where, and the cure.
 #[derive(Clone, Debug)]
-pub struct Parted {
+pub struct Separation {
     /// The contact that separates.
     pub what: String,
     /// Position and speed.
@@ -80,7 +80,7 @@ impl OneWay {
     ) -> Result<Option<String>, Error> {
         for joint in Self::all(machine.mechanism()) {
             let mut worst = (f64::INFINITY, 0.0);
-            for phi in positions(machine.mechanism().domain(), SCANNED) {
+            for phi in positions(machine.mechanism().domain(), POSITIONS) {
                 let force = joint.force(machine, [phi, omega, alpha])?;
                 if force < worst.0 {
                     worst = (force, phi);
@@ -116,7 +116,7 @@ impl OneWay {
         machine: &Machine<AnyMechanism>,
         [phi, omega]: [f64; 2],
         force: f64,
-    ) -> Result<Parted, Error> {
+    ) -> Result<Separation, Error> {
         let mechanism = machine.mechanism();
         let name = mechanism.joint_names().get(self.joint);
         let coordinate = mechanism.coordinate();
@@ -128,7 +128,7 @@ impl OneWay {
             }
         };
         if self.rope {
-            return Ok(Parted {
+            return Ok(Separation {
                 what: format!("the {} goes slack", name.map_or("rope", String::as_str)),
                 state,
                 force: format!(
@@ -140,7 +140,7 @@ impl OneWay {
             });
         }
         let joint = mechanism.contact_prefix(self.joint);
-        Ok(Parted {
+        Ok(Separation {
             what: format!("{joint}the follower leaves the cam"),
             state,
             force: format!("the contact force would be {} N", figure(force)),

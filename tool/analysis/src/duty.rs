@@ -4,26 +4,26 @@ use std::ops::Range;
 
 use jred::machine::TorqueTerms;
 
-use crate::duty::mechanics::{Held, Mechanics, Rest, constant_loads};
+use crate::duty::mechanics::{HoldingTorques, Mechanics, Rest, constant_loads};
 use jred_file::model::machine::MachineFile;
 use jred_file::model::motion::Motion;
 use jred_file::number::figures::Figures;
 
-mod fault;
+mod error;
 mod integrands;
 pub mod mechanics;
-mod moving;
+mod moving_machine;
 mod panels;
 mod refined;
 mod smooth;
 mod stretches;
 
-pub use fault::Fault;
-use moving::Moving;
+pub use error::DutyError;
+use moving_machine::MovingMachine;
 pub use panels::MOST_INSTANTS;
 use panels::Panels;
 use refined::insert_extremes;
-pub use smooth::{MOST_RAISED, Panel, Smooth, Values};
+pub use smooth::{MOST_RAISED, Panel, PanelPolynomial, Smooth};
 pub(crate) use stretches::{passages, smooth_stretches, turns};
 
 /// One instant of the cycle. "Input" is the input shaft of the machine's fixed drive train, which is coupled to a motor or to the output of its
@@ -109,7 +109,7 @@ impl From<usize> for Sampling {
 }
 
 /// Share of the largest torque of the motion below which weight and loads do not move the machine: the motor's own friction and cogging hold it.
-const UNHELD: f64 = 0.01;
+const HELD_SHARE: f64 = 0.01;
 
 impl Duty {
     /// Samples the machine's motion so that the error of every integral over it is known and not above the tolerance. It uses Gauss-Kronrod
@@ -122,9 +122,9 @@ impl Duty {
         file: &MachineFile,
         motion: &Motion,
         sampling: impl Into<Sampling>,
-    ) -> Result<Self, Fault> {
+    ) -> Result<Self, DutyError> {
         let duration = motion.duration();
-        let mut moving = Moving::new(file, motion);
+        let mut moving = MovingMachine::new(file, motion);
         let stretches = smooth_stretches(file, motion);
         let panels = Panels::new(&mut moving, &stretches, sampling.into())?;
         let Panels {
@@ -141,7 +141,7 @@ impl Duty {
         }
         let laden = instants.iter().filter(|i| file.schedule.is_laden(i.t));
         weights.extend(laden.map(|i| i.terms.potential));
-        let held = Held {
+        let held = HoldingTorques {
             instants: &instants,
             constant: &constant_loads(file, &instants)?,
             duration,
@@ -160,7 +160,7 @@ impl Duty {
         }
         let largest = (instants.iter()).fold(0.0, |most, i| f64::max(most, i.terms.total().abs()));
         let mechanics = Mechanics {
-            falls: unheld > UNHELD * largest,
+            falls: unheld > HELD_SHARE * largest,
             ..Mechanics::new(file, (&instants, &smooth), duration, rest)
         };
         Ok(Self {

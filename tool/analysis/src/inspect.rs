@@ -39,13 +39,13 @@ pub const RECOMMENDED: f64 = 0.642_787_609_686_539_3;
 const CONSTANT: f64 = 1e-9;
 
 /// Allowed difference of the links' speeds after a turn, as a share of the size of the mechanism (or of the drive speed).
-const CLOSED: f64 = 1e-9;
+const CLOSURE_TOLERANCE: f64 = 1e-9;
 
 /// Allowed difference of the two drive torques, as a share of the largest term.
-const AGREED: f64 = 1e-10;
+const TORQUE_TOLERANCE: f64 = 1e-10;
 
 /// Allowed difference of work and energy, as a share of the energy exchanged by the drive.
-const BALANCED: f64 = 1e-9;
+const BALANCE_TOLERANCE: f64 = 1e-9;
 
 /// One joint.
 #[derive(Clone, Debug, Serialize, schemars::JsonSchema)]
@@ -197,7 +197,7 @@ impl Findings {
                 self.freedoms()
             ));
         }
-        if let Some(gap) = self.closure.filter(|gap| *gap > CLOSED) {
+        if let Some(gap) = self.closure.filter(|gap| *gap > CLOSURE_TOLERANCE) {
             violations.push(format!("the mechanism does not close: after a turn, the speeds of its links differ by {gap:.1e}"));
         }
         if let Some(transmission) = &self.transmission {
@@ -214,13 +214,13 @@ impl Findings {
                 );
             }
         }
-        if self.agreement.dalembert > AGREED {
+        if self.agreement.dalembert > TORQUE_TOLERANCE {
             violations.push(format!(
                 "drive torques by d'Alembert's principle and by reduction differ by {:.1e}",
                 self.agreement.dalembert
             ));
         }
-        if let Some(off) = self.agreement.energy.filter(|off| *off > BALANCED) {
+        if let Some(off) = self.agreement.energy.filter(|off| *off > BALANCE_TOLERANCE) {
             violations.push(format!(
                 "work and energy over the motion differ by {off:.1e} of the energy that the drive moves"
             ));

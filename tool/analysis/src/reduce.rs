@@ -10,8 +10,8 @@ use jred_file::model::coordinate::{Coordinate, positions};
 use jred_file::model::machine::{MachineFile, Machines};
 use jred_file::model::mechanism::AnyMechanism;
 use jred_file::model::motion::Motion;
-use jred_file::model::schedule::Now;
-use jred_file::number::columns::{Column, Columns, Quantity};
+use jred_file::model::schedule::ScheduleInstant;
+use jred_file::number::columns::{Column, ColumnQuantity, Columns};
 
 mod carriages;
 mod curves;
@@ -20,7 +20,7 @@ mod largest;
 mod points;
 mod reactions;
 
-pub use jred_file::model::axis::At;
+pub use jred_file::model::axis::DrivePoint;
 pub(crate) use largest::between_edges;
 pub use largest::{Largest, largest};
 pub use reactions::joints_with_force;
@@ -71,8 +71,8 @@ pub struct Request {
 }
 
 /// One row: the position of the machine, and its motion there, if known.
-struct Place {
-    now: Now,
+struct RowPose {
+    now: ScheduleInstant,
     phi: f64,
     frames: Frames,
     state: Option<State<f64>>,
@@ -101,7 +101,7 @@ impl<'f> Source<'f> {
 
 /// The column of times.
 fn time_column() -> Column {
-    Column::new(Quantity::Time, "t", "s")
+    Column::new(ColumnQuantity::Time, "t", "s")
 }
 
 /// The loads and payloads that some rows of the request omit, because these have no time of the motion, or no direction.
@@ -110,11 +110,14 @@ pub fn not_contained(file: &MachineFile, request: &Request) -> Vec<String> {
 }
 
 /// The same for [`reduce_at`].
-pub fn not_contained_at(file: &MachineFile, request: &Request, at: &[At]) -> Vec<String> {
+pub fn not_contained_at(file: &MachineFile, request: &Request, at: &[DrivePoint]) -> Vec<String> {
     not_in(file, || rows_at(file, request, at))
 }
 
-fn not_in<R: Iterator<Item = Row>>(file: &MachineFile, rows: impl FnOnce() -> R) -> Vec<String> {
+fn not_in<R: Iterator<Item = RowMotion>>(
+    file: &MachineFile,
+    rows: impl FnOnce() -> R,
+) -> Vec<String> {
     if file.schedule.is_empty() {
         return Vec::new();
     }
@@ -136,7 +139,7 @@ trait Set {
     fn heads(&self, source: &Source) -> Vec<Column>;
 
     /// Their values, one for each header.
-    fn values(&self, source: &Source, place: &Place) -> Result<Vec<Option<f64>>, Error>;
+    fn values(&self, source: &Source, place: &RowPose) -> Result<Vec<Option<f64>>, Error>;
 }
 
 /// The requested columns at every position.
@@ -148,12 +151,12 @@ pub fn reduce(file: &MachineFile, request: &Request) -> Result<Columns, Error> {
     let in_time = request.over == Over::Time || request.state.is_some();
     // Rows at given states have no time, so the position of a carriage is unknown.
     let of_motion = request.state.is_none();
-    columns(
-        file,
-        request,
-        [moves, in_time, of_motion],
-        rows(file, request),
-    )
+    let kind = RowKind {
+        moves,
+        in_time,
+        of_motion,
+    };
+    columns(file, request, kind, rows(file, request))
 }
 
 /// The requested columns at these positions, in their order. Without a given state they use that of the request, or of the motion if it passes each
@@ -161,18 +164,26 @@ pub fn reduce(file: &MachineFile, request: &Request) -> Result<Columns, Error> {
 ///
 /// # Errors
 /// Errors of the machine.
-pub fn reduce_at(file: &MachineFile, request: &Request, at: &[At]) -> Result<Columns, Error> {
+pub fn reduce_at(
+    file: &MachineFile,
+    request: &Request,
+    at: &[DrivePoint],
+) -> Result<Columns, Error> {
     let given = at.iter().any(|at| at.state.is_some()) || request.state.is_some();
     let moves = file.motion.is_some() || given;
-    columns(
-        file,
-        request,
-        [moves, given, !given],
-        rows_at(file, request, at),
-    )
+    let kind = RowKind {
+        moves,
+        in_time: given,
+        of_motion: !given,
+    };
+    columns(file, request, kind, rows_at(file, request, at))
 }
 
-fn rows_at(file: &MachineFile, request: &Request, at: &[At]) -> impl Iterator<Item = Row> {
+fn rows_at(
+    file: &MachineFile,
+    request: &Request,
+    at: &[DrivePoint],
+) -> impl Iterator<Item = RowMotion> {
     let state = state_at(file, request.state);
     at.iter().map(move |at| match at.state {
         Some(own) => row_at(at.phi, Some(own), None),
@@ -180,16 +191,27 @@ fn rows_at(file: &MachineFile, request: &Request, at: &[At]) -> impl Iterator<It
     })
 }
 
-/// The columns of these rows. The flags: some rows have a motion; some have velocities and accelerations in time; the motion is that of the file.
+/// The state of the drive link in the rows.
+#[derive(Clone, Copy)]
+struct RowKind {
+    /// Some rows have a motion.
+    moves: bool,
+    /// Some have velocities and accelerations in time.
+    in_time: bool,
+    /// The motion is that of the file.
+    of_motion: bool,
+}
+
+/// The columns of these rows.
 fn columns(
     file: &MachineFile,
     request: &Request,
-    [moves, in_time, of_motion]: [bool; 3],
-    rows: impl Iterator<Item = Row>,
+    kind: RowKind,
+    rows: impl Iterator<Item = RowMotion>,
 ) -> Result<Columns, Error> {
     let source = Source::new(file)?;
-    let mut sets = sets(&source, request.sets, [moves, in_time])?;
-    if of_motion && file.schedule.flows() {
+    let mut sets = sets(&source, request.sets, kind)?;
+    if kind.of_motion && file.schedule.flows() {
         let shares = request.sets.curves && request.sets.links;
         sets.push(Box::new(carriages::Carriages { shares }));
     }
@@ -209,11 +231,11 @@ fn columns(
     Ok(columns)
 }
 
-/// The requested sets. The flags: some rows have a motion; some have velocities and accelerations in time.
+/// The requested sets.
 fn sets(
     source: &Source,
     sets: Sets,
-    [moves, in_time]: [bool; 2],
+    RowKind { moves, in_time, .. }: RowKind,
 ) -> Result<Vec<Box<dyn Set>>, Error> {
     let Sets {
         curves,
@@ -225,12 +247,12 @@ fn sets(
     } = sets;
     let mut sets: Vec<Box<dyn Set>> = Vec::new();
     if curves {
-        sets.push(Box::new(curves::Curves { links, moves }));
+        sets.push(Box::new(curves::CurveColumns { links, moves }));
     } else if moves {
-        sets.push(Box::new(curves::Motion));
+        sets.push(Box::new(curves::MotionColumns));
     }
     if torques {
-        sets.push(Box::new(curves::Torques { sum: !reactions }));
+        sets.push(Box::new(curves::TorqueColumns { sum: !reactions }));
     }
     if points {
         sets.push(Box::new(points::Points { in_time }));
@@ -245,8 +267,12 @@ fn sets(
 }
 
 /// The values of the sets in a row.
-fn values(source: &Source, sets: &[Box<dyn Set>], row: &Row) -> Result<Vec<Option<f64>>, Error> {
-    let place = Place {
+fn values(
+    source: &Source,
+    sets: &[Box<dyn Set>],
+    row: &RowMotion,
+) -> Result<Vec<Option<f64>>, Error> {
+    let place = RowPose {
         now: row.now,
         phi: row.phi,
         frames: source.machine.mechanism().frames(row.phi)?,
@@ -266,11 +292,16 @@ fn values(source: &Source, sets: &[Box<dyn Set>], row: &Row) -> Result<Vec<Optio
 pub fn add_columns(
     file: &MachineFile,
     columns: &Columns,
-    states: &[(Now, [f64; 3])],
+    states: &[(ScheduleInstant, [f64; 3])],
     (asked, prefix): (Sets, &str),
 ) -> Result<Columns, Error> {
     let source = Source::new(file)?;
-    let sets = sets(&source, asked, [false, true])?;
+    let kind = RowKind {
+        moves: false,
+        in_time: true,
+        of_motion: true,
+    };
+    let sets = sets(&source, asked, kind)?;
     let heads = sets.iter().flat_map(|set| set.heads(&source));
     let heads = heads.map(|head| Column {
         part: format!("{prefix}{}", head.part),
@@ -279,7 +310,7 @@ pub fn add_columns(
     });
     let mut wider = Columns::new(columns.heads().iter().cloned().chain(heads));
     for (row, (now, [phi, omega, alpha])) in columns.rows().iter().zip(states) {
-        let state = Row {
+        let state = RowMotion {
             now: *now,
             ..row_at(*phi, Some([*omega, *alpha]), None)
         };
@@ -290,23 +321,23 @@ pub fn add_columns(
 }
 
 /// Time (over time only), instant, position and state of a row.
-struct Row {
+struct RowMotion {
     time: Option<f64>,
-    now: Now,
+    now: ScheduleInstant,
     phi: f64,
     state: Option<State<f64>>,
 }
 
 /// The rows, in order.
-fn rows<'f>(file: &'f MachineFile, request: &Request) -> Box<dyn Iterator<Item = Row> + 'f> {
+fn rows<'f>(file: &'f MachineFile, request: &Request) -> Box<dyn Iterator<Item = RowMotion> + 'f> {
     if let (Over::Time, Some(motion)) = (request.over, &file.motion) {
         let last = (request.positions - 1).max(1) as f64;
         let row = move |k: usize| {
             let t = motion.duration() * k as f64 / last;
             let state = motion.at(t);
-            Row {
+            RowMotion {
                 time: Some(t),
-                now: Now::of(t, state.omega),
+                now: ScheduleInstant::of(t, state.omega),
                 phi: state.phi,
                 state: Some(state),
             }
@@ -319,7 +350,7 @@ fn rows<'f>(file: &'f MachineFile, request: &Request) -> Box<dyn Iterator<Item =
 }
 
 /// The row of a position: with the given state, or with that of the motion, if it passes each position once.
-fn state_at(file: &MachineFile, given: Option<[f64; 2]>) -> impl Fn(f64) -> Row {
+fn state_at(file: &MachineFile, given: Option<[f64; 2]>) -> impl Fn(f64) -> RowMotion {
     let pass = match &file.motion {
         Some(motion) if given.is_none() => Pass::of(motion, file.machine.domain()),
         _ => None,
@@ -327,7 +358,7 @@ fn state_at(file: &MachineFile, given: Option<[f64; 2]>) -> impl Fn(f64) -> Row 
     move |phi| row_at(phi, given, pass.as_ref())
 }
 
-fn row_at(phi: f64, given: Option<[f64; 2]>, pass: Option<&Pass>) -> Row {
+fn row_at(phi: f64, given: Option<[f64; 2]>, pass: Option<&Pass>) -> RowMotion {
     let (t, state) = if let Some([omega, alpha]) = given {
         (None, Some(State { phi, omega, alpha }))
     } else {
@@ -335,12 +366,12 @@ fn row_at(phi: f64, given: Option<[f64; 2]>, pass: Option<&Pass>) -> Row {
         (at.map(|(t, _)| t), at.map(|(_, state)| state))
     };
     let omega = state.map(|state| state.omega);
-    Row {
+    RowMotion {
         time: None,
-        now: Now {
+        now: ScheduleInstant {
             t,
             omega,
-            ..Now::default()
+            ..ScheduleInstant::default()
         },
         phi,
         state,
@@ -351,7 +382,7 @@ fn row_at(phi: f64, given: Option<[f64; 2]>, pass: Option<&Pass>) -> Row {
 struct Pass<'m> {
     motion: &'m Motion,
     start: f64,
-    way: f64,
+    direction: f64,
     length: f64,
     turn: bool,
 }
@@ -359,18 +390,18 @@ struct Pass<'m> {
 impl<'m> Pass<'m> {
     fn of(motion: &'m Motion, domain: Domain) -> Option<Self> {
         let (start, end) = (motion.at(0.0).phi, motion.at(motion.duration()).phi);
-        let way = (end - start).signum();
+        let direction = (end - start).signum();
         let length = (end - start).abs();
         let turn = domain == Domain::Turn;
         let one_turn = !turn || (length - domain.span()).abs() < 1e-9;
         let one_way = (0..=1000).all(|k| {
             let t = motion.duration() * f64::from(k) / 1000.0;
-            motion.at(t).omega * way >= -1e-12
+            motion.at(t).omega * direction >= -1e-12
         });
         (one_turn && one_way).then_some(Self {
             motion,
             start,
-            way,
+            direction,
             length,
             turn,
         })
@@ -379,7 +410,7 @@ impl<'m> Pass<'m> {
     /// Time and state at which the motion passes the position `phi`, for a turn modulo 2π.
     fn at(&self, phi: f64) -> Option<(f64, State<f64>)> {
         let motion = self.motion;
-        let ahead = (phi - self.start) * self.way;
+        let ahead = (phi - self.start) * self.direction;
         let distance = if self.turn {
             ahead.rem_euclid(std::f64::consts::TAU)
         } else {
@@ -393,7 +424,7 @@ impl<'m> Pass<'m> {
         let (mut early, mut late) = (0.0, motion.duration());
         for _ in 0..60 {
             let middle = 0.5 * (early + late);
-            if (motion.at(middle).phi - self.start) * self.way < distance {
+            if (motion.at(middle).phi - self.start) * self.direction < distance {
                 early = middle;
             } else {
                 late = middle;

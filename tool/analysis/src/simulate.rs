@@ -4,31 +4,31 @@
 //! reduction agree.
 
 mod clock;
-mod commanded;
+mod commander;
 mod control;
+mod coupled;
 mod emergency;
 mod error;
 mod free;
-mod geared;
 pub(super) mod machine;
 mod observe;
 mod point;
+mod result;
 pub(super) mod run;
-mod simulated;
 mod variator;
 pub(super) mod watch;
 mod winding;
 
 pub use clock::Moment;
-use commanded::{COMMANDED, COMMANDED_WITH_GUESTS, Commanded, Commander};
+use commander::{COMMANDED, COMMANDED_WITH_GUESTS, CommandedPlant, Commander};
+pub use coupled::{CoupledMachines, GearedMachine};
 pub use emergency::{Stop, stops};
 pub use error::SimulationError;
-pub use geared::{Geared, Together};
 pub use machine::beside_name;
-pub use observe::{Nobody, Observer, Working};
-pub use simulated::{
-    BRIEFEST_FLIGHT, Effort, Following, Impacts, Missing, Rest, Simulated, Stuck, TorqueLimit,
-    Turned,
+pub use observe::{MotorState, NoObserver, Observer};
+pub use result::{
+    BRIEFEST_FLIGHT, Effort, FollowingError, Impacts, Rest, SimulationResult, Stall, TorqueDeficit,
+    TorqueLimit, TurnWorks,
 };
 
 use jred_file::model::by_motion::ByMotion;
@@ -41,8 +41,11 @@ use jred_file::model::simulation::Simulation;
 ///
 /// # Errors
 /// No motor; errors of the machine at the start.
-pub fn simulate(file: &MachineFile, simulation: &Simulation) -> Result<Simulated, SimulationError> {
-    simulate_together(&Together::alone(file), simulation)
+pub fn simulate(
+    file: &MachineFile,
+    simulation: &Simulation,
+) -> Result<SimulationResult, SimulationError> {
+    simulate_together(&CoupledMachines::alone(file), simulation)
 }
 
 /// The same with further machines on the motor's shaft.
@@ -50,17 +53,17 @@ pub fn simulate(file: &MachineFile, simulation: &Simulation) -> Result<Simulated
 /// # Errors
 /// As [`simulate`].
 pub fn simulate_together(
-    machines: &Together,
+    machines: &CoupledMachines,
     simulation: &Simulation,
-) -> Result<Simulated, SimulationError> {
+) -> Result<SimulationResult, SimulationError> {
     let motor = simulation.own_motor().ok_or(SimulationError::NoMotor)?;
     let file = machines.first;
     if let Some(variator) = &file.variator {
         refuse_scheduled(file)?;
         let plant = variator::Plant::new(file, variator, simulation, motor)?;
-        return run::run(&plant, simulation, &mut Nobody);
+        return run::run(&plant, simulation, &mut NoObserver);
     }
-    simulate_under(machines, simulation, &motor, &mut Nobody)
+    simulate_under(machines, simulation, &motor, &mut NoObserver)
 }
 
 /// The same under another motor, which acts in front of the drive trains; `observer` follows it. Without a variator.
@@ -68,11 +71,11 @@ pub fn simulate_together(
 /// # Errors
 /// Errors of the machines at the start.
 pub fn simulate_under(
-    machines: &Together,
+    machines: &CoupledMachines,
     simulation: &Simulation,
     motor: &impl Motor,
     observer: &mut dyn Observer,
-) -> Result<Simulated, SimulationError> {
+) -> Result<SimulationResult, SimulationError> {
     use free::{PLAIN, WITH_GUESTS};
     let has_guests = machines.guests().contains(&true);
     let plant = machine::Plant::new(machines.clone(), simulation, motor);
@@ -95,10 +98,10 @@ fn commanded<M: Motor, C: Commander<M>>(
     plant: machine::Plant<M>,
     commander: C,
     observer: &mut dyn Observer,
-) -> Result<Simulated, SimulationError> {
+) -> Result<SimulationResult, SimulationError> {
     let simulation = plant.simulation;
     let has_guests = plant.machines.guests().contains(&true);
-    let plant = Commanded { plant, commander };
+    let plant = CommandedPlant { plant, commander };
     if has_guests {
         run::run::<COMMANDED_WITH_GUESTS>(&plant, simulation, observer)
     } else {

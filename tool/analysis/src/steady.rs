@@ -11,11 +11,11 @@ mod flywheel;
 mod start;
 mod turn;
 
-pub use aim::{Held, Level, MeanSpeed};
-pub use cycle::{Cycle, Missing};
+pub use aim::{Level, MeanSpeed, Scaling};
+pub use cycle::{Cycle, TorqueDeficit};
 pub use error::SteadyError;
-pub use figures::{Energies, Figures, MotorPower, MotorTorque};
-pub use flywheel::{Classical, Flywheel, Place, Wheel};
+pub use figures::{Energies, MotorPower, MotorTorque, SteadyFigures};
+pub use flywheel::{Classical, Flywheel, ShaftFlywheel, Wheel};
 pub use start::Start;
 
 use jred::Domain;
@@ -23,23 +23,23 @@ use jred::machine::Reducible as _;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use crate::simulate::Together;
-use crate::simulate::run::HAIR;
-use aim::Search;
+use crate::simulate::CoupledMachines;
+use crate::simulate::run::SIGN_SPEED;
+use aim::CycleSearch;
 use jred_file::model::by_motion::ByMotion;
 use jred_file::model::machine::{MachineFile, least_common_multiple};
 use jred_file::model::motor::OwnMotor;
 use jred_file::model::simulation::Simulation;
 use jred_file::number::rounding::{rounded, short};
 use jred_file::units::RPM;
-use turn::Turning;
+use turn::TurningMachine;
 
 /// Tolerance within which the turns of a machine are a whole number: rounding.
-const WHOLE: f64 = 1e-12;
+const TURNS_TOLERANCE: f64 = 1e-12;
 
 /// A request.
 #[derive(Clone, Debug)]
-pub struct Request {
+pub struct SteadyRequest {
     /// Coefficient of speed fluctuation to reach with a flywheel.
     pub delta: Option<f64>,
     /// A mean speed, and the quantity that is scaled for it.
@@ -50,7 +50,7 @@ pub struct Request {
     pub positions: usize,
 }
 
-impl Default for Request {
+impl Default for SteadyRequest {
     fn default() -> Self {
         Self {
             delta: None,
@@ -93,9 +93,9 @@ impl Steady {
 pub fn steady(
     file: &MachineFile,
     simulation: &Simulation,
-    request: &Request,
+    request: &SteadyRequest,
 ) -> Result<Steady, SteadyError> {
-    steady_together(&Together::alone(file), simulation, request)
+    steady_together(&CoupledMachines::alone(file), simulation, request)
 }
 
 /// The same for machines on one shaft, of which the others make whole turns per turn of the first. For two presses the energy at the end of the turn
@@ -104,9 +104,9 @@ pub fn steady(
 /// # Errors
 /// As [`steady`]; a machine that is not in the same position after a turn of the first.
 pub fn steady_together(
-    machines: &Together,
+    machines: &CoupledMachines,
     simulation: &Simulation,
-    request: &Request,
+    request: &SteadyRequest,
 ) -> Result<Steady, SteadyError> {
     let file = machines.first;
     if let Domain::Stroke { from, to } = file.machine.domain() {
@@ -121,7 +121,7 @@ pub fn steady_together(
             return Err(SteadyError::Scheduled { what, cure });
         }
         let own = machine.ratio().abs() * f64::from(turns);
-        if (own - own.round()).abs() > WHOLE * own || own < 0.5 {
+        if (own - own.round()).abs() > TURNS_TOLERANCE * own || own < 0.5 {
             return Err(SteadyError::NotWhole {
                 title: machine.file.title.clone(),
                 turns: short(own),
@@ -131,7 +131,7 @@ pub fn steady_together(
     }
     let motor = simulation.own_motor().ok_or(SteadyError::NoMotor)?;
     let mean_speed = request.mean_speed.as_ref();
-    let search = Search {
+    let search = CycleSearch {
         simulation,
         motor,
         direction: match mean_speed {
@@ -170,7 +170,8 @@ pub fn steady_together(
         Ok(Some(found)) => found,
         // Without a flywheel not even the end of a cycle can be found.
         Err(why) if why.is_standstill() => {
-            let turning = Turning::new(machines, simulation, motor, search.direction, turns)?;
+            let turning =
+                TurningMachine::new(machines, simulation, motor, search.direction, turns)?;
             let flywheel = Flywheel::of(&turning, &search, (None, None), delta, positions)?;
             (Err(why), flywheel)
         }
@@ -190,7 +191,7 @@ pub fn steady_together(
 }
 
 /// Turns of the first drive link in a cycle.
-fn turns(machines: &Together, request: &Request) -> Result<u32, SteadyError> {
+fn turns(machines: &CoupledMachines, request: &SteadyRequest) -> Result<u32, SteadyError> {
     let own = machines.all().map(|machine| machine.file.turns());
     let own = own.fold(1, least_common_multiple);
     match request.turns {
@@ -203,15 +204,16 @@ fn turns(machines: &Together, request: &Request) -> Result<u32, SteadyError> {
 /// The direction in which the machine turns: +1 or −1. It is that of the motor at rest. Otherwise, or if `start_speed` has the other sign, it is that
 /// of `start_speed`, if a motor at speed or the process drives there.
 fn direction(
-    machines: &Together,
+    machines: &CoupledMachines,
     simulation: &Simulation,
     own: OwnMotor,
     turns: u32,
 ) -> Result<f64, SteadyError> {
-    let turning = |direction| Turning::new(machines, simulation, own, direction, turns);
+    let turning = |direction| TurningMachine::new(machines, simulation, own, direction, turns);
     let process_drives = |direction| -> Result<bool, SteadyError> {
         let turning = turning(direction)?;
-        Ok(turning.keeping(HAIR)? < -1e-9 * turning.effort(HAIR) / turning.plant.ratio().abs())
+        Ok(turning.keeping(SIGN_SPEED)?
+            < -1e-9 * turning.effort(SIGN_SPEED) / turning.plant.ratio().abs())
     };
     let motor = own.characteristic;
     let at_rest = motor.torque(0.0) * turning(1.0)?.plant.ratio();

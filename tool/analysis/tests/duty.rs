@@ -14,7 +14,7 @@ use crate::support::{Folder, budget, near, press_text, within};
 use jred::machine::motion::Law;
 use jred_analysis::duty::Duty;
 use jred_file::model::machine::MachineFile;
-use jred_file::model::motion::{Motion, Segment};
+use jred_file::model::motion::{Motion, MotionSegment};
 use jred_file::units::RPM;
 
 fn read(text: &str) -> MachineFile {
@@ -45,13 +45,13 @@ fn constant_speed_needs_only_friction() {
 fn a_sliver_of_a_segment_changes_nothing() {
     let text = press_text();
     let file = read(&text);
-    let of = |segments: &[Segment]| {
+    let of = |segments: &[MotionSegment]| {
         let motion = Motion::segments(std::f64::consts::PI, segments, true).unwrap();
         Duty::new(&file, &motion, 50).unwrap()
     };
-    let turn = Segment::law(2.0 * std::f64::consts::PI, 0.4, Law::Polynomial345);
+    let turn = MotionSegment::law(2.0 * std::f64::consts::PI, 0.4, Law::Polynomial345);
     let [with, without] = [
-        of(&[turn.clone(), Segment::dwell(1e-15)]),
+        of(&[turn.clone(), MotionSegment::dwell(1e-15)]),
         of(std::slice::from_ref(&turn)),
     ];
     assert!(!file.machine.loads().is_empty());
@@ -86,7 +86,10 @@ fn laws_integrate_to_their_way() {
     ];
     for (law, speed_squared, alpha_squared) in cases {
         for (way, duration) in [(3.7, 0.8), (-12.0, 0.3)] {
-            let segments = [Segment::law(way, duration, law), Segment::dwell(0.25)];
+            let segments = [
+                MotionSegment::law(way, duration, law),
+                MotionSegment::dwell(0.25),
+            ];
             let motion = Motion::segments(0.4, &segments, false).unwrap();
             let duty = Duty::new(&file, &motion, 2000).unwrap();
             near("cycle", duty.duration, duration + 0.25, 1e-15);

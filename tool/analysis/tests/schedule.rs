@@ -298,7 +298,7 @@ fn the_steady_cycle_refuses() {
         &(load("opposing_force = \"9 N\"\ndirection = \"backward\"") + motor),
     );
     let simulation = file.simulation.as_ref().unwrap();
-    let request = steady::Request::default();
+    let request = steady::SteadyRequest::default();
     let message = steady::steady(&file, simulation, &request)
         .unwrap_err()
         .to_string();

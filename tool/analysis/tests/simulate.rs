@@ -24,7 +24,7 @@ mod winding;
 
 use std::f64::consts::{PI, TAU};
 
-use jred_analysis::simulate::Simulated;
+use jred_analysis::simulate::SimulationResult;
 use jred_file::units::RPM;
 use serde_json::Value;
 
@@ -37,7 +37,8 @@ use crate::support::{
 pub(crate) fn run(text: &str) -> Result<Columns, String> {
     let file = parse(text).map_err(|problem| rendered(&problem))?;
     let simulation = file.simulation.as_ref().unwrap();
-    let found = jred_analysis::simulate::simulate(&file, simulation).and_then(Simulated::whole);
+    let found =
+        jred_analysis::simulate::simulate(&file, simulation).and_then(SimulationResult::whole);
     let found = found.map_err(|error| rendered(&error))?;
     Ok(Columns {
         names: found.names(),

@@ -9,7 +9,7 @@ mod together;
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
 
-use jred_analysis::steady::{Request, Start, Steady, SteadyError, steady};
+use jred_analysis::steady::{Start, Steady, SteadyError, SteadyRequest, steady};
 use jred_file::model::machine::MachineFile;
 
 use crate::reading::{parse, parse_in, rendered};
@@ -24,9 +24,9 @@ pub(crate) fn try_of(text: &str, delta: Option<f64>) -> Result<Steady, SteadyErr
 }
 
 fn of_file(file: &MachineFile, delta: Option<f64>) -> Result<Steady, SteadyError> {
-    let request = Request {
+    let request = SteadyRequest {
         delta,
-        ..Request::default()
+        ..SteadyRequest::default()
     };
     steady(file, file.simulation.as_ref().unwrap(), &request)
 }

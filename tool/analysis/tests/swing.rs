@@ -7,7 +7,7 @@ use crate::reader;
 use jred::Domain;
 use jred::machine::{Mechanism, Reducible};
 use jred_analysis::duty::Duty;
-use jred_analysis::reduce::{At, Over, Request, Sets, reduce_at};
+use jred_analysis::reduce::{DrivePoint, Over, Request, Sets, reduce_at};
 use jred_file::argument;
 use jred_file::model::axis::Axis;
 use jred_file::model::coordinate::Coordinate;
@@ -129,7 +129,7 @@ fn single_states_are_reduced() {
         [&link; 2],
     )
     .unwrap();
-    let given = |phi: f64, state: Option<[f64; 2]>| At {
+    let given = |phi: f64, state: Option<[f64; 2]>| DrivePoint {
         phi: phi.to_radians(),
         state,
     };

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 use std::fmt::Write;
 
 use jred_analysis::warnings::warnings;
-use jred_file::model::motion::{Closing, Motion, Recording};
+use jred_file::model::motion::{Motion, Recording, Repetition};
 use jred_file::number::rounding::significant;
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt as _, SeedableRng as _};
@@ -156,7 +156,7 @@ fn noise_is_measured() {
             times: &times,
             values: &values,
             cutoff: None,
-            closing: Closing::Open,
+            closing: Repetition::Open,
         };
         let motion = match order {
             0 => Motion::positions(&recording),

@@ -21,7 +21,7 @@ use clap::{ArgGroup, Args, CommandFactory as _, FromArgMatches as _, Parser, Sub
 use self::search::Objectives;
 use self::word::word;
 use jred_analysis::reduce::Over;
-use jred_export::{Choice, Core, Form, LayoutChoice, Number};
+use jred_export::{Choice, Core, LayoutChoice, Number, OutputForm};
 use jred_report::list::inspection::Format as CheckFormat;
 use jred_report::table::output::Format;
 
@@ -344,8 +344,8 @@ pub struct Export {
     /// Machine file.
     pub file: PathBuf,
     /// Form of the output.
-    #[arg(long, value_parser = word::<Form>(), default_value_t)]
-    pub format: Form,
+    #[arg(long, value_parser = word::<OutputForm>(), default_value_t)]
+    pub format: OutputForm,
     /// Number type of the table.
     #[arg(long = "type", value_parser = word::<Number>(), default_value_t)]
     pub number: Number,

@@ -29,7 +29,7 @@ mod refusals;
 
 use std::path::{Path, PathBuf};
 
-use jred_export::{Answer, Export, LayoutChoice, Number, Task};
+use jred_export::{Export, LayoutChoice, Number, SearchResult, Task};
 
 use crate::support::{Folder, Run, press_file};
 
@@ -106,7 +106,7 @@ fn images_of(file: &Path, bytes: u32, [omega, alpha]: [f64; 2]) -> Vec<Vec<u32>>
         .map(|((number, layout, answer), kind)| {
             assert_eq!((number.name(), layout.name()), kind);
             match answer {
-                Answer::Meets(mut candidate) => candidate.tables.remove(0).words,
+                SearchResult::Meets(mut candidate) => candidate.tables.remove(0).words,
                 other => panic!("{kind:?}: {}", other.remark()),
             }
         })

@@ -14,12 +14,12 @@ use jred::machine::{Frames, Jointed};
 use jred::mechanism::linkage::Pair;
 
 use crate::equation::{Equation, of_drive, of_joint, of_pair};
-use crate::fault::Unproven;
-use crate::form::Form;
+use crate::error::ProofError;
 use crate::interval::Interval;
+use crate::link_frame::LinkFrame;
 use crate::matrix::{Matrix, Solver};
-use crate::place::Place;
 use crate::series::{Series, TERMS, sin_cos_term};
+use crate::taylor_form::TaylorForm;
 
 /// The joints of a mechanism as equations.
 #[derive(Clone)]
@@ -40,14 +40,16 @@ impl<'m> Closure<'m> {
         links: usize,
         joints: usize,
         phi: f64,
-    ) -> Result<Self, Unproven> {
-        let frames = mechanism.frames(phi).map_err(|_| Unproven::Pose { phi })?;
+    ) -> Result<Self, ProofError> {
+        let frames = mechanism
+            .frames(phi)
+            .map_err(|_| ProofError::Pose { phi })?;
         let all = mechanism
             .joints(phi, &frames)
-            .map_err(|_| Unproven::Pose { phi })?;
+            .map_err(|_| ProofError::Pose { phi })?;
         let mut equations = Vec::new();
         for (number, joint) in all.iter().take(joints).enumerate() {
-            equations.extend(of_joint(joint, &frames).ok_or(Unproven::Joint { number })?);
+            equations.extend(of_joint(joint, &frames).ok_or(ProofError::Joint { number })?);
         }
         let drive = all.get(mechanism.drive());
         let drive = drive.and_then(|joint| of_drive(joint, &frames, phi));
@@ -63,11 +65,13 @@ impl<'m> Closure<'m> {
         links: usize,
         pairs: &[Pair],
         phi: f64,
-    ) -> Result<Self, Unproven> {
-        let frames = mechanism.frames(phi).map_err(|_| Unproven::Pose { phi })?;
+    ) -> Result<Self, ProofError> {
+        let frames = mechanism
+            .frames(phi)
+            .map_err(|_| ProofError::Pose { phi })?;
         let mut equations = Vec::new();
         for (number, pair) in pairs.iter().enumerate() {
-            equations.extend(of_pair(pair, &frames).ok_or(Unproven::Joint { number })?);
+            equations.extend(of_pair(pair, &frames).ok_or(ProofError::Joint { number })?);
         }
         let drive = match pairs.get(mechanism.drive()) {
             Some(Pair::Joint(joint)) => of_drive(joint, &frames, phi),
@@ -82,10 +86,10 @@ impl<'m> Closure<'m> {
         links: usize,
         mut equations: Vec<Equation>,
         drive: Option<Equation>,
-    ) -> Result<Self, Unproven> {
-        equations.push(drive.ok_or(Unproven::Drive)?);
+    ) -> Result<Self, ProofError> {
+        equations.push(drive.ok_or(ProofError::Drive)?);
         if equations.len() != 3 * links {
-            return Err(Unproven::Freedoms {
+            return Err(ProofError::Freedoms {
                 equations: equations.len(),
                 coordinates: 3 * links,
             });
@@ -101,27 +105,29 @@ impl<'m> Closure<'m> {
     ///
     /// # Errors
     /// A stretch without a proven unique pose; a shorter one may succeed.
-    pub fn places(&self, stretch: [f64; 2]) -> Result<Vec<Place<Form>>, Unproven> {
+    pub fn places(&self, stretch: [f64; 2]) -> Result<Vec<LinkFrame<TaylorForm>>, ProofError> {
         let [from, to] = stretch;
         let middle = from.midpoint(to);
         let frames = self.mechanism.frames(middle);
-        let frames = frames.map_err(|_| Unproven::Pose { phi: middle })?;
+        let frames = frames.map_err(|_| ProofError::Pose { phi: middle })?;
         let solve = |phi: Interval| {
             self.series(&frames, phi)
-                .ok_or(Unproven::Pose { phi: middle })
+                .ok_or(ProofError::Pose { phi: middle })
         };
         let at = solve(Interval::of(middle))?;
         let over = solve(Interval::between(from, to))?;
         let places = at.iter().zip(&over);
-        Ok(places.map(|(at, over)| Place::joined(at, over)).collect())
+        Ok(places
+            .map(|(at, over)| LinkFrame::joined(at, over))
+            .collect())
     }
 
     /// The series of all links for every φ of an interval, around a pose in its middle.
-    fn series(&self, frames: &Frames, phi: Interval) -> Option<Vec<Place<Series>>> {
+    fn series(&self, frames: &Frames, phi: Interval) -> Option<Vec<LinkFrame<Series>>> {
         let half = 0.5 * phi.width();
         let (start, units) = self.start(frames);
         let (pose, solver) = self.pose(&start, &units, phi, half)?;
-        let mut places: Vec<Place<Series>> = pose.chunks_exact(3).map(place).collect();
+        let mut places: Vec<LinkFrame<Series>> = pose.chunks_exact(3).map(place).collect();
         for order in 1..TERMS {
             for place in &mut places {
                 raise(place, order);
@@ -216,14 +222,14 @@ impl<'m> Closure<'m> {
     }
 
     fn residual(&self, pose: &[Interval], phi: Interval) -> Vec<Interval> {
-        let places: Vec<Place<Series>> = pose.chunks_exact(3).map(place).collect();
+        let places: Vec<LinkFrame<Series>> = pose.chunks_exact(3).map(place).collect();
         let of = |equation: &Equation| equation.term(&places, 0) + equation.by_drive() * phi;
         self.equations.iter().map(of).collect()
     }
 
     /// ∂f/∂q: the first-order terms, with the first derivative of one coordinate at a time.
     fn jacobian(&self, pose: &[Interval]) -> Matrix<Interval> {
-        let mut places: Vec<Place<Series>> = pose.chunks_exact(3).map(place).collect();
+        let mut places: Vec<LinkFrame<Series>> = pose.chunks_exact(3).map(place).collect();
         let mut matrix = Matrix::new(3 * self.links, Interval::ZERO);
         for link in 0..self.links {
             for axis in 0..3 {
@@ -253,9 +259,9 @@ impl<'m> Closure<'m> {
 }
 
 /// A link with these coordinates.
-fn place(coordinates: &[Interval]) -> Place<Series> {
+fn place(coordinates: &[Interval]) -> LinkFrame<Series> {
     let (sin, cos) = coordinates[2].sin_cos();
-    Place {
+    LinkFrame {
         x: Series::constant(coordinates[0]),
         y: Series::constant(coordinates[1]),
         psi: Series::constant(coordinates[2]),
@@ -265,13 +271,13 @@ fn place(coordinates: &[Interval]) -> Place<Series> {
 }
 
 /// Prepares a link for coefficients of this order: sets the part of sine and cosine that depends on lower orders of ψ.
-fn raise(place: &mut Place<Series>, order: usize) {
+fn raise(place: &mut LinkFrame<Series>, order: usize) {
     (place.sin.0[order], place.cos.0[order]) =
         sin_cos_term(&place.psi.0, &place.sin.0, &place.cos.0, order);
 }
 
 /// Sets the coefficients of this order, after [`raise`] for that order.
-fn set(place: &mut Place<Series>, order: usize, terms: &[Interval]) {
+fn set(place: &mut LinkFrame<Series>, order: usize, terms: &[Interval]) {
     (place.x.0[order], place.y.0[order]) = (terms[0], terms[1]);
     place.psi.0[order] = terms[2];
     place.sin.0[order] = place.sin.0[order] + place.cos.0[0] * terms[2];

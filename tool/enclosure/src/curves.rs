@@ -5,10 +5,10 @@ use std::f64::consts::TAU;
 use jred::machine::Link;
 use jred::machine::{Action, Element, ElementLaw, Load, Window};
 
-use crate::fault::Unproven;
-use crate::form::Form;
+use crate::error::ProofError;
 use crate::interval::Interval;
-use crate::place::{Place, body, direction};
+use crate::link_frame::{LinkFrame, body, direction};
+use crate::taylor_form::TaylorForm;
 
 /// Masses, loads and elements of a machine.
 #[derive(Clone, Copy, Debug)]
@@ -29,15 +29,15 @@ pub struct Parts<'m> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Curves {
     /// J (kg·m²).
-    pub inertia: Form,
+    pub inertia: TaylorForm,
     /// J′ (kg·m²/rad).
-    pub inertia_slope: Form,
+    pub inertia_slope: TaylorForm,
     /// −U′ + process (N·m).
-    pub load: Form,
+    pub load: TaylorForm,
     /// b (N·m·s/rad).
-    pub viscous: Form,
+    pub viscous: TaylorForm,
     /// c (N·m).
-    pub coulomb: Form,
+    pub coulomb: TaylorForm,
 }
 
 impl Curves {
@@ -47,11 +47,11 @@ impl Curves {
     /// A spring or damper whose ends may meet on the stretch.
     pub fn of(
         parts: &Parts<'_>,
-        places: &[Place<Form>],
+        places: &[LinkFrame<TaylorForm>],
         stretch: [f64; 2],
-    ) -> Result<Self, Unproven> {
-        let zero = Form::constant(0.0);
-        let mut inertia = Form::constant(parts.flywheel);
+    ) -> Result<Self, ProofError> {
+        let zero = TaylorForm::constant(0.0);
+        let mut inertia = TaylorForm::constant(parts.flywheel);
         let mut curves = Self {
             inertia: zero,
             inertia_slope: zero,
@@ -78,7 +78,7 @@ impl Curves {
             }
         }
         for (number, element) in parts.elements.iter().enumerate() {
-            let fault = Unproven::EndsMeet {
+            let fault = ProofError::EndsMeet {
                 number,
                 phi: stretch[0].midpoint(stretch[1]),
             };
@@ -87,9 +87,9 @@ impl Curves {
         Ok(curves)
     }
 
-    fn add_load(&mut self, load: &Load, place: &Place<Form>, stretch: [f64; 2]) {
+    fn add_load(&mut self, load: &Load, place: &LinkFrame<TaylorForm>, stretch: [f64; 2]) {
         let part = load.window().map(|window| factor(&window, stretch));
-        let times = |curve: Form| part.map_or(curve, |part| part * curve);
+        let times = |curve: TaylorForm| part.map_or(curve, |part| part * curve);
         let [x, y] = place.point(load.point()).map(|c| c.derivative());
         let turn = place.psi.derivative();
         match load.action() {
@@ -106,7 +106,7 @@ impl Curves {
         }
     }
 
-    fn add_element(&mut self, element: &Element, places: &[Place<Form>]) -> Option<()> {
+    fn add_element(&mut self, element: &Element, places: &[LinkFrame<TaylorForm>]) -> Option<()> {
         let [a, b] = element.between();
         let length = match element.law() {
             ElementLaw::Spring { .. } | ElementLaw::Damper { .. } => {
@@ -131,7 +131,7 @@ impl Curves {
                 stiffness,
                 free_angle: free,
             } => {
-                let pull = (length - Form::constant(free)) * stiffness;
+                let pull = (length - TaylorForm::constant(free)) * stiffness;
                 self.load = self.load - pull * rate;
             }
             ElementLaw::Damper { coefficient } | ElementLaw::TorsionDamper { coefficient } => {
@@ -147,9 +147,9 @@ impl Curves {
 /// By rounding, a stretch may begin or end just across an edge of the window. Beyond its end a ramp continues as a constant, which the ramp's
 /// polynomial x³·(10 − 15·x + 6·x²) approximates to less than 62·ε³ within ε ≤ 1 of the end.
 #[must_use]
-pub fn factor(window: &Window, [from, to]: [f64; 2]) -> Form {
+pub fn factor(window: &Window, [from, to]: [f64; 2]) -> TaylorForm {
     /// The largest ε, as a part of the ramp.
-    const BESIDE: f64 = 1e-3;
+    const RAMP_MARGIN: f64 = 1e-3;
     let [start, ..] = window.edges();
     let (ramp, width) = (window.ramp(), window.width());
     let middle = from.midpoint(to);
@@ -159,39 +159,39 @@ pub fn factor(window: &Window, [from, to]: [f64; 2]) -> Form {
         0.0
     };
     // A turn of the positions is the double below 2π, a turn of the window is exact.
-    let into = Form::variable([from, to])
-        - Form::somewhere(Interval::of(start) + Interval::turn() * turns);
+    let into = TaylorForm::variable([from, to])
+        - TaylorForm::somewhere(Interval::of(start) + Interval::turn() * turns);
     let at = into.at.0[0].middle();
     let values = into.values();
     let end = |end: f64| (Interval::of(end) - Interval::of(ramp)).middle();
     // The factor on each part, and the ends of the part.
     let (form, [low, high]) = if at < 0.0 {
-        (Form::constant(0.0), [f64::NEG_INFINITY, 0.0])
+        (TaylorForm::constant(0.0), [f64::NEG_INFINITY, 0.0])
     } else if at < ramp {
         (rise(&into, ramp), [0.0, ramp])
     } else if at <= end(width) {
-        (Form::constant(1.0), [ramp, end(width)])
+        (TaylorForm::constant(1.0), [ramp, end(width)])
     } else if at < width {
         (
-            rise(&(Form::constant(width) - into), ramp),
+            rise(&(TaylorForm::constant(width) - into), ramp),
             [end(width), width],
         )
     } else {
         let next = if window.repeats() { TAU } else { f64::INFINITY };
-        (Form::constant(0.0), [width, next])
+        (TaylorForm::constant(0.0), [width, next])
     };
     // Includes the rounding of these ends.
     let beyond =
         (low - values.lo()).max(values.hi() - high).max(0.0) + 1e-15 * (1.0 + width + start.abs());
     let beyond = beyond / ramp;
-    if beyond > BESIDE {
-        return Form::somewhere(Interval::between(0.0, 1.0));
+    if beyond > RAMP_MARGIN {
+        return TaylorForm::somewhere(Interval::between(0.0, 1.0));
     }
-    form + Form::somewhere(Interval::within(62.1 * beyond * beyond * beyond))
+    form + TaylorForm::somewhere(Interval::within(62.1 * beyond * beyond * beyond))
 }
 
 /// The 3-4-5 polynomial of a ramp.
-fn rise(into: &Form, ramp: f64) -> Form {
-    let x = into.over(&Form::constant(ramp));
+fn rise(into: &TaylorForm, ramp: f64) -> TaylorForm {
+    let x = into.over(&TaylorForm::constant(ramp));
     x.polynomial(&[0.0, 0.0, 0.0, 10.0, -15.0, 6.0])
 }

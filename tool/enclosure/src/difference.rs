@@ -3,9 +3,9 @@
 use jred::table::CellCurves;
 
 use crate::curves::Curves;
-use crate::form::Form;
 use crate::interval::Interval;
 use crate::series::REMAINDER;
+use crate::taylor_form::TaylorForm;
 
 /// Weight of each curve in a drive torque: J, J′, load, b, c.
 pub(crate) const fn weights([omega, alpha]: [f64; 2]) -> [f64; 5] {
@@ -104,7 +104,7 @@ fn shift(terms: &mut [Interval], x: Interval) {
 }
 
 /// A form in powers of the distance from a position, with its remainder in the first coefficient.
-fn shifted(form: &Form, middle: f64, rest: Interval) -> [Interval; REMAINDER] {
+fn shifted(form: &TaylorForm, middle: f64, rest: Interval) -> [Interval; REMAINDER] {
     let mut terms = [Interval::ZERO; REMAINDER];
     terms.copy_from_slice(&form.at.0[..REMAINDER]);
     shift(&mut terms, Interval::of(middle));

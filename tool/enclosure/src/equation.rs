@@ -6,19 +6,19 @@ use jred::machine::{Body, Frames, Joint, Marker};
 use jred::mechanism::linkage::Pair;
 
 use crate::interval::Interval;
-use crate::place::Place;
+use crate::link_frame::LinkFrame;
 use crate::series::Series;
 
 /// An equation whose left-hand side is zero.
 #[derive(Clone, Debug)]
 pub(crate) enum Equation {
     /// A coordinate (0: x, 1: y) of two coincident points.
-    Same([Point; 2], usize),
+    Same([LinkPoint; 2], usize),
     /// A point on a line through another point, with a direction.
     OnLine {
-        line: Point,
+        line: LinkPoint,
         along: [Interval; 2],
-        point: Point,
+        point: LinkPoint,
     },
     /// Directions that agree up to a constant, or that turn with the drive.
     Angle {
@@ -29,26 +29,26 @@ pub(crate) enum Equation {
     /// Wheels that roll on each other or on a rack: turns times radii, and the displacement along the rack.
     Rolling {
         turns: Vec<(Option<usize>, Interval)>,
-        rack: Option<(Point, [Interval; 2], Point)>,
+        rack: Option<(LinkPoint, [Interval; 2], LinkPoint)>,
         constant: Interval,
     },
     /// A displacement along a line, set by the drive.
     Displacement {
-        line: Point,
+        line: LinkPoint,
         along: [Interval; 2],
-        point: Point,
+        point: LinkPoint,
         constant: Interval,
     },
 }
 
 /// A point of a link, or of the ground.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Point {
+pub(crate) struct LinkPoint {
     link: Option<usize>,
     at: [f64; 2],
 }
 
-impl Point {
+impl LinkPoint {
     const fn of(marker: &Marker) -> Self {
         Self {
             link: marker.body.link(),
@@ -58,12 +58,12 @@ impl Point {
 }
 
 /// Tolerance for the drive's constant in double precision, with rounding.
-const SAME: f64 = 1e-11;
+const COINCIDENCE: f64 = 1e-11;
 
 /// The equations of a joint; `None` if they do not contain its geometry.
 pub(crate) fn of_joint(joint: &Joint, frames: &Frames) -> Option<Vec<Equation>> {
     let same = |a: &Marker, b: &Marker| {
-        [0, 1].map(|axis| Equation::Same([Point::of(a), Point::of(b)], axis))
+        [0, 1].map(|axis| Equation::Same([LinkPoint::of(a), LinkPoint::of(b)], axis))
     };
     Some(match joint {
         Joint::Revolute([a, b]) => same(a, b).to_vec(),
@@ -116,7 +116,7 @@ pub(crate) fn of_pair(pair: &Pair, frames: &Frames) -> Option<Vec<Equation>> {
             phase,
         } => vec![Equation::Rolling {
             turns: vec![turn(pinion.body, *radius), turn(rack.body, -radius)],
-            rack: Some((Point::of(rack), along(rack), Point::of(pinion))),
+            rack: Some((LinkPoint::of(rack), along(rack), LinkPoint::of(pinion))),
             constant: Interval::of(-phase),
         }],
         Pair::Cam { .. } => return None,
@@ -132,8 +132,8 @@ fn along(marker: &Marker) -> [Interval; 2] {
 fn on_line(line: &Marker, point: &Marker) -> Equation {
     Equation::OnLine {
         along: along(line),
-        line: Point::of(line),
-        point: Point::of(point),
+        line: LinkPoint::of(line),
+        point: LinkPoint::of(point),
     }
 }
 
@@ -156,10 +156,10 @@ fn agree([a, b]: [&Marker; 2], frames: &Frames) -> Equation {
 pub(crate) fn of_drive(joint: &Joint, frames: &Frames, phi: f64) -> Option<Equation> {
     let offset = joint.coordinate(frames).value - phi;
     // Most are zero, and rounding is removed from them.
-    let offset = if offset.abs() < SAME {
+    let offset = if offset.abs() < COINCIDENCE {
         Interval::ZERO
     } else {
-        Interval::around(offset, SAME)
+        Interval::around(offset, COINCIDENCE)
     };
     match joint {
         Joint::Revolute([a, b]) => Some(Equation::Angle {
@@ -169,8 +169,8 @@ pub(crate) fn of_drive(joint: &Joint, frames: &Frames, phi: f64) -> Option<Equat
         }),
         Joint::Prismatic([a, b]) => Some(Equation::Displacement {
             along: along(a),
-            line: Point::of(a),
-            point: Point::of(b),
+            line: LinkPoint::of(a),
+            point: LinkPoint::of(b),
             constant: -offset,
         }),
         _ => None,
@@ -188,8 +188,9 @@ impl Equation {
             }
             Self::Angle { bodies, .. } => bodies.contains(&link),
             Self::Rolling { turns, rack, .. } => {
-                let moved =
-                    |(line, _, point): &(Point, _, Point)| line.link == link || point.link == link;
+                let moved = |(line, _, point): &(LinkPoint, _, LinkPoint)| {
+                    line.link == link || point.link == link
+                };
                 turns.iter().any(|(wheel, _)| *wheel == link) || rack.as_ref().is_some_and(moved)
             }
         }
@@ -204,7 +205,7 @@ impl Equation {
     }
 
     /// The coefficient of this order, without the contribution of the drive's position.
-    pub(crate) fn term(&self, places: &[Place<Series>], order: usize) -> Interval {
+    pub(crate) fn term(&self, places: &[LinkFrame<Series>], order: usize) -> Interval {
         let at = |link: Option<usize>| link.and_then(|link| places.get(link));
         let constant = |value: Interval| if order == 0 { value } else { Interval::ZERO };
         match self {
@@ -260,7 +261,7 @@ impl Equation {
 
 /// The coefficient of a coordinate of a point.
 fn coordinate(
-    place: Option<&Place<Series>>,
+    place: Option<&LinkFrame<Series>>,
     [u, v]: [f64; 2],
     axis: usize,
     order: usize,
@@ -277,7 +278,7 @@ fn coordinate(
 }
 
 /// The coefficients of a vector of a body.
-fn vector(place: Option<&Place<Series>>, [u, v]: [Interval; 2], order: usize) -> [Interval; 2] {
+fn vector(place: Option<&LinkFrame<Series>>, [u, v]: [Interval; 2], order: usize) -> [Interval; 2] {
     let Some(place) = place else {
         return if order == 0 {
             [u, v]
@@ -292,8 +293,8 @@ fn vector(place: Option<&Place<Series>>, [u, v]: [Interval; 2], order: usize) ->
 /// The coefficient of the scalar product of a vector and the vector from one point to another.
 fn product<'p>(
     vector: impl Fn(usize) -> [Interval; 2],
-    [line, point]: [&Point; 2],
-    at: &impl Fn(Option<usize>) -> Option<&'p Place<Series>>,
+    [line, point]: [&LinkPoint; 2],
+    at: &impl Fn(Option<usize>) -> Option<&'p LinkFrame<Series>>,
     order: usize,
 ) -> Interval {
     let mut sum = Interval::ZERO;

@@ -7,7 +7,7 @@
 //! ```
 //!
 //! A sampled error gives no information between two places. Here every number is an [`Interval`], rounded outward, and every quantity of the machine
-//! a Taylor polynomial with Lagrange's remainder over a stretch of positions ([`Form`]): the pose of the links is proven by the interval Newton
+//! a Taylor polynomial with Lagrange's remainder over a stretch of positions ([`TaylorForm`]): the pose of the links is proven by the interval Newton
 //! method ([`Closure`]), their motion follows from the equations of the joints, and the curves follow from the motion ([`Curves`]). A stretch whose
 //! remainder is too large is halved. [`prove`] bounds
 //!
@@ -22,20 +22,20 @@ mod closure;
 mod curves;
 mod difference;
 mod equation;
-mod fault;
-mod form;
+mod error;
 mod interval;
+mod link_frame;
 mod matrix;
-mod place;
 mod proof;
 mod series;
+mod taylor_form;
 mod tick;
 
 pub use closure::Closure;
 pub use curves::{Curves, Parts, factor};
-pub use fault::Unproven;
-pub use form::Form;
+pub use error::ProofError;
 pub use interval::Interval;
-pub use place::Place;
+pub use link_frame::LinkFrame;
 pub use proof::{Goal, Proof, prove};
 pub use series::{REMAINDER, Series, TERMS};
+pub use taylor_form::TaylorForm;

@@ -6,7 +6,7 @@ use jred::table::{CellCurves, Format};
 
 use crate::curves::Curves;
 use crate::difference::{Difference, weights};
-use crate::fault::Unproven;
+use crate::error::ProofError;
 use crate::interval::Interval;
 use crate::tick::Tick;
 
@@ -69,19 +69,19 @@ const SLACK: f64 = 0.002;
 pub fn prove<F: Format>(
     table: &Table<'_, F>,
     goal: &Goal<'_>,
-    curves: &dyn Fn([f64; 2]) -> Result<Curves, Unproven>,
+    curves: &dyn Fn([f64; 2]) -> Result<Curves, ProofError>,
     watch: &mut dyn FnMut(f64) -> bool,
-) -> Result<Proof, Unproven> {
+) -> Result<Proof, ProofError> {
     let domain = Domain::Stroke {
         from: 0.0,
         to: goal.span,
     };
     let cell = |index| table.cell_curves(index, domain);
     if cell(0).is_none() {
-        return Err(Unproven::Layout { layout: F::NAME });
+        return Err(ProofError::Layout { layout: F::NAME });
     }
     let range = [goal.omega, goal.alpha];
-    let mut search = Search {
+    let mut search = ProofSearch {
         goal,
         curves,
         cells: table.cells(),
@@ -112,7 +112,7 @@ pub fn prove<F: Format>(
         let mut k = 0.0;
         while k < parts {
             if !watch((at(k) - goal.start) / goal.span) {
-                return Err(Unproven::Stopped);
+                return Err(ProofError::Stopped);
             }
             search.stretch([at(k), at(k + 1.0)], 0)?;
             k += 1.0;
@@ -151,9 +151,9 @@ fn within(bound: f64, limit: f64) -> bool {
     bound <= limit
 }
 
-struct Search<'s> {
+struct ProofSearch<'s> {
     goal: &'s Goal<'s>,
-    curves: &'s dyn Fn([f64; 2]) -> Result<Curves, Unproven>,
+    curves: &'s dyn Fn([f64; 2]) -> Result<Curves, ProofError>,
     cells: u32,
     cell: &'s dyn Fn(u32) -> Option<CellCurves>,
     tick: Option<Tick>,
@@ -165,13 +165,13 @@ struct Search<'s> {
 
 /// The bounds of one part.
 #[derive(Clone, Copy)]
-struct Part {
+struct StretchBounds {
     most: f64,
     ticked: f64,
     worst: f64,
 }
 
-impl Search<'_> {
+impl ProofSearch<'_> {
     /// Bounds below this need no refinement.
     fn enough(&self) -> f64 {
         let known = self.goal.known.max(self.found.least);
@@ -179,17 +179,17 @@ impl Search<'_> {
     }
 
     /// Bounds the error on a stretch, halving it where that improves the bound.
-    fn stretch(&mut self, stretch: [f64; 2], depth: u32) -> Result<(), Unproven> {
+    fn stretch(&mut self, stretch: [f64; 2], depth: u32) -> Result<(), ProofError> {
         self.found.stretches += 1;
         if self.found.stretches > MOST {
-            return Err(Unproven::TooLong { most: MOST });
+            return Err(ProofError::TooLong { most: MOST });
         }
         let [from, to] = stretch;
         let middle = from.midpoint(to);
         let halves = from < middle && middle < to && depth < DEEPEST;
         let curves = match (self.curves)(stretch) {
             Ok(curves) => curves,
-            Err(Unproven::Stopped) => return Err(Unproven::Stopped),
+            Err(ProofError::Stopped) => return Err(ProofError::Stopped),
             Err(why) if !halves || (to - from) < 1e-9 * self.goal.span => return Err(why),
             Err(_) => return self.halve(stretch, middle, depth),
         };
@@ -219,7 +219,7 @@ impl Search<'_> {
         }
         for part in parts {
             if !part.most.is_finite() || part.ticked.is_nan() {
-                return Err(Unproven::Unbounded { phi: part.worst });
+                return Err(ProofError::Unbounded { phi: part.worst });
             }
             if part.most > self.found.bound {
                 (self.found.bound, self.found.worst) = (part.most, part.worst);
@@ -229,7 +229,7 @@ impl Search<'_> {
         Ok(())
     }
 
-    fn halve(&mut self, [from, to]: [f64; 2], middle: f64, depth: u32) -> Result<(), Unproven> {
+    fn halve(&mut self, [from, to]: [f64; 2], middle: f64, depth: u32) -> Result<(), ProofError> {
         self.stretch([from, middle], depth + 1)?;
         self.stretch([middle, to], depth + 1)
     }
@@ -252,7 +252,7 @@ impl Search<'_> {
         (index, cell): (u32, &CellCurves),
         [from, to]: [f64; 2],
         finest: u32,
-    ) -> Part {
+    ) -> StretchBounds {
         let middle = from.midpoint(to);
         let (start, span) = (self.goal.start, self.goal.span);
         let cells = f64::from(self.cells);
@@ -279,7 +279,7 @@ impl Search<'_> {
                 - Interval::of(cell.centre),
         };
         let added = self.tick.map_or(0.0, |tick| tick.error(cell));
-        let mut found = Part {
+        let mut found = StretchBounds {
             most: 0.0,
             ticked: 0.0,
             worst: low,

@@ -115,34 +115,34 @@ impl Tick {
 
     /// All rounding of a tick in floating point, in the order of its operations.
     fn roundings(&self, cell: &CellCurves, epsilon: f64, points: bool) -> f64 {
-        let [omega, alpha] = self.range.map(Rounded::exact);
+        let [omega, alpha] = self.range.map(RoundedValue::exact);
         let ops = Roundings(epsilon);
         let coefficients = |p: &[f64; 4], offset: f64| {
             if points {
                 ops.of_points(p, offset)
             } else {
-                p.map(Rounded::exact)
+                p.map(RoundedValue::exact)
             }
         };
-        let horner = |[p0, p1, p2, p3]: [Rounded; 4]| {
+        let horner = |[p0, p1, p2, p3]: [RoundedValue; 4]| {
             // u ≤ 1.
-            let b2 = ops.plus(p2, ops.times(p3, Rounded::ONE));
-            let b1 = ops.plus(p1, ops.times(b2, Rounded::ONE));
-            (ops.plus(p0, ops.times(b1, Rounded::ONE)), b1, b2, p3)
+            let b2 = ops.plus(p2, ops.times(p3, RoundedValue::ONE));
+            let b1 = ops.plus(p1, ops.times(b2, RoundedValue::ONE));
+            (ops.plus(p0, ops.times(b1, RoundedValue::ONE)), b1, b2, p3)
         };
         let (inertia, b1, b2, p3) = horner(coefficients(&cell.inertia, cell.offset));
-        let t3 = ops.times(p3, Rounded::ONE);
-        let slope = ops.plus(b1, ops.times(ops.plus(b2, t3), Rounded::ONE));
+        let t3 = ops.times(p3, RoundedValue::ONE);
+        let slope = ops.plus(b1, ops.times(ops.plus(b2, t3), RoundedValue::ONE));
         let curve = |p: &[f64; 4]| horner(coefficients(p, 0.0)).0;
         let constant = |p: &[f64; 4]| {
             if p[1..].iter().all(|p| *p == 0.0) {
-                Rounded::exact(p[0])
+                RoundedValue::exact(p[0])
             } else {
                 curve(p)
             }
         };
         // The exact factor: its rounding is included in the bases.
-        let factor = Rounded::exact(0.5 * self.cells_per_position);
+        let factor = RoundedValue::exact(0.5 * self.cells_per_position);
         let velocity = ops.times(ops.times(slope, factor), omega);
         let speed = ops.plus(velocity, constant(&cell.viscous));
         let sum = ops.plus(ops.times(speed, omega), ops.times(inertia, alpha));
@@ -153,12 +153,12 @@ impl Tick {
 
 /// The magnitude of a number, and its error.
 #[derive(Clone, Copy)]
-struct Rounded {
+struct RoundedValue {
     size: f64,
     error: f64,
 }
 
-impl Rounded {
+impl RoundedValue {
     const ONE: Self = Self {
         size: 1.0,
         error: 0.0,
@@ -176,26 +176,26 @@ impl Rounded {
 struct Roundings(f64);
 
 impl Roundings {
-    fn rounded(&self, size: f64, error: f64) -> Rounded {
+    fn rounded(&self, size: f64, error: f64) -> RoundedValue {
         // The smallest number in single precision: products may become subnormal.
         const LEAST: f64 = 1.5e-45;
-        Rounded {
+        RoundedValue {
             size,
             error: error + self.0 * (size + error) + LEAST,
         }
     }
 
-    fn plus(&self, a: Rounded, b: Rounded) -> Rounded {
+    fn plus(&self, a: RoundedValue, b: RoundedValue) -> RoundedValue {
         self.rounded(a.size + b.size, a.error + b.error)
     }
 
-    fn times(&self, a: Rounded, b: Rounded) -> Rounded {
+    fn times(&self, a: RoundedValue, b: RoundedValue) -> RoundedValue {
         let error = a.size * b.error + b.size * a.error + a.error * b.error;
         self.rounded(a.size * b.size, error)
     }
 
     /// The coefficients of a cubic from its control points, whose differences are known from it.
-    fn of_points(&self, [p0, p1, p2, p3]: &[f64; 4], offset: f64) -> [Rounded; 4] {
+    fn of_points(&self, [p0, p1, p2, p3]: &[f64; 4], offset: f64) -> [RoundedValue; 4] {
         let s0 = p2 / 3.0;
         let [d0, d1] = [(p1 - p2) / 6.0, (p1 + p2) / 6.0];
         let s1 = s0 + p3;
@@ -203,12 +203,15 @@ impl Roundings {
         // Each as computed: first its operands, then itself.
         let once = |value: f64| self.rounded(value.abs(), 0.0);
         let [d0, d1, d2] = [once(d0), once(d1), once(d1 + s1)];
-        let sum = |value: f64, a: Rounded, b: Rounded| self.rounded(value.abs(), a.error + b.error);
+        let sum = |value: f64, a: RoundedValue, b: RoundedValue| {
+            self.rounded(value.abs(), a.error + b.error)
+        };
         let (s0, s1) = (sum(s0, d0, d1), sum(s1, d1, d2));
         let plain = sum(p0 - offset, once(point), s0);
-        let k = |value: f64, times: f64, a: Rounded| self.rounded(value.abs(), times * a.error);
+        let k =
+            |value: f64, times: f64, a: RoundedValue| self.rounded(value.abs(), times * a.error);
         [
-            sum(*p0, plain, Rounded::exact(offset)),
+            sum(*p0, plain, RoundedValue::exact(offset)),
             k(*p1, 3.0, sum(p1 / 3.0, d0, d1)),
             k(*p2, 3.0, s0),
             sum(*p3, s1, s0),

@@ -7,7 +7,7 @@ use jred::mechanism::{
 use jred_enclosure::Interval;
 use serde_json::Value;
 
-use crate::mechanics::Enclosed;
+use crate::mechanics::EnclosedMachine;
 
 struct Case(Value);
 
@@ -43,7 +43,7 @@ impl Case {
 
 /// The enclosures in the middle of a stretch contain the references and are as narrow as rounding permits.
 fn compare(case: &Case, machine: &Machine<impl Jointed>) {
-    let enclosed = Enclosed::new(machine);
+    let enclosed = EnclosedMachine::new(machine);
     let rows = case.rows();
     assert!(rows.len() > 10);
     for [phi, inertia, slope, load] in rows {

@@ -10,9 +10,9 @@ use jred::mechanism::{
 use jred::table::{Format, Table};
 use jred::tabulate::{Request, measure};
 use jred::{Cubic, Domain, Q31, Quadratic, Rows16, Scale, Spline, Spline16, curves};
-use jred_enclosure::{Closure, Unproven};
+use jred_enclosure::{Closure, ProofError};
 
-use crate::mechanics::{EVERY, Enclosed, Made, Silent, made, proof, read, searched};
+use crate::mechanics::{EVERY, EnclosedMachine, Silent, TestTable, made, proof, read, searched};
 
 const RANGE: [f64; 2] = [12.0, 60.0];
 
@@ -87,8 +87,8 @@ fn yoke() -> Machine<ScotchYoke> {
 
 /// The proven bound is not below the result of a search, and not far above; the tick's bound is above the table's.
 fn holds<F: Format>(machine: &Machine<impl Jointed>, set: u16, cells: u32, scale: Scale) {
-    let enclosed = Enclosed::new(machine);
-    let made: Made<F> = made(machine, set, cells, scale);
+    let enclosed = EnclosedMachine::new(machine);
+    let made: TestTable<F> = made(machine, set, cells, scale);
     let proof = proof(machine, &made, RANGE, &|stretch| enclosed.curves(stretch)).unwrap();
     let found = searched(machine, &made, RANGE);
     let words = format!("{} {cells}: {found} {proof:?}", F::NAME);
@@ -136,10 +136,10 @@ fn a_search_finds_no_more_than_is_proven() {
 #[test]
 fn a_wrong_word_is_found_in_any_cell() {
     let machine = four_bar();
-    let enclosed = Enclosed::new(&machine);
+    let enclosed = EnclosedMachine::new(&machine);
     let set = curves::LOAD | curves::VISCOUS;
     let curves = |stretch| enclosed.curves(stretch);
-    let sound: Made<Cubic<f32>> = made(&machine, set, 48, Scale::SI);
+    let sound: TestTable<Cubic<f32>> = made(&machine, set, 48, Scale::SI);
     let bound = proof(&machine, &sound, RANGE, &curves).unwrap().bound;
     for (word, by) in [
         (0, 1e-4),
@@ -147,7 +147,7 @@ fn a_wrong_word_is_found_in_any_cell() {
         (24 * 12 + 4, 1e-3),
         (31 * 12 + 1, -1e-3),
     ] {
-        let mut wrong: Made<Cubic<f32>> = made(&machine, set, 48, Scale::SI);
+        let mut wrong: TestTable<Cubic<f32>> = made(&machine, set, 48, Scale::SI);
         wrong.words[word] += by;
         // The wrong word raises the bound.
         let found = proof(&machine, &wrong, RANGE, &curves).unwrap();
@@ -177,13 +177,13 @@ fn a_peak_between_the_places_is_proven_and_not_estimated() {
     let machine = four_bar().with_load(peak).unwrap();
     let silent = Silent(&machine);
     let set = curves::LOAD | curves::VISCOUS;
-    let made: Made<Spline<f32>> = made(&silent, set, cells, Scale::SI);
+    let made: TestTable<Spline<f32>> = made(&silent, set, cells, Scale::SI);
     let table = Table::new(&made.words, made.shape).unwrap();
     let request = Request::new(1.0)
         .with_max_speed(RANGE[0])
         .with_max_acceleration(RANGE[1]);
     let estimated = measure(&silent, &table, &request).unwrap();
-    let enclosed = Enclosed::new(&machine);
+    let enclosed = EnclosedMachine::new(&machine);
     let proof = proof(&silent, &made, RANGE, &|stretch| enclosed.curves(stretch)).unwrap();
     let phi = from + 0.01 * spacing;
     let exact = machine.reduction(phi).unwrap();
@@ -205,7 +205,7 @@ fn a_peak_between_the_places_is_proven_and_not_estimated() {
 fn a_cell_is_what_the_table_reads() {
     fn compare<F: Format>(units: f64, scale: Scale) {
         let machine = press();
-        let made: Made<F> = made(&machine, EVERY, 40, scale);
+        let made: TestTable<F> = made(&machine, EVERY, 40, scale);
         let table = Table::new(&made.words, made.shape).unwrap();
         for k in 0..4001_u32 {
             let phase = jred::Phase::from_bits(k.wrapping_mul(0x9e37_79b9));
@@ -245,10 +245,10 @@ fn what_cannot_be_enclosed_is_named() {
     let links = [Link::rotor(0.1).unwrap(), Link::point_mass(2.0).unwrap()];
     let rack = jred::mechanism::RackAndPinion::new(0.03, links).unwrap();
     let open = Closure::new(&rack, 2, 3, 0.1).err();
-    assert_eq!(open, Some(Unproven::Joint { number: 2 }));
+    assert_eq!(open, Some(ProofError::Joint { number: 2 }));
     let press = press();
     let missing = Closure::new(press.mechanism(), 3, 3, 0.1).err();
-    let expected = Unproven::Freedoms {
+    let expected = ProofError::Freedoms {
         equations: 7,
         coordinates: 9,
     };
@@ -257,15 +257,16 @@ fn what_cannot_be_enclosed_is_named() {
     let all = Closure::new(press.mechanism(), 3, 4, 0.1)
         .unwrap()
         .places([0.0, 6.0]);
-    assert_eq!(all.err(), Some(Unproven::Pose { phi: 3.0 }));
+    assert_eq!(all.err(), Some(ProofError::Pose { phi: 3.0 }));
 }
 
 /// A proof that is stopped, or that would take too long, proves nothing.
 #[test]
 fn a_proof_can_be_stopped() {
     let machine = four_bar();
-    let enclosed = Enclosed::new(&machine);
-    let made: Made<Spline<f32>> = made(&machine, curves::LOAD | curves::VISCOUS, 24, Scale::SI);
+    let enclosed = EnclosedMachine::new(&machine);
+    let made: TestTable<Spline<f32>> =
+        made(&machine, curves::LOAD | curves::VISCOUS, 24, Scale::SI);
     let table = Table::new(&made.words, made.shape).unwrap();
     let goal = jred_enclosure::Goal {
         start: 0.0,
@@ -287,6 +288,6 @@ fn a_proof_can_be_stopped() {
             share < 0.5
         },
     );
-    assert_eq!(stopped, Err(Unproven::Stopped));
+    assert_eq!(stopped, Err(ProofError::Stopped));
     assert!(seen.len() > 10 && seen.is_sorted() && seen.last().is_some_and(|share| *share < 0.6));
 }

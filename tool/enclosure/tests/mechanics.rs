@@ -4,17 +4,17 @@ use jred::machine::{Jointed, Machine, Reducible, Reduction};
 use jred::table::{CurveValues, Format, Table, words_len};
 use jred::tabulate::{Request, fill, measure, scratch_len, torque_between};
 use jred::{CurveSet, Phase, Scale, curves};
-use jred_enclosure::{Closure, Curves, Goal, Parts, Proof, Unproven, prove};
+use jred_enclosure::{Closure, Curves, Goal, Parts, Proof, ProofError, prove};
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt as _, SeedableRng as _};
 
 /// A machine in intervals.
-pub(crate) struct Enclosed<'m> {
+pub(crate) struct EnclosedMachine<'m> {
     closure: Closure<'m>,
     parts: Parts<'m>,
 }
 
-impl<'m> Enclosed<'m> {
+impl<'m> EnclosedMachine<'m> {
     pub(crate) fn new<M: Jointed>(machine: &'m Machine<M>) -> Self {
         let mechanism = machine.mechanism();
         let phi = mechanism.domain().position(0.1);
@@ -32,13 +32,13 @@ impl<'m> Enclosed<'m> {
         }
     }
 
-    pub(crate) fn curves(&self, stretch: [f64; 2]) -> Result<Curves, Unproven> {
+    pub(crate) fn curves(&self, stretch: [f64; 2]) -> Result<Curves, ProofError> {
         Curves::of(&self.parts, &self.closure.places(stretch)?, stretch)
     }
 }
 
 /// The words of a table, and their shape.
-pub(crate) struct Made<F: Format> {
+pub(crate) struct TestTable<F: Format> {
     pub(crate) words: Vec<F::Word>,
     pub(crate) shape: jred::table::Shape<F>,
 }
@@ -48,7 +48,7 @@ pub(crate) fn made<F: Format>(
     set: CurveSet,
     cells: u32,
     scale: Scale,
-) -> Made<F> {
+) -> TestTable<F> {
     let mut scratch = vec![0.0; scratch_len(cells, set)];
     let mut words = vec![F::Word::default(); words_len::<F>(cells, set)];
     let whole = F::WHOLE_FACTOR.then(|| scale.for_cells(cells, machine.domain().span()));
@@ -56,7 +56,7 @@ pub(crate) fn made<F: Format>(
     let shape = fill::<F>(machine, set, cells, &scale, &mut scratch, &mut words)
         .unwrap()
         .shape();
-    Made { words, shape }
+    TestTable { words, shape }
 }
 
 /// The request for a range of speed and acceleration.
@@ -69,10 +69,10 @@ fn request([omega, alpha]: [f64; 2]) -> Request {
 /// Proves a table of a turn.
 pub(crate) fn proof<F: Format>(
     machine: &impl Reducible,
-    made: &Made<F>,
+    made: &TestTable<F>,
     range: [f64; 2],
-    curves: &dyn Fn([f64; 2]) -> Result<Curves, Unproven>,
-) -> Result<Proof, Unproven> {
+    curves: &dyn Fn([f64; 2]) -> Result<Curves, ProofError>,
+) -> Result<Proof, ProofError> {
     let table = Table::new(&made.words, made.shape).unwrap();
     let found = measure(machine, &table, &request(range)).unwrap();
     let edges: Vec<f64> = (0..).map_while(|k| machine.edge(k)).collect();
@@ -92,7 +92,7 @@ pub(crate) fn proof<F: Format>(
 /// The largest error of a table at random positions and around the worst of them, evaluated without the rounding of a tick.
 pub(crate) fn searched<F: Format>(
     machine: &impl Reducible,
-    made: &Made<F>,
+    made: &TestTable<F>,
     range: [f64; 2],
 ) -> f64 {
     let table = Table::new(&made.words, made.shape).unwrap();

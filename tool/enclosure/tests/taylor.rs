@@ -2,12 +2,12 @@
 
 use jred::Domain;
 use jred::machine::Window;
-use jred_enclosure::{Form, Interval, REMAINDER, factor};
+use jred_enclosure::{Interval, REMAINDER, TaylorForm, factor};
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt as _, SeedableRng as _};
 
 /// The value of a form at a distance from the middle of its stretch.
-fn value(form: &Form, away: f64) -> Interval {
+fn value(form: &TaylorForm, away: f64) -> Interval {
     let t = Interval::of(away);
     let mut sum = form.over.0[REMAINDER];
     for term in form.at.0[..REMAINDER].iter().rev() {
@@ -17,10 +17,10 @@ fn value(form: &Form, away: f64) -> Interval {
 }
 
 /// A form of φ and the same function in double precision.
-type Pair = (fn(Form) -> Form, fn(f64) -> f64);
+type Pair = (fn(TaylorForm) -> TaylorForm, fn(f64) -> f64);
 
-fn one() -> Form {
-    Form::constant(1.0)
+fn one() -> TaylorForm {
+    TaylorForm::constant(1.0)
 }
 
 const FUNCTIONS: [Pair; 6] = [
@@ -53,7 +53,7 @@ fn forms_contain_a_hundred_thousand_values() {
         let to = from + 10.0_f64.powf(random.random_range(-6.0..-1.0));
         let middle = from.midpoint(to);
         for (form, exact) in FUNCTIONS {
-            let form = form(Form::variable([from, to]));
+            let form = form(TaylorForm::variable([from, to]));
             for _ in 0..17 {
                 let x = random.random_range(from..to);
                 let [found, near] = [value(&form, x - middle), Interval::around(exact(x), 1e-14)];
@@ -72,13 +72,13 @@ fn forms_contain_a_hundred_thousand_values() {
 
 #[test]
 fn a_stretch_over_a_bend_knows_it() {
-    let bend = (Form::variable([0.9, 1.1]) - one()).magnitude();
+    let bend = (TaylorForm::variable([0.9, 1.1]) - one()).magnitude();
     assert!(bend.values().contains(0.0) && bend.values().hi() >= 0.1);
-    let sloped = (Form::variable([1.1, 1.3]) - one()).magnitude();
+    let sloped = (TaylorForm::variable([1.1, 1.3]) - one()).magnitude();
     assert!((value(&sloped, 0.1).middle() - 0.3).abs() < 1e-15 && sloped.slack(0.1) < 1e-14);
     // The speed of a point that reverses.
-    let phi = Form::variable([-0.1, 0.1]);
-    let speed = phi.sin_cos().0.length(&Form::constant(0.0));
+    let phi = TaylorForm::variable([-0.1, 0.1]);
+    let speed = phi.sin_cos().0.length(&TaylorForm::constant(0.0));
     assert!(speed.values().contains(0.0) && speed.values().hi() > 0.0998);
 }
 

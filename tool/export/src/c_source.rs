@@ -4,7 +4,7 @@ use crc::{CRC_32_ISO_HDLC, Crc};
 use jred::curves;
 use jred::slider_crank::terms;
 
-use crate::candidate::{Candidate, Made};
+use crate::candidate::{Candidate, RangeTable};
 use crate::choice::{LayoutName, Number};
 use crate::export::Export;
 use crate::form::rows;
@@ -88,7 +88,7 @@ pub fn plan_c_source(title: &str, file: &str, machine: u32, words: &[u32]) -> St
 
 impl Export {
     /// One table.
-    pub(crate) fn c_table(&self, table: &Made, named: &Name) -> String {
+    pub(crate) fn c_table(&self, table: &RangeTable, named: &Name) -> String {
         let Name(name) = named;
         let model = model(name, self.chosen());
         let load = format!(
@@ -103,7 +103,7 @@ impl Export {
     }
 
     /// A table for each piece, and the start of each.
-    pub(crate) fn c_pieces(&self, tables: &[Made], named: &Name) -> String {
+    pub(crate) fn c_pieces(&self, tables: &[RangeTable], named: &Name) -> String {
         let Name(name) = named;
         let mut data = machine_constant(named, self.machine);
         for (number, table) in (1..).zip(tables) {
@@ -111,7 +111,7 @@ impl Export {
             data.push('\n');
         }
         let count = tables.len();
-        let list = |each: &dyn Fn(usize, &Made) -> String| {
+        let list = |each: &dyn Fn(usize, &RangeTable) -> String| {
             let all = (1..).zip(tables);
             let all = all.map(|(number, table)| each(number, table));
             format!("{{ {} }}", all.collect::<Vec<_>>().join(", "))

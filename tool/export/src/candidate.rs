@@ -6,12 +6,12 @@ use jred::tabulate::TableFigures;
 use jred::{CurveSet, Scale};
 
 use crate::choice::{LayoutName, Number};
-use crate::proven::Proven;
+use crate::proof_result::ProofResult;
 use crate::ticks::Ticks;
 
 /// The table of one range, with its image.
 #[derive(Clone, Debug)]
-pub struct Made {
+pub struct RangeTable {
     /// Start and end of its range (rad, or m).
     pub range: [f64; 2],
     /// Set of [`curves`](jred::curves).
@@ -31,12 +31,12 @@ pub struct Made {
     /// Bytes of its rows.
     pub row_bytes: usize,
     /// The proof of its error, if requested.
-    pub proof: Option<Proven>,
+    pub proof: Option<ProofResult>,
     /// The image.
     pub words: Vec<u32>,
 }
 
-impl Made {
+impl RangeTable {
     /// Bytes of the image.
     pub fn bytes(&self) -> usize {
         4 * self.words.len()
@@ -51,7 +51,7 @@ pub struct Candidate {
     /// Layout.
     pub layout: LayoutName,
     /// The tables, in the order of their ranges.
-    pub tables: Vec<Made>,
+    pub tables: Vec<RangeTable>,
 }
 
 impl Candidate {
@@ -67,7 +67,7 @@ impl Candidate {
 
     /// Bytes of all images.
     pub fn bytes(&self) -> usize {
-        self.tables.iter().map(Made::bytes).sum()
+        self.tables.iter().map(RangeTable::bytes).sum()
     }
 
     /// The largest error of the drive torque (N·m, or N): of the curves and of the ticks.
@@ -108,14 +108,14 @@ impl Candidate {
         self.tables.first().map_or(Scale::SI, |table| table.scale)
     }
 
-    fn largest(&self, of: impl Fn(&Made) -> f64) -> f64 {
+    fn largest(&self, of: impl Fn(&RangeTable) -> f64) -> f64 {
         self.tables.iter().map(of).fold(0.0, f64::max)
     }
 }
 
 /// Result for one number type and layout: of one range, or of all pieces.
 #[derive(Clone, Debug)]
-pub enum Answer<T = Candidate> {
+pub enum SearchResult<T = Candidate> {
     /// Meets the request.
     Meets(Box<T>),
     /// Even the best table does not meet the request.
@@ -128,7 +128,7 @@ pub enum Answer<T = Candidate> {
     TooLarge(usize),
 }
 
-impl<T> Answer<T> {
+impl<T> SearchResult<T> {
     /// Why it is not chosen, in a few words; empty if it meets the request.
     pub const fn remark(&self) -> &'static str {
         match self {
@@ -141,9 +141,9 @@ impl<T> Answer<T> {
     }
 }
 
-impl Answer<Made> {
+impl SearchResult<RangeTable> {
     /// The result of all pieces together: a failure of one piece is a failure of all.
-    pub(crate) fn together(pieces: Vec<Self>, number: Number, layout: LayoutName) -> Answer {
+    pub(crate) fn together(pieces: Vec<Self>, number: Number, layout: LayoutName) -> SearchResult {
         let mut tables = Vec::with_capacity(pieces.len());
         let mut meets = true;
         for piece in pieces {
@@ -153,9 +153,9 @@ impl Answer<Made> {
                     meets = false;
                     tables.push(*made);
                 }
-                Self::Refused(error) => return Answer::Refused(error),
-                Self::TooCoarse(error, cells) => return Answer::TooCoarse(error, cells),
-                Self::TooLarge(bytes) => return Answer::TooLarge(bytes),
+                Self::Refused(error) => return SearchResult::Refused(error),
+                Self::TooCoarse(error, cells) => return SearchResult::TooCoarse(error, cells),
+                Self::TooLarge(bytes) => return SearchResult::TooLarge(bytes),
             }
         }
         let all = Box::new(Candidate {
@@ -164,9 +164,9 @@ impl Answer<Made> {
             tables,
         });
         if meets {
-            Answer::Meets(all)
+            SearchResult::Meets(all)
         } else {
-            Answer::Misses(all)
+            SearchResult::Misses(all)
         }
     }
 }

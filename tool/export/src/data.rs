@@ -3,10 +3,10 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use crate::candidate::{Answer, Candidate, Made};
+use crate::candidate::{Candidate, RangeTable, SearchResult};
 use crate::export::Export;
 use crate::figures::{headroom, rust_call, rust_type};
-use crate::proven::Proven;
+use crate::proof_result::ProofResult;
 use jred_file::model::coordinate::Coordinate;
 
 /// Name and version of the form in JSON.
@@ -235,7 +235,7 @@ impl Export {
                 torque: headroom(chosen.usage(|u| u.torque)),
             }),
             error_between_places: match self.proof() {
-                Some(Proven::Bounded(_)) => "proven",
+                Some(ProofResult::Bounded(_)) => "proven",
                 _ => "estimated",
             },
             proof: self.proof().as_ref().map(proof),
@@ -258,13 +258,13 @@ impl Export {
         let answers = self.answers.iter();
         let all = answers.map(|(number, layout, answer)| {
             let found = match answer {
-                Answer::Meets(c) | Answer::Misses(c) => Some(figures(c)),
+                SearchResult::Meets(c) | SearchResult::Misses(c) => Some(figures(c)),
                 _ => None,
             };
             AlternativeData {
                 number: number.name(),
                 layout: layout.name(),
-                meets: matches!(answer, Answer::Meets(_)),
+                meets: matches!(answer, SearchResult::Meets(_)),
                 instructions: self.task.core.instructions(*number, *layout),
                 why: found.is_none().then(|| answer.remark().to_owned()),
                 figures: found,
@@ -273,7 +273,7 @@ impl Export {
         all.collect()
     }
 
-    fn piece(&self, table: &Made) -> PieceData {
+    fn piece(&self, table: &RangeTable) -> PieceData {
         PieceData {
             from: table.range[0],
             to: table.range[1],
@@ -285,12 +285,12 @@ impl Export {
     }
 }
 
-fn proof(proven: &Proven) -> ProofData {
+fn proof(proven: &ProofResult) -> ProofData {
     match proven {
-        Proven::Open(why) => ProofData::Open {
+        ProofResult::Open(why) => ProofData::Open {
             not_proven: why.to_string(),
         },
-        Proven::Bounded(proof) => ProofData::Bounded {
+        ProofResult::Bounded(proof) => ProofData::Bounded {
             table_torque_error: proof.bound,
             tick_torque_error: proof.ticked,
             worst: proof.worst,

@@ -5,16 +5,16 @@ use jred::image::identify;
 use jred::machine::Reducible as _;
 use jred::{Domain, Phase};
 
-use crate::candidate::{Answer, Candidate, Made};
+use crate::candidate::{Candidate, RangeTable, SearchResult};
 use crate::choice::{LayoutChoice, LayoutName, Number};
 use crate::cost::{self, Core};
-use crate::fault::NotReached;
+use crate::directions::MachineByDirection;
+use crate::fault::SearchFailure;
 use crate::pieces::{self, Searches};
-use crate::search::Goal;
+use crate::search::TableRequirements;
 use crate::slider_crank;
 use crate::task::{Failure, Task};
 use crate::ticks;
-use crate::ways::BothWays;
 use jred_file::model::by_motion::ByMotion;
 use jred_file::model::coordinate::Coordinate;
 use jred_file::model::machine::MachineFile;
@@ -43,7 +43,7 @@ pub struct Export {
     /// Whether loads depend on the direction of travel.
     pub(crate) by_direction: bool,
     /// Size of every number type and layout.
-    pub answers: Vec<(Number, LayoutName, Answer)>,
+    pub answers: Vec<(Number, LayoutName, SearchResult)>,
     /// Index of the chosen one.
     pub chosen: usize,
 }
@@ -76,9 +76,9 @@ impl Export {
     /// The same; `provable` excludes layouts that only `auto` would choose and that cannot be proven.
     pub(crate) fn found(file: &MachineFile, task: Task, provable: bool) -> Result<Self, Failure> {
         check_timeless(file)?;
-        let machine = BothWays::new(file, &task)?;
+        let machine = MachineByDirection::new(file, &task)?;
         let coordinate = file.machine.mechanism().coordinate();
-        let goal = Goal {
+        let goal = TableRequirements {
             torque_error: task.torque_error,
             range: [task.omega, task.alpha],
             max_cells: task.max_cells,
@@ -135,7 +135,7 @@ impl Export {
             }
         }
         let Some(chosen) = choose(&task, &answers) else {
-            return Err(NotReached {
+            return Err(SearchFailure {
                 file,
                 coordinate,
                 task: &task,
@@ -148,7 +148,7 @@ impl Export {
         let tables = answers
             .iter_mut()
             .filter_map(|(_, _, answer)| match answer {
-                Answer::Meets(candidate) => Some(&mut candidate.tables),
+                SearchResult::Meets(candidate) => Some(&mut candidate.tables),
                 _ => None,
             });
         for table in tables.flatten() {
@@ -182,19 +182,19 @@ impl Export {
     pub fn chosen(&self) -> &Candidate {
         let answer = self.answers.get(self.chosen).map(|(_, _, answer)| answer);
         match answer {
-            Some(Answer::Meets(candidate)) => candidate,
+            Some(SearchResult::Meets(candidate)) => candidate,
             _ => unreachable!("only what meets the request is chosen"),
         }
     }
 
     /// The table, if it covers the whole range.
-    pub(crate) fn whole(&self) -> Option<&Made> {
+    pub(crate) fn whole(&self) -> Option<&RangeTable> {
         let table = self.chosen().tables.first();
         table.filter(|_| !self.in_pieces)
     }
 
     /// The phase at which a table's range begins.
-    pub fn start(&self, table: &Made) -> Phase {
+    pub fn start(&self, table: &RangeTable) -> Phase {
         self.domain.phase(table.range[0])
     }
 
@@ -211,9 +211,9 @@ pub fn identifier(title: &str) -> u32 {
 
 /// The fastest table that meets the error: of those with up to a tenth more instructions than the fastest on the core, the one with the fewest bytes.
 /// With a limit of bytes, the fewest bytes; without a required error, the least error. Of equal ones, the more accurate.
-fn choose(task: &Task, answers: &[(Number, LayoutName, Answer)]) -> Option<usize> {
+fn choose(task: &Task, answers: &[(Number, LayoutName, SearchResult)]) -> Option<usize> {
     let own = answers.iter().enumerate().filter_map(|(k, answer)| {
-        let (number, layout, Answer::Meets(candidate)) = answer else {
+        let (number, layout, SearchResult::Meets(candidate)) = answer else {
             return None;
         };
         let asked = *number == task.number && task.layout.allows(*layout);

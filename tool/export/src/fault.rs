@@ -7,7 +7,7 @@ use jred::number::RangeError;
 use jred::table::{MAX_CELLS, TableError};
 use jred::{Cubic, Quadratic, Spline};
 
-use crate::candidate::{Answer, Candidate, Made};
+use crate::candidate::{Candidate, RangeTable, SearchResult};
 use crate::choice::{LayoutName, Number};
 use crate::pieces::Searches;
 use crate::place::{Feature, feature};
@@ -18,25 +18,25 @@ use jred_file::model::machine::MachineFile;
 use jred_file::number::rounding::{rounded, short};
 
 /// A search without a result.
-pub(crate) struct NotReached<'f> {
+pub(crate) struct SearchFailure<'f> {
     pub(crate) file: &'f MachineFile,
     pub(crate) coordinate: Coordinate,
     pub(crate) task: &'f Task,
     pub(crate) search: &'f Searches<'f>,
-    pub(crate) answers: &'f [(Number, LayoutName, Answer)],
+    pub(crate) answers: &'f [(Number, LayoutName, SearchResult)],
 }
 
 /// Obstacles to a more accurate table.
-enum Limit {
+enum AccuracyLimit {
     /// The number type.
     Rounding,
     /// The number of cells: the error falls with this power of it, if it falls.
     Cells(Option<f64>),
 }
 
-impl NotReached<'_> {
+impl SearchFailure<'_> {
     pub(crate) fn failure(&self) -> Result<Failure, Error> {
-        let own: Vec<&Answer> = self
+        let own: Vec<&SearchResult> = self
             .answers
             .iter()
             .filter(|(number, layout, _)| {
@@ -46,13 +46,15 @@ impl NotReached<'_> {
             .collect();
         // Harmonics have their own messages.
         if let [
-            Answer::Refused(error @ (Error::Harmonic(_) | Error::Table(TableError::ShortRod))),
+            SearchResult::Refused(
+                error @ (Error::Harmonic(_) | Error::Table(TableError::ShortRod)),
+            ),
         ] = own[..]
         {
             let text = format!("{error}; {}", error.cure());
             return Ok(Failure::NotReached(text));
         }
-        if let Some(Answer::Refused(Error::Table(TableError::PieceUnits))) = own.first() {
+        if let Some(SearchResult::Refused(Error::Table(TableError::PieceUnits))) = own.first() {
             return Ok(Failure::Impossible {
                 message: format!(
                     "the tables of pieces share their machine units, which for {} go with the width of a cell, and these edges \
@@ -65,7 +67,7 @@ impl NotReached<'_> {
             });
         }
         let misses = own.iter().filter_map(|answer| match answer {
-            Answer::Misses(candidate) => Some(candidate.as_ref()),
+            SearchResult::Misses(candidate) => Some(candidate.as_ref()),
             _ => None,
         });
         let mut misses: Vec<&Candidate> = misses.collect();
@@ -79,7 +81,7 @@ impl NotReached<'_> {
             }
             // All are refused.
             let refused = own.iter().find_map(|answer| match answer {
-                Answer::Refused(error) => Some(*error),
+                SearchResult::Refused(error) => Some(*error),
                 _ => None,
             });
             return Ok(Failure::Machine(refused.unwrap_or(
@@ -105,7 +107,7 @@ impl NotReached<'_> {
         let coarse = self.answers.iter().filter_map(|(number, layout, answer)| {
             let asked = *number == self.task.number && self.task.layout.allows(*layout);
             match answer {
-                Answer::TooCoarse(error, cells) if asked => Some((layout, error, *cells)),
+                SearchResult::TooCoarse(error, cells) if asked => Some((layout, error, *cells)),
                 _ => None,
             }
         });
@@ -156,14 +158,14 @@ impl NotReached<'_> {
                 self.piece(worst.table)
             );
             match worst.limit(self.task)? {
-                Limit::Rounding => {
+                AccuracyLimit::Rounding => {
                     let _ = write!(
                         text,
                         "; this is the rounding floor of {number}: more {} do not lower it",
                         candidate.layout.counted()
                     );
                 }
-                Limit::Cells(Some(order)) => {
+                AccuracyLimit::Cells(Some(order)) => {
                     let _ = write!(
                         text,
                         "; the error falls with the number of cells to the power of {order:.1}"
@@ -183,7 +185,7 @@ impl NotReached<'_> {
                         let _ = write!(text, "; at this rate, even {MAX_CELLS} are too few");
                     }
                 }
-                Limit::Cells(None) => {
+                AccuracyLimit::Cells(None) => {
                     let _ = write!(
                         text,
                         "; more {} hardly lower it",
@@ -196,7 +198,7 @@ impl NotReached<'_> {
         let Some(piece) = self.worst(best) else {
             return Ok(text);
         };
-        let rounding = matches!(piece.limit(self.task)?, Limit::Rounding);
+        let rounding = matches!(piece.limit(self.task)?, AccuracyLimit::Rounding);
         let (worst, cells) = (piece.table.found.worst, piece.table.found.cells);
         let _ = write!(
             text,
@@ -237,10 +239,10 @@ impl NotReached<'_> {
     }
 
     /// The range with the largest excess.
-    fn worst<'a>(&'a self, candidate: &'a Candidate) -> Option<Worst<'a>> {
+    fn worst<'a>(&'a self, candidate: &'a Candidate) -> Option<WorstRange<'a>> {
         let ranges = self.search.ranges.iter().zip(&candidate.tables);
         let (search, table) = ranges.max_by(|a, b| a.1.error.total_cmp(&b.1.error))?;
-        Some(Worst {
+        Some(WorstRange {
             search,
             table,
             layout: candidate.layout,
@@ -248,7 +250,7 @@ impl NotReached<'_> {
     }
 
     /// Names the piece of a table among several.
-    fn piece(&self, table: &Made) -> String {
+    fn piece(&self, table: &RangeTable) -> String {
         let [from, to] = table.range.map(|end| self.coordinate.place(end));
         match self.search.ranges.len() {
             1 => String::new(),
@@ -257,7 +259,12 @@ impl NotReached<'_> {
     }
 
     /// The feature within one and a half cells of a position.
-    fn feature(&self, piece: &Worst<'_>, at: f64, cells: u32) -> Result<Option<Feature>, Error> {
+    fn feature(
+        &self,
+        piece: &WorstRange<'_>,
+        at: f64,
+        cells: u32,
+    ) -> Result<Option<Feature>, Error> {
         let near = 1.5 * piece.search.domain.span() / f64::from(cells);
         let found = feature(self.file, self.search.machine, self.coordinate, at, near)?;
         // For pieces, the cure is a cut there.
@@ -278,7 +285,7 @@ impl NotReached<'_> {
                 .answers
                 .iter()
                 .filter_map(|(n, _, answer)| match answer {
-                    Answer::Meets(c) if *n == number => Some(c.as_ref()),
+                    SearchResult::Meets(c) if *n == number => Some(c.as_ref()),
                     _ => None,
                 });
             let best = found.min_by_key(|candidate| candidate.bytes())?;
@@ -302,10 +309,10 @@ impl NotReached<'_> {
             .collect()
     }
 
-    fn none_fits(&self, most: u32, own: &[&Answer], best: Option<&Candidate>) -> Failure {
+    fn none_fits(&self, most: u32, own: &[&SearchResult], best: Option<&Candidate>) -> Failure {
         let number = self.task.number.name();
         let smallest = own.iter().filter_map(|answer| match answer {
-            Answer::TooLarge(bytes) => Some(*bytes),
+            SearchResult::TooLarge(bytes) => Some(*bytes),
             _ => None,
         });
         let message = match (best, self.task.torque_error, smallest.min()) {
@@ -336,13 +343,13 @@ impl NotReached<'_> {
 }
 
 /// The range in which the tables of a layout exceed the error most.
-struct Worst<'f> {
+struct WorstRange<'f> {
     search: &'f Search<'f>,
-    table: &'f Made,
+    table: &'f RangeTable,
     layout: LayoutName,
 }
 
-impl Worst<'_> {
+impl WorstRange<'_> {
     /// The torque error in double precision, and its position.
     fn without_rounding(&self, cells: u32) -> Result<(f64, f64), Error> {
         match self.layout {
@@ -358,19 +365,19 @@ impl Worst<'_> {
         }
     }
 
-    fn limit(&self, task: &Task) -> Result<Limit, Error> {
+    fn limit(&self, task: &Task) -> Result<AccuracyLimit, Error> {
         // Share of the actual or of the allowed error from which rounding is the obstacle.
         const SHARE: f64 = 0.5;
         if self.layout == LayoutName::SliderCrank {
-            return Ok(Limit::Rounding);
+            return Ok(AccuracyLimit::Rounding);
         }
         // With any number of coefficients: their ticks are too inaccurate, or there is an edge.
         if self.layout == LayoutName::Harmonic {
             let ticks = self.table.looked <= task.torque_error.unwrap_or_default();
             return Ok(if ticks {
-                Limit::Rounding
+                AccuracyLimit::Rounding
             } else {
-                Limit::Cells(None)
+                AccuracyLimit::Cells(None)
             });
         }
         let without = |cells| self.without_rounding(cells).map(|(error, _)| error);
@@ -380,7 +387,7 @@ impl Worst<'_> {
         let larger = cells + cells.div_ceil(4) <= task.max_cells;
         let closer = larger && without(task.max_cells)? < SHARE * bound;
         if closer || error < SHARE * bound {
-            return Ok(Limit::Rounding);
+            return Ok(AccuracyLimit::Rounding);
         }
         // The largest error of a curve with a kink fluctuates with the place of the kink in its cell: the mean of a few sizes.
         let mean = |cells: u32| -> Result<f64, Error> {
@@ -397,10 +404,10 @@ impl Worst<'_> {
             Ok(sum / 4.0)
         };
         if cells < 16 {
-            return Ok(Limit::Cells(Some(3.0)));
+            return Ok(AccuracyLimit::Cells(Some(3.0)));
         }
         let order = (mean(cells / 2)? - mean(cells)?) / 2f64.ln();
-        Ok(Limit::Cells((order > 0.25).then_some(order)))
+        Ok(AccuracyLimit::Cells((order > 0.25).then_some(order)))
     }
 }
 

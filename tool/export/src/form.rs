@@ -4,14 +4,14 @@ use std::fmt::Write as _;
 
 use jred::Domain;
 
-use crate::candidate::Made;
+use crate::candidate::RangeTable;
 use crate::export::Export;
 use crate::figures::full_rust_arguments;
 use crate::name::Name;
 
 jred_file::words! {
     /// Output format of an export.
-    pub enum Form default Image {
+    pub enum OutputForm default Image {
         /// The binary image, for `include_image!` or a flash region.
         Image = "image",
         /// A Rust source file with the image as a `static` array of words.
@@ -28,19 +28,19 @@ const INDENT: &str = "    ";
 impl Export {
     /// The table in one of the forms; `None` for several pieces as one image. In C its names begin with `name`, or with the name of the file `out`.
     /// In Rust it is in a module `name`, or at the top level of its file.
-    pub fn write(&self, form: Form, name: Option<&Name>, out: &str) -> Option<Vec<u8>> {
+    pub fn write(&self, form: OutputForm, name: Option<&Name>, out: &str) -> Option<Vec<u8>> {
         let tables = &self.chosen().tables;
         let named = name.cloned().unwrap_or_else(|| Name::of_file(out));
         Some(match (form, self.whole()) {
-            (Form::Image, Some(table)) => {
+            (OutputForm::Image, Some(table)) => {
                 table.words.iter().flat_map(|w| w.to_le_bytes()).collect()
             }
-            (Form::Image, None) => return None,
-            (Form::Rust, Some(table)) => self.source(&module(name, &self.rust_whole(table))),
-            (Form::Rust, None) => self.source(&module(name, &self.rust_pieces(tables))),
-            (Form::C, Some(table)) => self.source(&self.c_table(table, &named)),
-            (Form::C, None) => self.source(&self.c_pieces(tables, &named)),
-            (Form::Json, _) => format!("{:#}\n", serde_json::json!(self.data())).into_bytes(),
+            (OutputForm::Image, None) => return None,
+            (OutputForm::Rust, Some(table)) => self.source(&module(name, &self.rust_whole(table))),
+            (OutputForm::Rust, None) => self.source(&module(name, &self.rust_pieces(tables))),
+            (OutputForm::C, Some(table)) => self.source(&self.c_table(table, &named)),
+            (OutputForm::C, None) => self.source(&self.c_pieces(tables, &named)),
+            (OutputForm::Json, _) => format!("{:#}\n", serde_json::json!(self.data())).into_bytes(),
         })
     }
 
@@ -55,7 +55,7 @@ impl Export {
     }
 
     /// A table with the type of its model, which the compiler checks.
-    fn rust_whole(&self, table: &Made) -> String {
+    fn rust_whole(&self, table: &RangeTable) -> String {
         let arguments = full_rust_arguments(self.chosen());
         format!(
             "/// Identifier of the machine: `Image::of_machine` refuses the image of another.\n\
@@ -77,7 +77,7 @@ impl Export {
     }
 
     /// A table for each piece, and a function that combines them.
-    fn rust_pieces(&self, tables: &[Made]) -> String {
+    fn rust_pieces(&self, tables: &[RangeTable]) -> String {
         let arguments = full_rust_arguments(self.chosen());
         let mut text = format!(
             "/// Identifier of the machine: `Image::of_machine` refuses the image of another.\n\

@@ -9,7 +9,7 @@ use jred::table::{Shape, Table, Usage, words_len};
 use jred::tabulate::{Request, TableFigures};
 use jred::{CurveSet, Harmonic, Image, Scale};
 
-use crate::candidate::{Answer, Made};
+use crate::candidate::{RangeTable, SearchResult};
 use crate::search::Search;
 use crate::search::rounded_up;
 use crate::ticks;
@@ -24,13 +24,13 @@ impl Search<'_> {
     ///
     /// # Errors
     /// Errors of the machine.
-    pub(crate) fn harmonics(&self) -> Result<Answer<Made>, Error> {
+    pub(crate) fn harmonics(&self) -> Result<SearchResult<RangeTable>, Error> {
         let most = self.goal.max_cells.min(MAX_HARMONICS);
         let mut scratch = vec![0.0; scratch_len(most)];
         let set = match terms_in_use(&self.machine, self.set, most, &mut scratch) {
             Ok(terms) => self.set | terms,
             // A stroke.
-            Err(error @ Error::Harmonic(_)) => return Ok(Answer::Refused(error)),
+            Err(error @ Error::Harmonic(_)) => return Ok(SearchResult::Refused(error)),
             Err(error) => return Err(error),
         };
         let bytes = |harmonics: u32| 4 * image_len::<F>(harmonics, set);
@@ -40,23 +40,25 @@ impl Search<'_> {
                 .is_none_or(|most| bytes(*harmonics) <= most)
         };
         let Some(most) = (0..=most).rev().find(fits) else {
-            return Ok(Answer::TooLarge(bytes(0)));
+            return Ok(SearchResult::TooLarge(bytes(0)));
         };
         // Without a limit on the torque error, the tolerance starts at the largest torque and is halved until even the most harmonics miss it.
         // With a limit it is reduced slightly, repeatedly.
         let [omega, alpha] = self.goal.range;
-        let peak = |place: &crate::reference::Place| place.exact.torque(omega, alpha).total().abs();
+        let peak = |place: &crate::reference::ReferencePoint| {
+            place.exact.torque(omega, alpha).total().abs()
+        };
         let peaks = self.reference.places.iter().map(peak);
         let allowed = self.goal.torque_error;
         let (mut asked, less, attempts) = match allowed {
             Some(allowed) => (allowed, 0.8, ATTEMPTS),
             None => (peaks.fold(0.0, f64::max), 0.5, u32::MAX),
         };
-        let (mut best, mut refused): (Option<Made>, _) = (None, None);
+        let (mut best, mut refused): (Option<RangeTable>, _) = (None, None);
         for _ in 0..attempts {
             match self.fitted(set, most, asked) {
                 Ok(found) if allowed.is_some_and(|allowed| found.error <= allowed) => {
-                    return Ok(Answer::Meets(Box::new(found)));
+                    return Ok(SearchResult::Meets(Box::new(found)));
                 }
                 Ok(found) => {
                     if best.as_ref().is_none_or(|best| found.error < best.error) {
@@ -73,14 +75,14 @@ impl Search<'_> {
         }
         let sound = RangeError::NotFinite("torque error of the harmonics");
         Ok(match (best, allowed) {
-            (None, _) => Answer::Refused(refused.unwrap_or(sound.into())),
-            (Some(best), None) => Answer::Meets(Box::new(best)),
-            (Some(best), Some(_)) => Answer::Misses(Box::new(best)),
+            (None, _) => SearchResult::Refused(refused.unwrap_or(sound.into())),
+            (Some(best), None) => SearchResult::Meets(Box::new(best)),
+            (Some(best), Some(_)) => SearchResult::Misses(Box::new(best)),
         })
     }
 
     /// The fewest harmonics whose coefficients meet this error, and the accuracy of their ticks.
-    fn fitted(&self, set: CurveSet, most: u32, torque_error: f64) -> Result<Made, Error> {
+    fn fitted(&self, set: CurveSet, most: u32, torque_error: f64) -> Result<RangeTable, Error> {
         let [omega, alpha] = self.goal.range;
         let request = Request::new(torque_error)
             .with_max_speed(omega)
@@ -115,7 +117,7 @@ impl Search<'_> {
         let mut found = TableFigures::default();
         found.cells = fitted.harmonics;
         (found.torque_error, found.bound, found.worst) = (measured, bound, worst);
-        Ok(Made {
+        Ok(RangeTable {
             range: self.machine.ends(),
             curves: set,
             found,

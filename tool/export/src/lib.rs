@@ -4,7 +4,7 @@
 //! knows those before it; [`Export`] is the result of the search:
 //!
 //! 1. `choice`, `cost`, `task`: number types, layouts, cores; the request.
-//! 2. `ways`, `reference`, `ticks`, `search`, `pieces`: the machine's exact curves, and the sizes that are tried.
+//! 2. `directions`, `reference`, `ticks`, `search`, `pieces`: the machine's exact curves, and the sizes that are tried.
 //! 3. `export`: the chosen table. `enclose` and `proof`: the machine's curves in intervals, and a bound of the error at every position.
 //! 4. `form`, [`data`]: the table as image, Rust, C, JSON.
 #![forbid(unsafe_code)]
@@ -14,6 +14,7 @@ mod candidate;
 mod choice;
 mod cost;
 pub mod data;
+mod directions;
 mod enclose;
 mod export;
 mod fault;
@@ -25,23 +26,22 @@ mod pieces;
 mod place;
 mod plan;
 mod proof;
-mod proven;
+mod proof_result;
 mod reference;
 mod search;
 mod slider_crank;
 mod task;
 mod ticks;
-mod ways;
 
 pub use c_source::plan_c_source;
-pub use candidate::{Answer, Candidate, Made};
+pub use candidate::{Candidate, RangeTable, SearchResult};
 pub use choice::{Choice, LayoutChoice, LayoutName, Number};
 pub use cost::Core;
 pub use export::{Export, identifier};
-pub use form::Form;
+pub use form::OutputForm;
 pub use name::Name;
 pub use plan::plan_source;
-pub use proven::Proven;
+pub use proof_result::ProofResult;
 pub use search::EXHAUSTIVE;
 pub use task::{Failure, Task};
 pub use ticks::Ticks;

@@ -10,11 +10,11 @@ use jred::table::{Format, TableError};
 use jred::tabulate::{self, Part};
 use jred::{Cubic, CurveSet, Domain, Q31, Quadratic, Rows16, Spline, Spline16, curves};
 
-use crate::candidate::Answer;
+use crate::candidate::SearchResult;
 use crate::choice::{LayoutName, Number, PLACES};
+use crate::directions::MachineByDirection;
 use crate::reference::Range;
-use crate::search::{Goal, Search};
-use crate::ways::BothWays;
+use crate::search::{Search, TableRequirements};
 
 /// Edges closer than this share of the range are one.
 const SAME: f64 = 1e-9;
@@ -55,10 +55,10 @@ pub(crate) fn between(domain: Domain, edges: &[f64]) -> Vec<[f64; 2]> {
 
 /// The searches of all ranges of a machine: of the whole, or of each piece.
 pub(crate) struct Searches<'m> {
-    pub(crate) machine: &'m BothWays,
+    pub(crate) machine: &'m MachineByDirection,
     /// The same machine in closed form, if it has one.
     pub(crate) crank: Option<Machine<SliderCrank>>,
-    pub(crate) goal: Goal,
+    pub(crate) goal: TableRequirements,
     set: CurveSet,
     pub(crate) ranges: Vec<Search<'m>>,
 }
@@ -69,10 +69,10 @@ impl<'m> Searches<'m> {
     /// # Errors
     /// The machine cannot be tabulated.
     pub(crate) fn new(
-        machine: &'m BothWays,
+        machine: &'m MachineByDirection,
         crank: Option<Machine<SliderCrank>>,
         pieces: &[[f64; 2]],
-        goal: Goal,
+        goal: TableRequirements,
     ) -> Result<Self, Error> {
         let domain = machine.domain();
         if domain == Domain::Turn {
@@ -97,7 +97,7 @@ impl<'m> Searches<'m> {
     }
 
     /// Result of the search for a number type and one of its layouts.
-    pub(crate) fn answer(&self, number: Number, layout: LayoutName) -> Result<Answer, Error> {
+    pub(crate) fn answer(&self, number: Number, layout: LayoutName) -> Result<SearchResult, Error> {
         match (number, layout) {
             (Number::F32, LayoutName::Harmonic) => self.harmonics(),
             (Number::F32, LayoutName::SliderCrank) => self.slider_crank(),
@@ -120,7 +120,7 @@ impl<'m> Searches<'m> {
         &self,
         number: Number,
         layout: LayoutName,
-    ) -> Result<Answer, Error> {
+    ) -> Result<SearchResult, Error> {
         let reciprocal = if self.goal.reciprocal && F::accepts(curves::RECIPROCAL) {
             curves::RECIPROCAL
         } else {
@@ -134,7 +134,7 @@ impl<'m> Searches<'m> {
             let span = self.machine.domain().span();
             let shares = self.ranges.iter().map(|range| range.domain.span() / span);
             let Some(common) = common_cells(&shares.collect::<Vec<f64>>()) else {
-                return Ok(Answer::Refused(TableError::PieceUnits.into()));
+                return Ok(SearchResult::Refused(TableError::PieceUnits.into()));
             };
             scale = scale.for_cells(common.0, span);
             steps = common.1.into_iter().map(Some).collect();
@@ -142,28 +142,32 @@ impl<'m> Searches<'m> {
         let ranges = self.ranges.iter().zip(steps);
         let answers = ranges.map(|(range, step)| range.run::<F>(set, scale, step));
         let answers = answers.collect::<Result<_, Error>>()?;
-        Ok(Answer::together(answers, number, layout))
+        Ok(SearchResult::together(answers, number, layout))
     }
 
     /// The harmonics of each range.
     ///
     /// # Errors
     /// Errors of the machine.
-    pub(crate) fn harmonics(&self) -> Result<Answer, Error> {
+    pub(crate) fn harmonics(&self) -> Result<SearchResult, Error> {
         let answers = self.ranges.iter().map(Search::harmonics);
         let answers = answers.collect::<Result<_, Error>>()?;
-        Ok(Answer::together(answers, Number::F32, LayoutName::Harmonic))
+        Ok(SearchResult::together(
+            answers,
+            Number::F32,
+            LayoutName::Harmonic,
+        ))
     }
 
     /// The closed form, if the machine has one.
     ///
     /// # Errors
     /// Errors of the machine.
-    pub(crate) fn slider_crank(&self) -> Result<Answer, Error> {
+    pub(crate) fn slider_crank(&self) -> Result<SearchResult, Error> {
         let ranges = self.ranges.iter().zip(&self.crank);
         let answers = ranges.map(|(range, crank)| range.slider_crank(crank));
         let answers = answers.collect::<Result<_, Error>>()?;
-        Ok(Answer::together(
+        Ok(SearchResult::together(
             answers,
             Number::F32,
             LayoutName::SliderCrank,

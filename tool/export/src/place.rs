@@ -93,13 +93,13 @@ fn piece_end(file: &MachineFile, coordinate: Coordinate, at: f64, near: f64) -> 
 }
 
 /// Name of a curve in messages.
-type Name = fn(Coordinate) -> String;
+type CurveName = fn(Coordinate) -> String;
 
 /// A curve of the reduced machine.
-type Curve = fn(&Reduction) -> f64;
+type CurveValue = fn(&Reduction) -> f64;
 
 /// The curves that a table follows.
-const CURVES: [(Name, Curve); 5] = [
+const CURVES: [(CurveName, CurveValue); 5] = [
     (|c| c.inertia().to_owned(), |r| r.inertia),
     (|c| format!("{}'", c.inertia()), |r| r.inertia_slope),
     (|_| "the curve of load".to_owned(), |r| r.load_torque()),
@@ -151,7 +151,7 @@ fn narrow(
     const PARTS: u32 = 16;
     const DEPTH: u32 = 8;
     // In an interval of three parts of the last one, the value is 150 times smaller for a smooth curve, 5 times for a kink.
-    const KEPT: f64 = 0.5;
+    const JUMP_SHARE: f64 = 0.5;
     let mut first = None;
     for depth in 0..DEPTH {
         if depth > 1 && to - from < finest * f64::from(PARTS) {
@@ -170,7 +170,7 @@ fn narrow(
             return Ok(None);
         };
         // Only rounding, or smooth.
-        if step <= 1e-6 * size || step < KEPT * *first.get_or_insert(step) {
+        if step <= 1e-6 * size || step < JUMP_SHARE * *first.get_or_insert(step) {
             return Ok(None);
         }
         (from, to) = (at(k - 1), at(k + 2));

@@ -5,13 +5,13 @@ use jred::image::{Validity, encode, identify};
 use jred::machine::Reducible as _;
 use jred::table::Format;
 use jred::{Cubic, Domain, Image, Q31, Quadratic, Rows16, Spline, Spline16};
-use jred_enclosure::{Goal, Proof, Unproven, prove};
+use jred_enclosure::{Goal, Proof, ProofError, prove};
 
-use crate::candidate::{Answer, Made};
+use crate::candidate::{RangeTable, SearchResult};
 use crate::choice::{LayoutName, Number};
-use crate::enclose::Enclosed;
+use crate::enclose::EnclosedMachine;
 use crate::export::Export;
-use crate::proven::Proven;
+use crate::proof_result::ProofResult;
 use crate::search::rounded_up;
 use crate::task::{Failure, Task};
 use crate::ticks;
@@ -80,9 +80,10 @@ impl Export {
     ) -> Result<(), Error> {
         if self.by_direction {
             let why = "loads go by the direction of travel, and the proof is of one machine";
-            if let Some((_, _, Answer::Meets(candidate))) = self.answers.get_mut(self.chosen) {
+            if let Some((_, _, SearchResult::Meets(candidate))) = self.answers.get_mut(self.chosen)
+            {
                 for made in &mut candidate.tables {
-                    made.proof = Some(Proven::Open(Unproven::Part(why.to_owned())));
+                    made.proof = Some(ProofResult::Open(ProofError::Part(why.to_owned())));
                 }
             }
             return Ok(());
@@ -91,9 +92,9 @@ impl Export {
         let (number, layout) = self.kind();
         let range = [self.task.omega, self.task.alpha];
         let edges: Vec<f64> = (0..).map_while(|k| machine.edge(k)).collect();
-        let enclosed = Enclosed::new(&machine);
+        let enclosed = EnclosedMachine::new(&machine);
         let (id, allowed, domain) = (self.machine, self.task.torque_error, self.domain);
-        let Some((_, _, Answer::Meets(candidate))) = self.answers.get_mut(self.chosen) else {
+        let Some((_, _, SearchResult::Meets(candidate))) = self.answers.get_mut(self.chosen) else {
             return Ok(());
         };
         let count = candidate.tables.len() as f64;
@@ -115,10 +116,10 @@ impl Export {
                 Err(why) => Err(why.clone()),
             };
             made.proof = Some(match found {
-                Ok(proof) => Proven::Bounded(proof),
-                Err(why) => Proven::Open(why),
+                Ok(proof) => ProofResult::Bounded(proof),
+                Err(why) => ProofResult::Open(why),
             });
-            if let Some(bound) = made.proof.as_ref().and_then(Proven::bound) {
+            if let Some(bound) = made.proof.as_ref().and_then(ProofResult::bound) {
                 state(number, layout, made, bound)?;
                 identify(&mut made.words, id).map_err(ticks::refusal)?;
             }
@@ -127,20 +128,20 @@ impl Export {
     }
 
     /// The proof of all tables together: the largest bounds, or the reason for their absence.
-    pub fn proof(&self) -> Option<Proven> {
+    pub fn proof(&self) -> Option<ProofResult> {
         let all = self.chosen().tables.iter().map(|table| table.proof.clone());
         all.reduce(|a, b| {
             Some(match (a?, b?) {
-                (Proven::Bounded(a), Proven::Bounded(b)) => {
+                (ProofResult::Bounded(a), ProofResult::Bounded(b)) => {
                     let worse = if b.bound > a.bound { b } else { a };
-                    Proven::Bounded(Proof {
+                    ProofResult::Bounded(Proof {
                         ticked: a.ticked.zip(b.ticked).map(|(a, b)| a.max(b)),
                         least: a.least.max(b.least),
                         stretches: a.stretches + b.stretches,
                         ..worse
                     })
                 }
-                (open @ Proven::Open(_), _) | (_, open) => open,
+                (open @ ProofResult::Open(_), _) | (_, open) => open,
             })
         })?
     }
@@ -154,8 +155,8 @@ impl Export {
         let effort = coordinate.effort_unit();
         match self.proof() {
             None => String::new(),
-            Some(Proven::Open(why)) => format!("not proven: {why}\n"),
-            Some(Proven::Bounded(proof)) => {
+            Some(ProofResult::Open(why)) => format!("not proven: {why}\n"),
+            Some(ProofResult::Bounded(proof)) => {
                 let ticks = match proof.ticked {
                     Some(ticked) => format!("ticks within {} {effort}", bound(ticked)),
                     None => "the arithmetic of its ticks is not proven".to_owned(),
@@ -175,7 +176,7 @@ impl Export {
         let coordinate = self.coordinate;
         let effort = coordinate.effort_unit();
         match (self.proof(), self.task.torque_error) {
-            (Some(found @ Proven::Bounded(proof)), Some(allowed)) => format!(
+            (Some(found @ ProofResult::Bounded(proof)), Some(allowed)) => format!(
                 "the proven {} error, {} {effort} near {} {}, is above the {} {effort} allowed",
                 self.effort(),
                 bound(found.bound().unwrap_or(proof.bound)),
@@ -192,13 +193,13 @@ impl Export {
 fn of_type(
     number: Number,
     layout: LayoutName,
-    made: &Made,
+    made: &RangeTable,
     goal: &Goal<'_>,
-    enclosed: &Enclosed<'_>,
+    enclosed: &EnclosedMachine<'_>,
     watch: &mut dyn FnMut(f64) -> bool,
-) -> Result<Result<Proof, Unproven>, Error> {
+) -> Result<Result<Proof, ProofError>, Error> {
     match (number, layout) {
-        (_, LayoutName::Harmonic | LayoutName::SliderCrank) => Ok(Err(Unproven::Layout {
+        (_, LayoutName::Harmonic | LayoutName::SliderCrank) => Ok(Err(ProofError::Layout {
             layout: layout.name(),
         })),
         (Number::F32, LayoutName::Cubic) => of::<Cubic<f32>>(made, goal, enclosed, watch),
@@ -214,11 +215,11 @@ fn of_type(
 
 /// The error of a table of this format, as contained in its image.
 fn of<F: Format>(
-    made: &Made,
+    made: &RangeTable,
     goal: &Goal<'_>,
-    enclosed: &Enclosed<'_>,
+    enclosed: &EnclosedMachine<'_>,
     watch: &mut dyn FnMut(f64) -> bool,
-) -> Result<Result<Proof, Unproven>, Error> {
+) -> Result<Result<Proof, ProofError>, Error> {
     let image = Image::new(&made.words).map_err(ticks::refusal)?;
     let table = image.table::<F>().map_err(ticks::refusal)?;
     let curves = |stretch| enclosed.curves(stretch);
@@ -232,7 +233,12 @@ fn of<F: Format>(
 }
 
 /// Writes the proven error into the image.
-fn state(number: Number, layout: LayoutName, made: &mut Made, error: f64) -> Result<(), Error> {
+fn state(
+    number: Number,
+    layout: LayoutName,
+    made: &mut RangeTable,
+    error: f64,
+) -> Result<(), Error> {
     match (number, layout) {
         (Number::F32, LayoutName::Cubic) => stated::<Cubic<f32>>(made, error),
         (Number::F32, LayoutName::Quadratic) => stated::<Quadratic<f32>>(made, error),
@@ -245,7 +251,7 @@ fn state(number: Number, layout: LayoutName, made: &mut Made, error: f64) -> Res
     }
 }
 
-fn stated<F: Format>(made: &mut Made, error: f64) -> Result<(), Error> {
+fn stated<F: Format>(made: &mut RangeTable, error: f64) -> Result<(), Error> {
     let image = Image::new(&made.words).map_err(ticks::refusal)?;
     let table = image.table::<F>().map_err(ticks::refusal)?;
     let validity = Validity {

@@ -10,7 +10,7 @@ use jred::table::CurveValues;
 use jred::tabulate::{Part, Request, edge_places, torque_between};
 use jred::{Domain, Phase};
 
-use crate::ways::BothWays;
+use crate::directions::MachineByDirection;
 
 /// Places of the range, a prime number: it has no common divisor with a number of cells, so the places fall on every part of a cell.
 const PLACES: u32 = 16_381;
@@ -19,9 +19,9 @@ const PLACES: u32 = 16_381;
 #[derive(Clone, Copy)]
 pub(crate) enum Range<'m> {
     /// The machine's whole range.
-    Whole(&'m BothWays),
+    Whole(&'m MachineByDirection),
     /// A piece of it.
-    Part(Part<'m, BothWays>),
+    Part(Part<'m, MachineByDirection>),
 }
 
 impl Range<'_> {
@@ -73,14 +73,14 @@ impl Reducible for Range<'_> {
 }
 
 /// A machine with a cache of its knots, which tables of different types and layouts share.
-pub(crate) struct Remembered<M> {
+pub(crate) struct KnotCache<M> {
     machine: M,
     knots: RefCell<HashMap<u64, Reduction>>,
     most: usize,
     repeats: OnceCell<Result<(), PoseError>>,
 }
 
-impl<M: Reducible> Remembered<M> {
+impl<M: Reducible> KnotCache<M> {
     /// Caches at most this many knots; then it clears the cache.
     pub(crate) fn new(machine: M, most: usize) -> Self {
         Self {
@@ -92,7 +92,7 @@ impl<M: Reducible> Remembered<M> {
     }
 }
 
-impl<M: Reducible> Reducible for Remembered<M> {
+impl<M: Reducible> Reducible for KnotCache<M> {
     fn domain(&self) -> Domain {
         self.machine.domain()
     }
@@ -121,7 +121,7 @@ impl<M: Reducible> Reducible for Remembered<M> {
 
 /// The exact curves at one place.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Place {
+pub(crate) struct ReferencePoint {
     pub(crate) phase: Phase,
     /// Position (rad, or m).
     pub(crate) phi: f64,
@@ -131,7 +131,7 @@ pub(crate) struct Place {
 /// The exact curves at places over the whole range, at its edges and between them.
 #[derive(Clone, Debug)]
 pub(crate) struct Reference {
-    pub(crate) places: Vec<Place>,
+    pub(crate) places: Vec<ReferencePoint>,
 }
 
 impl Reference {
@@ -145,7 +145,7 @@ impl Reference {
         let place = |phase: Phase| {
             let phi = domain.position(f64::from(phase.to_bits()) / 4_294_967_296.0);
             let exact = machine.reduction(phi)?;
-            Ok(Place { phase, phi, exact })
+            Ok(ReferencePoint { phase, phi, exact })
         };
         let places = even
             .chain(edges)

@@ -12,8 +12,8 @@ use jred::table::{Format, MAX_CELLS, MIN_CELLS, TableError};
 use jred::tabulate::{self, Request};
 use jred::{CurveSet, Domain, Scale};
 
-use crate::candidate::{Answer, Made};
-use crate::reference::{Range, Reference, Remembered};
+use crate::candidate::{RangeTable, SearchResult};
+use crate::reference::{KnotCache, Range, Reference};
 use size::{Buffers, Size, bytes};
 
 mod size;
@@ -25,7 +25,7 @@ pub const EXHAUSTIVE: u32 = 512;
 
 /// The request.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Goal {
+pub(crate) struct TableRequirements {
     /// Largest error of the drive torque (N·m); without it, the least possible one.
     pub(crate) torque_error: Option<f64>,
     /// Largest speed and acceleration.
@@ -41,10 +41,10 @@ pub(crate) struct Goal {
 /// Searches for tables of one range.
 pub(crate) struct Search<'m> {
     pub(crate) machine: Range<'m>,
-    pub(crate) knots: Remembered<Range<'m>>,
+    pub(crate) knots: KnotCache<Range<'m>>,
     pub(crate) domain: Domain,
     pub(crate) reference: Reference,
-    pub(crate) goal: Goal,
+    pub(crate) goal: TableRequirements,
     pub(crate) set: CurveSet,
 }
 
@@ -53,12 +53,12 @@ impl<'m> Search<'m> {
     pub(crate) fn new(
         machine: Range<'m>,
         set: CurveSet,
-        goal: Goal,
+        goal: TableRequirements,
         most_knots: usize,
     ) -> Result<Self, Error> {
         Ok(Self {
             machine,
-            knots: Remembered::new(machine, most_knots),
+            knots: KnotCache::new(machine, most_knots),
             domain: machine.domain(),
             reference: Reference::new(&machine)?,
             goal,
@@ -76,7 +76,7 @@ impl<'m> Search<'m> {
         set: CurveSet,
         scale: Scale,
         shared: Option<u32>,
-    ) -> Result<Answer<Made>, Error> {
+    ) -> Result<SearchResult<RangeTable>, Error> {
         let mut attempt = Attempt::<F> {
             search: self,
             set,
@@ -118,31 +118,31 @@ struct Attempt<'s, F: Format> {
 }
 
 impl<'s, F: Format> Attempt<'s, F> {
-    fn run(&mut self) -> Result<Answer<Made>, Error> {
+    fn run(&mut self) -> Result<SearchResult<RangeTable>, Error> {
         let goal = self.search.goal;
         let Some(most) = self.most_cells() else {
-            return Ok(Answer::TooLarge(self.bytes(MIN_CELLS as u32)));
+            return Ok(SearchResult::TooLarge(self.bytes(MIN_CELLS as u32)));
         };
         if self.shared.is_some_and(|step| most < step) {
-            return Ok(Answer::Refused(TableError::PieceUnits.into()));
+            return Ok(SearchResult::Refused(TableError::PieceUnits.into()));
         }
         if let Some(allowed) = goal.torque_error
             && let Some((_, candidate)) =
                 tabulate::smallest(most, EXHAUSTIVE, |cells| self.make(cells, allowed))?
         {
-            return Ok(Answer::Meets(Box::new(candidate)));
+            return Ok(SearchResult::Meets(Box::new(candidate)));
         }
         let Some(candidate) = self.best(most)? else {
             let why = self.why_refused();
             return Ok(match self.finer(most)? {
-                Some(cells) => Answer::TooCoarse(why, cells),
-                None => Answer::Refused(why),
+                Some(cells) => SearchResult::TooCoarse(why, cells),
+                None => SearchResult::Refused(why),
             });
         };
         let candidate = Box::new(candidate);
         Ok(match goal.torque_error {
-            Some(allowed) if candidate.error > allowed => Answer::Misses(candidate),
-            _ => Answer::Meets(candidate),
+            Some(allowed) if candidate.error > allowed => SearchResult::Misses(candidate),
+            _ => SearchResult::Meets(candidate),
         })
     }
 
@@ -188,7 +188,7 @@ impl<'s, F: Format> Attempt<'s, F> {
 
     /// The most accurate table of up to `most` cells: of all sizes up to [`EXHAUSTIVE`], and of growing ones beyond. If an error is required and
     /// missed, it only shows how far the layout comes: then growing sizes are enough up to three quarters of the largest small size.
-    fn best(&mut self, most: u32) -> Result<Option<Made>, Error> {
+    fn best(&mut self, most: u32) -> Result<Option<RangeTable>, Error> {
         let largest = most.min(EXHAUSTIVE);
         let from = match self.search.goal.torque_error {
             Some(_) => (largest / 4 * 3).max(MIN_CELLS as u32),
@@ -244,7 +244,7 @@ impl<'s, F: Format> Attempt<'s, F> {
     }
 
     /// The table of at least this many cells, if it meets the limit everywhere.
-    fn make(&mut self, cells: u32, limit: f64) -> Result<Option<Made>, Error> {
+    fn make(&mut self, cells: u32, limit: f64) -> Result<Option<RangeTable>, Error> {
         let cells = cells.next_multiple_of(self.shared.unwrap_or(1));
         let Some(looked) = self.look(cells, limit)? else {
             return Ok(None);

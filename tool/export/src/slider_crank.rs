@@ -10,7 +10,7 @@ use jred::table::{Shape, Table, Usage, words_len};
 use jred::tabulate::{Request, TableFigures};
 use jred::{Domain, Image, Scale, SliderCrankForm};
 
-use crate::candidate::{Answer, Made};
+use crate::candidate::{RangeTable, SearchResult};
 use crate::search::Search;
 use crate::search::rounded_up;
 use crate::task::Failure;
@@ -24,7 +24,7 @@ type F = SliderCrankForm;
 const PLACES: u32 = 4097;
 
 /// Why a machine has no closed form.
-pub(crate) enum Not {
+pub(crate) enum NoClosedForm {
     /// Another mechanism, by its name in machine files.
     Mechanism(&'static str),
     /// A part of the turn.
@@ -38,16 +38,18 @@ pub(crate) enum Not {
 }
 
 /// The machine as a slider-crank, if the closed form can represent all of it.
-pub(crate) fn plain(machine: Option<&Machine<AnyMechanism>>) -> Result<Machine<SliderCrank>, Not> {
-    let machine = machine.ok_or(Not::ByDirection)?;
+pub(crate) fn plain(
+    machine: Option<&Machine<AnyMechanism>>,
+) -> Result<Machine<SliderCrank>, NoClosedForm> {
+    let machine = machine.ok_or(NoClosedForm::ByDirection)?;
     let any = machine.mechanism();
     if any.kind() == "slider-crank" && any.domain() != Domain::Turn {
-        return Err(Not::Stroke);
+        return Err(NoClosedForm::Stroke);
     }
     let Some(mechanism) = any.inner::<SliderCrank>() else {
         return Err(match any.names().get(any.own_links()) {
-            Some(curve) if any.kind() == "slider-crank" => Not::Curve(curve.clone()),
-            _ => Not::Mechanism(any.kind()),
+            Some(curve) if any.kind() == "slider-crank" => NoClosedForm::Curve(curve.clone()),
+            _ => NoClosedForm::Mechanism(any.kind()),
         });
     };
     let copy = || -> Result<Machine<SliderCrank>, Error> {
@@ -63,11 +65,11 @@ pub(crate) fn plain(machine: Option<&Machine<AnyMechanism>>) -> Result<Machine<S
         Ok(copy)
     };
     // Accepted before, so accepted again.
-    let copy = copy().map_err(|_| Not::Mechanism(any.kind()))?;
-    set_in_use(&copy).map(|_| copy).map_err(Not::Part)
+    let copy = copy().map_err(|_| NoClosedForm::Mechanism(any.kind()))?;
+    set_in_use(&copy).map(|_| copy).map_err(NoClosedForm::Part)
 }
 
-impl Not {
+impl NoClosedForm {
     /// The obstacle and the cure.
     pub(crate) fn failure(&self, file: &MachineFile) -> Failure {
         let table = "remove --layout: a table holds any load";
@@ -120,11 +122,11 @@ impl Search<'_> {
     pub(crate) fn slider_crank(
         &self,
         machine: &Machine<SliderCrank>,
-    ) -> Result<Answer<Made>, Error> {
+    ) -> Result<SearchResult<RangeTable>, Error> {
         let set = set_in_use(machine)?;
         let bytes = 4 * image_len::<F>(0, set);
         if self.goal.max_bytes.is_some_and(|most| bytes > most) {
-            return Ok(Answer::TooLarge(bytes));
+            return Ok(SearchResult::TooLarge(bytes));
         }
         let mut words = vec![0.0; words_len::<F>(0, set)];
         form(machine, set, &mut words)?;
@@ -134,7 +136,7 @@ impl Search<'_> {
         });
         let (table, usage) = match table {
             Ok(table) => table,
-            Err(error) => return Ok(Answer::Refused(error.into())),
+            Err(error) => return Ok(SearchResult::Refused(error.into())),
         };
         let [omega, alpha] = self.goal.range;
         let request = Request::new(self.goal.torque_error.unwrap_or(f64::INFINITY))
@@ -161,7 +163,7 @@ impl Search<'_> {
         let mut found = TableFigures::default();
         found.cells = words.len() as u32;
         (found.torque_error, found.bound, found.worst) = (measured, measured.max(looked), worst);
-        let made = Box::new(Made {
+        let made = Box::new(RangeTable {
             range: self.machine.ends(),
             curves: set,
             found,
@@ -175,8 +177,8 @@ impl Search<'_> {
             words: written(error)?,
         });
         Ok(match self.goal.torque_error {
-            Some(allowed) if error > allowed => Answer::Misses(made),
-            _ => Answer::Meets(made),
+            Some(allowed) if error > allowed => SearchResult::Misses(made),
+            _ => SearchResult::Meets(made),
         })
     }
 }

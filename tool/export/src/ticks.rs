@@ -5,7 +5,7 @@ use jred::number::{Number as _, Quantity};
 use jred::table::{AccelerationOf, Format, SpeedOf, TorqueOf};
 use jred::{Image, ImageError};
 
-use crate::reference::{Place, Reference};
+use crate::reference::{Reference, ReferencePoint};
 
 /// The largest total errors of the tick, at the corners of the range of speed and acceleration: quantised curves, rounding of the sum and of the
 /// quotient.
@@ -61,7 +61,7 @@ pub(crate) fn measure<F: Format>(
         )
     });
     let mut worst = Ticks::default();
-    for Place { phase, phi, exact } in &reference.places {
+    for ReferencePoint { phase, phi, exact } in &reference.places {
         for (omega, alpha) in corners {
             let speed = value(omega) * speed_base;
             let expected = exact

@@ -2,8 +2,8 @@
 
 use jred::Domain;
 
-use crate::model::axis::At;
 use crate::model::axis::Axis;
+use crate::model::axis::DrivePoint;
 use crate::model::coordinate::Coordinate;
 use crate::number::rounding::rounded;
 use crate::text::key::{ACCELERATIONS, Kinds, POSITION, SPEED};
@@ -111,7 +111,11 @@ pub fn axis_position(text: &str, domain: Domain, axis: &Axis) -> Result<f64, Str
 ///
 /// # Errors
 /// A message for the command line.
-pub fn drive_states(text: &str, domain: Domain, axis: [&Axis; 2]) -> Result<Vec<At>, String> {
+pub fn drive_states(
+    text: &str,
+    domain: Domain,
+    axis: [&Axis; 2],
+) -> Result<Vec<DrivePoint>, String> {
     let [drive, spoken] = axis;
     // If the kinds are equal, all values are the drive link's.
     let other = (spoken.coordinate != drive.coordinate).then_some(spoken);
@@ -123,7 +127,7 @@ pub fn drive_states(text: &str, domain: Domain, axis: [&Axis; 2]) -> Result<Vec<
         });
         found.next()
     };
-    let mut rows: Vec<At> = Vec::new();
+    let mut rows: Vec<DrivePoint> = Vec::new();
     // Number of known values of the last row: its position, its speed, its acceleration.
     let mut known = 0;
     for part in text.split(',') {
@@ -142,7 +146,7 @@ pub fn drive_states(text: &str, domain: Domain, axis: [&Axis; 2]) -> Result<Vec<
             ));
         } else {
             let phi = position_of(part, domain, axis)?;
-            rows.push(At { phi, state: None });
+            rows.push(DrivePoint { phi, state: None });
             known = 1;
         }
     }

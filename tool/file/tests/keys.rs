@@ -11,7 +11,7 @@ mod validated;
 use std::path::{Path, PathBuf};
 
 use jred_file::keys::{MACHINE, RULE_SET};
-use jred_file::text::key::{Form, Key, Need, Table};
+use jred_file::text::key::{Key, KeyTable, Need, ValueForm};
 use serde_json::Value;
 
 fn root() -> PathBuf {
@@ -24,11 +24,11 @@ fn blesses() -> bool {
 }
 
 /// The tables that a form holds.
-fn tables_of(form: Form) -> Vec<&'static Table> {
+fn tables_of(form: ValueForm) -> Vec<&'static KeyTable> {
     match form {
-        Form::Table(table) | Form::Tables(table, ..) => vec![table],
-        Form::Named(inner) | Form::List(inner, _) => tables_of(*inner),
-        Form::Any(forms) | Form::Tuple(forms) => {
+        ValueForm::Table(table) | ValueForm::Tables(table, ..) => vec![table],
+        ValueForm::Named(inner) | ValueForm::List(inner, _) => tables_of(*inner),
+        ValueForm::Any(forms) | ValueForm::Tuple(forms) => {
             forms.iter().copied().flat_map(tables_of).collect()
         }
         _ => Vec::new(),
@@ -36,8 +36,8 @@ fn tables_of(form: Form) -> Vec<&'static Table> {
 }
 
 /// All tables with a name, each once.
-fn named() -> Vec<&'static Table> {
-    fn walk(table: &'static Table, found: &mut Vec<&'static Table>) {
+fn named() -> Vec<&'static KeyTable> {
+    fn walk(table: &'static KeyTable, found: &mut Vec<&'static KeyTable>) {
         if !table.name.is_empty() {
             if found.iter().any(|known| known.name == table.name) {
                 return;
@@ -75,7 +75,7 @@ fn places(machine: &Value) -> Vec<Place> {
     found
 }
 
-fn walk(table: &'static Table, value: &Value, name: &str, path: &str, found: &mut Vec<Place>) {
+fn walk(table: &'static KeyTable, value: &Value, name: &str, path: &str, found: &mut Vec<Place>) {
     let word = value.get(table.by).and_then(Value::as_str);
     let variant = table.variants.iter().copied().find(|variant| {
         word == Some(variant.name) || word.is_some() && table.key(table.by).is_none()
@@ -87,7 +87,7 @@ fn walk(table: &'static Table, value: &Value, name: &str, path: &str, found: &mu
     };
     let keys: Vec<_> = table
         .keys()
-        .chain(variant.into_iter().flat_map(Table::keys))
+        .chain(variant.into_iter().flat_map(KeyTable::keys))
         .collect();
     let keys = keys.into_iter().filter(|key| {
         let mut elsewhere = variant.into_iter().flat_map(|variant| variant.elsewhere);
@@ -128,13 +128,13 @@ fn walk(table: &'static Table, value: &Value, name: &str, path: &str, found: &mu
 }
 
 /// The tables in a value.
-fn inside(form: Form, value: &Value, name: &str, path: &str, found: &mut Vec<Place>) {
+fn inside(form: ValueForm, value: &Value, name: &str, path: &str, found: &mut Vec<Place>) {
     match (form, value) {
-        (Form::Table(table), Value::Object(_)) => walk(table, value, name, path, found),
-        (Form::Tables(table, ..), Value::Array(items)) => {
+        (ValueForm::Table(table), Value::Object(_)) => walk(table, value, name, path, found),
+        (ValueForm::Tables(table, ..), Value::Array(items)) => {
             for (k, item) in items.iter().enumerate() {
                 inside(
-                    Form::Table(table),
+                    ValueForm::Table(table),
                     item,
                     name,
                     &format!("{path}/{k}"),
@@ -142,17 +142,17 @@ fn inside(form: Form, value: &Value, name: &str, path: &str, found: &mut Vec<Pla
                 );
             }
         }
-        (Form::List(form, _), Value::Array(items)) => {
+        (ValueForm::List(form, _), Value::Array(items)) => {
             for (k, item) in items.iter().enumerate() {
                 inside(*form, item, name, &format!("{path}/{k}"), found);
             }
         }
-        (Form::Named(form), Value::Object(entries)) => {
+        (ValueForm::Named(form), Value::Object(entries)) => {
             for (entry, value) in entries {
                 inside(*form, value, name, &format!("{path}/{entry}"), found);
             }
         }
-        (Form::Any(forms), _) => {
+        (ValueForm::Any(forms), _) => {
             for form in forms {
                 inside(*form, value, name, path, found);
             }
@@ -184,10 +184,10 @@ fn plain(help: &str) -> String {
 }
 
 /// The words by which a table chooses its keys.
-fn words_of(table: &Table, key: &Key) -> Vec<&'static str> {
+fn words_of(table: &KeyTable, key: &Key) -> Vec<&'static str> {
     match key.form {
-        Form::Words([]) => table.variants.iter().map(|variant| variant.name).collect(),
-        Form::Words(words) => words.to_vec(),
+        ValueForm::Words([]) => table.variants.iter().map(|variant| variant.name).collect(),
+        ValueForm::Words(words) => words.to_vec(),
         _ => Vec::new(),
     }
 }

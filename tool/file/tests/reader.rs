@@ -3,13 +3,13 @@
 use std::path::Path;
 
 use jred_file::model::machine::MachineFile;
-use jred_file::read::{self, Unchecked};
+use jred_file::read::{self, UncheckedFile};
 use jred_file::text::file::Files;
 use jred_file::text::problem::Problem;
 
 /// The machine file of a text.
 pub(crate) fn parse(name: &str, text: &str, files: impl Files) -> Result<MachineFile, Problem> {
-    read::parse(name, text, files).map(Unchecked::trusted)
+    read::parse(name, text, files).map(UncheckedFile::trusted)
 }
 
 /// The machine file at a path.

@@ -8,7 +8,7 @@ mod sets;
 use crate::reading::refuses;
 use crate::support::press_text;
 use jred_file::model::rule::Rule;
-use jred_file::model::rules::{Finding, RuleSet, Verdict};
+use jred_file::model::rules::{Finding, RuleSet, RuleVerdict};
 
 /// A mean speed that is 1500 rpm by hand, and rounded up, is at a limit of 1500 rpm; what is more by a millionth is beyond it.
 #[test]
@@ -22,9 +22,9 @@ fn a_figure_at_its_limit_satisfies_the_rule() {
         let rating = 1_500.000_000_000_000_2;
         let limit = share(rule) * rating;
         let verdict = |value: f64| rules.verdict(rule, Finding::new(value, rating));
-        assert_eq!(verdict(limit), Verdict::Pass);
-        assert_eq!(verdict(limit * (1.0 + beyond * 1e-8)), Verdict::Pass);
-        assert!(verdict(limit * (1.0 + beyond)) > Verdict::Pass);
+        assert_eq!(verdict(limit), RuleVerdict::Pass);
+        assert_eq!(verdict(limit * (1.0 + beyond * 1e-8)), RuleVerdict::Pass);
+        assert!(verdict(limit * (1.0 + beyond)) > RuleVerdict::Pass);
     }
 }
 

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use crate::support::budget;
-use jred_file::number::spline::{Fault, Spline, Way};
+use jred_file::number::spline::{FitMethod, Spline, SplineError};
 use proptest::prelude::*;
 
 /// Uneven steps: those of the golden ratio's fractions, between 0.4 and 1.6 of the mean.
@@ -29,7 +29,7 @@ fn a_cubic_comes_back_exactly() {
     let area = |x: f64| 2.0 * x - 1.5 * x * x + x.powi(3) / 6.0 - x.powi(4) / 16.0;
     let x = uneven(11, -2.0, 3.0);
     let y: Vec<f64> = x.iter().map(|x| f(*x)).collect();
-    let spline = Spline::bounded(&x, &y, Way::Interpolating).unwrap();
+    let spline = Spline::bounded(&x, &y, FitMethod::Interpolating).unwrap();
     for k in 0..=500 {
         let at = -2.0 + f64::from(k) / 100.0;
         let found = spline.at(at);
@@ -62,9 +62,9 @@ fn errors_fall_with_the_order_of_a_cubic() {
             }
             let y: Vec<f64> = x.iter().map(|x| f(*x)).collect();
             let spline = if periodic {
-                Spline::periodic(&x, &y, TAU, Way::Interpolating)
+                Spline::periodic(&x, &y, TAU, FitMethod::Interpolating)
             } else {
-                Spline::bounded(&x, &y, Way::Interpolating)
+                Spline::bounded(&x, &y, FitMethod::Interpolating)
             }
             .unwrap();
             let mut worst = [0.0f64; 3];
@@ -93,9 +93,13 @@ fn errors_fall_with_the_order_of_a_cubic() {
 fn a_periodic_curve_closes() {
     let x = [0.1, 0.9, 2.0, 2.2, 3.9, 5.0];
     let y = [1.0, 3.0, -2.0, 0.5, 0.0, 2.0];
-    for way in [Way::Interpolating, Way::Smoothing(3.0), Way::Monotone] {
+    for way in [
+        FitMethod::Interpolating,
+        FitMethod::Smoothing(3.0),
+        FitMethod::Monotone,
+    ] {
         let spline = Spline::periodic(&x, &y, 6.0, way).unwrap();
-        let orders = if way == Way::Monotone { 2 } else { 3 };
+        let orders = if way == FitMethod::Monotone { 2 } else { 3 };
         let [start, end] = [0.1 + 1e-9, 6.1 - 1e-9].map(|x| spline.at(x));
         for (a, b) in start.iter().zip(end).take(orders) {
             assert!((a - b).abs() < 1e-6 * (1.0 + a.abs()), "{way:?}: {a} {b}");
@@ -104,7 +108,7 @@ fn a_periodic_curve_closes() {
         assert!(now.iter().zip(later).all(|(a, b)| (a - b).abs() < 1e-12));
         let turn = spline.integral(6.1);
         assert!((spline.integral(4.4 + 12.0) - spline.integral(4.4) - 2.0 * turn).abs() < 1e-12);
-        if way != Way::Smoothing(3.0) {
+        if way != FitMethod::Smoothing(3.0) {
             for (x, y) in x.iter().zip(y) {
                 assert!((spline.at(*x)[0] - y).abs() < budget::SPLINE_EXACT);
             }
@@ -128,8 +132,9 @@ fn smoothing_has_the_response_that_it_states() {
             };
             let y: Vec<f64> = x.iter().map(|x| (omega * x).sin()).collect();
             let ring =
-                Spline::periodic(&x[..count], &y[..count], 1.0, Way::Smoothing(cutoff)).unwrap();
-            let chain = Spline::bounded(&x, &y, Way::Smoothing(cutoff)).unwrap();
+                Spline::periodic(&x[..count], &y[..count], 1.0, FitMethod::Smoothing(cutoff))
+                    .unwrap();
+            let chain = Spline::bounded(&x, &y, FitMethod::Smoothing(cutoff)).unwrap();
             for k in 0..1000 {
                 let at = f64::from(k) / 1000.0;
                 let expected = kept * (omega * at).sin();
@@ -156,13 +161,15 @@ fn smoothing_has_the_response_that_it_states() {
 #[test]
 fn four_points_make_a_ring() {
     let x = [0.0, 1.0, 2.0, 3.0];
-    let spline = Spline::periodic(&x, &[1.0, 0.0, -1.0, 0.0], 4.0, Way::Interpolating).unwrap();
+    let spline =
+        Spline::periodic(&x, &[1.0, 0.0, -1.0, 0.0], 4.0, FitMethod::Interpolating).unwrap();
     assert!(
         (spline.at(0.5)[0] - 0.6875).abs() < 1e-14,
         "{:?}",
         spline.at(0.5)
     );
-    let smooth = Spline::periodic(&x, &[1.0, 0.0, -1.0, 0.0], 4.0, Way::Smoothing(1.0)).unwrap();
+    let smooth =
+        Spline::periodic(&x, &[1.0, 0.0, -1.0, 0.0], 4.0, FitMethod::Smoothing(1.0)).unwrap();
     let kept = smooth.at(0.0)[0];
     assert!(kept > 0.0 && kept < 1.0 && (smooth.at(2.0)[0] + kept).abs() < 1e-14);
     assert!(smooth.at(1.0)[0].abs() < 1e-14 && smooth.integral(4.0).abs() < 1e-14);
@@ -173,7 +180,7 @@ fn smoothing_keeps_straight_lines_and_takes_noise() {
     let x = uneven(300, 0.0, 3.0);
     let line = |x: f64| 4.0 - 2.5 * x;
     let y: Vec<f64> = x.iter().map(|x| line(*x)).collect();
-    let spline = Spline::bounded(&x, &y, Way::Smoothing(20.0)).unwrap();
+    let spline = Spline::bounded(&x, &y, FitMethod::Smoothing(20.0)).unwrap();
     assert!(x.iter().all(|x| (spline.at(*x)[0] - line(*x)).abs() < 1e-9));
     // Alternating noise is far above the cut-off.
     let noisy: Vec<f64> = y
@@ -181,7 +188,7 @@ fn smoothing_keeps_straight_lines_and_takes_noise() {
         .enumerate()
         .map(|(k, y)| y + if k % 2 == 0 { 0.1 } else { -0.1 })
         .collect();
-    let spline = Spline::bounded(&x, &noisy, Way::Smoothing(20.0)).unwrap();
+    let spline = Spline::bounded(&x, &noisy, FitMethod::Smoothing(20.0)).unwrap();
     let most = x.iter().map(|x| (spline.at(*x)[0] - line(*x)).abs());
     let most = most.fold(0.0, f64::max);
     assert!((1e-4..0.05).contains(&most), "{most}");
@@ -191,22 +198,31 @@ fn smoothing_keeps_straight_lines_and_takes_noise() {
 fn points_that_cannot_be_meant_are_refused() {
     let x = [0.0, 1.0, 2.0, 3.0, 4.0];
     let y = [0.0; 5];
-    let way = Way::Interpolating;
-    assert_eq!(Spline::bounded(&x[..4], &y[..4], way), Err(Fault::TooFew));
-    assert_eq!(Spline::bounded(&x, &y[..4], way), Err(Fault::NotRising));
+    let way = FitMethod::Interpolating;
+    assert_eq!(
+        Spline::bounded(&x[..4], &y[..4], way),
+        Err(SplineError::TooFew)
+    );
+    assert_eq!(
+        Spline::bounded(&x, &y[..4], way),
+        Err(SplineError::NotRising)
+    );
     assert_eq!(
         Spline::bounded(&[0.0, 1.0, 1.0, 3.0, 4.0], &y, way),
-        Err(Fault::NotRising)
+        Err(SplineError::NotRising)
     );
     assert_eq!(
         Spline::bounded(&x, &[0.0, f64::NAN, 0.0, 0.0, 0.0], way),
-        Err(Fault::NotRising)
+        Err(SplineError::NotRising)
     );
     assert_eq!(
         Spline::periodic(&x[..3], &y[..3], 4.0, way),
-        Err(Fault::TooFew)
+        Err(SplineError::TooFew)
     );
-    assert_eq!(Spline::periodic(&x, &y, 4.0, way), Err(Fault::BeyondPeriod));
+    assert_eq!(
+        Spline::periodic(&x, &y, 4.0, way),
+        Err(SplineError::BeyondPeriod)
+    );
     assert!(Spline::periodic(&x, &y, 4.1, way).is_ok());
 }
 
@@ -222,9 +238,9 @@ proptest! {
         let mut x = uneven(y.len(), 0.0, 1.0);
         x.pop();
         let spline = if periodic {
-            Spline::periodic(&x, &y, 1.0, Way::Monotone)
+            Spline::periodic(&x, &y, 1.0, FitMethod::Monotone)
         } else {
-            Spline::bounded(&x, &y, Way::Monotone)
+            Spline::bounded(&x, &y, FitMethod::Monotone)
         }.unwrap();
         for (ends, values) in x.windows(2).zip(y.windows(2)) {
             let (low, high) = (values[0].min(values[1]), values[0].max(values[1]));
@@ -243,7 +259,7 @@ proptest! {
     fn the_least_value_is_found(y in prop::collection::vec(-10.0..10.0f64, 5..20)) {
         let mut x = uneven(y.len(), 0.0, 1.0);
         x.pop();
-        let spline = Spline::bounded(&x, &y, Way::Interpolating).unwrap();
+        let spline = Spline::bounded(&x, &y, FitMethod::Interpolating).unwrap();
         let [from, to] = spline.range();
         let searched = (0..=20_000).map(|k| spline.at(from + (to - from) * f64::from(k) / 20_000.0)[0]);
         let searched = searched.fold(f64::INFINITY, f64::min);

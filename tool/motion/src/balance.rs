@@ -13,12 +13,12 @@
 
 use jred::error::Error;
 use jred::machine::{Element, Mechanism as _, Reducible as _};
-use jred_analysis::contact::{OneWay, Parted};
+use jred_analysis::contact::{OneWay, Separation};
 use jred_analysis::duty::{self, Duty};
 use jred_file::model::coordinate::positions;
-use jred_file::model::laden::Attached;
 use jred_file::model::machine::MachineFile;
-use jred_file::model::schedule::Now;
+use jred_file::model::schedule::ScheduleInstant;
+use jred_file::model::with_mass::AttachedMass;
 
 use self::rows::Rows;
 use self::unknowns::{Made, Unknowns};
@@ -88,7 +88,7 @@ pub enum Fault {
     /// The mechanism cannot be assembled at a position.
     Machine(Error),
     /// The duty of the motion cannot be computed.
-    Duty(duty::Fault),
+    Duty(duty::DutyError),
     /// The goal is a torque over the motion, but the file has no motion.
     NoMotion,
     /// The torque, or the deviation of the inertia, is already zero everywhere.
@@ -98,7 +98,7 @@ pub enum Fault {
     /// A spring is requested for the inertia, which it does not change.
     SpringForInertia,
     /// With the optimum a follower leaves its cam or a rope goes slack: which one, at which state, with which force, and the cure.
-    Parts(Box<Parted>),
+    Parts(Box<Separation>),
 }
 
 impl From<Error> for Fault {
@@ -107,10 +107,10 @@ impl From<Error> for Fault {
     }
 }
 
-impl From<duty::Fault> for Fault {
-    fn from(fault: duty::Fault) -> Self {
+impl From<duty::DutyError> for Fault {
+    fn from(fault: duty::DutyError) -> Self {
         match fault {
-            duty::Fault::Machine(error) => Self::Machine(error),
+            duty::DutyError::Machine(error) => Self::Machine(error),
             fault => Self::Duty(fault),
         }
     }
@@ -158,7 +158,7 @@ impl Figures {
 #[derive(Clone, Debug)]
 pub struct Balanced {
     /// The counterweights, in the order of the request; `None`: no counterweight is best.
-    pub masses: Vec<Option<Attached>>,
+    pub masses: Vec<Option<AttachedMass>>,
     /// The springs, in the order of the request; `None`: no spring is best.
     pub springs: Vec<Option<Element>>,
     /// Largest pull and push of each spring (N; for a torsion spring N·m against and towards growing angles), over the motion, or without a motion
@@ -271,7 +271,8 @@ fn hold_together(file: &MachineFile, duty: &Duty) -> Result<(), Fault> {
         return Ok(());
     }
     for instant in &duty.instants {
-        let machine = file.machine_at(&Now::of(instant.t, instant.omega), instant.phi)?;
+        let machine =
+            file.machine_at(&ScheduleInstant::of(instant.t, instant.omega), instant.phi)?;
         for joint in &joints {
             let force = joint.force(&machine, [instant.phi, instant.omega, instant.alpha])?;
             if !joint.holds(force) {

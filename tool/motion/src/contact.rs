@@ -4,10 +4,10 @@
 //! that keeps it.
 
 use jred::error::Error;
-use jred_analysis::contact::{Lost, OneWay, lost};
+use jred_analysis::contact::{ContactLoss, OneWay, lost};
 use jred_file::model::machine::MachineFile;
 use jred_file::model::motion::Motion;
-use jred_file::model::schedule::Now;
+use jred_file::model::schedule::ScheduleInstant;
 
 use crate::trace::Trace;
 
@@ -21,7 +21,7 @@ const LEFT: f64 = 0.98;
 #[derive(Clone, Debug)]
 pub struct Broken {
     /// The contact, where and when.
-    pub lost: Lost,
+    pub lost: ContactLoss,
     /// Limits of acceleration and deceleration of the drive link (rad/s², or m/s²) that keep the contact, where the motion exceeds them; `None`: no
     /// such limit alone keeps it.
     pub limits: Option<[Option<f64>; 2]>,
@@ -57,9 +57,9 @@ fn limits(file: &MachineFile, trace: &Trace) -> Result<Option<[Option<f64>; 2]>,
         }
         for share in SHARES {
             let state = b.after(a, share);
-            let now = Now {
+            let now = ScheduleInstant {
                 omega: Some(way.signum()),
-                ..Now::default()
+                ..ScheduleInstant::default()
             };
             let machine = file.machine_at(&now, state.phi)?;
             for joint in &joints {

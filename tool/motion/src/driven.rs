@@ -10,12 +10,12 @@
 //! torque from a thousandth above. This keeps the equations continuous, and the largest motor speed is a steady state.
 
 use jred_analysis::simulate::{
-    Observer, Simulated, SimulationError, Together, Working, simulate_under,
+    CoupledMachines, MotorState, Observer, SimulationError, SimulationResult, simulate_under,
 };
 use jred_file::model::machine::MachineFile;
 use jred_file::model::motor::{Coefficients, Motor};
 use jred_file::model::simulation::{Shaft, Simulation};
-use jred_file::number::columns::{Column, Quantity};
+use jred_file::number::columns::{Column, ColumnQuantity};
 use jred_file::units::RPM;
 use jred_sizing::catalogue::{Drive, MotorKind};
 use jred_sizing::motor::envelope::{Limit, Prepared};
@@ -44,7 +44,7 @@ pub enum Unfit {
 #[derive(Debug)]
 pub struct Driven {
     /// The motion.
-    pub simulated: Simulated,
+    pub simulated: SimulationResult,
     /// Loads on the drive.
     pub loads: Loads,
 }
@@ -245,7 +245,7 @@ impl<'a> LoadObserver<'a> {
         }
     }
 
-    fn see(&mut self, time: f64, working: &Working) {
+    fn see(&mut self, time: f64, working: &MotorState) {
         if let Some(peak) = &mut self.loads.gearbox_torque {
             peak.see(time, working.phi, working.input_torque.abs());
         }
@@ -260,15 +260,15 @@ impl Observer for LoadObserver<'_> {
             MotorKind::Rotary => ("rpm", "motor speed"),
             MotorKind::Linear => ("m/s", "motor speed"),
         };
-        let mut columns = vec![Column::new(Quantity::MotorSpeed, whole, unit)];
+        let mut columns = vec![Column::new(ColumnQuantity::MotorSpeed, whole, unit)];
         if self.drive.gearbox.is_some() {
             columns.push(Column::new(
-                Quantity::GearboxTorque,
+                ColumnQuantity::GearboxTorque,
                 "gearbox torque",
                 "N m",
             ));
         }
-        let warm = |name: &str, unit: &str| Column::new(Quantity::Temperature, name, unit);
+        let warm = |name: &str, unit: &str| Column::new(ColumnQuantity::Temperature, name, unit);
         match &self.warming {
             Some(warming) if warming.relative => columns.push(warm("rated rise", "%")),
             Some(warming) => {
@@ -284,14 +284,14 @@ impl Observer for LoadObserver<'_> {
         columns
     }
 
-    fn pass(&mut self, (start, from): (f64, Working), (end, to): (f64, Working)) {
+    fn pass(&mut self, (start, from): (f64, MotorState), (end, to): (f64, MotorState)) {
         self.see(start, &from);
         self.see(end, &to);
         let Some(warming) = &mut self.warming else {
             return;
         };
         let length = end - start;
-        let point = |t: f64, working: &Working| {
+        let point = |t: f64, working: &MotorState| {
             let state = [working.torque, working.speed];
             (warming.model).point(self.drive.motor, self.prepared, t, state)
         };
@@ -303,7 +303,7 @@ impl Observer for LoadObserver<'_> {
         }
     }
 
-    fn figures(&self, now: &Working) -> Vec<f64> {
+    fn figures(&self, now: &MotorState) -> Vec<f64> {
         let per = match self.drive.motor.kind {
             MotorKind::Rotary => RPM,
             MotorKind::Linear => 1.0,
@@ -337,7 +337,7 @@ impl Observer for LoadObserver<'_> {
 /// # Errors
 /// The drive cannot be simulated, or the machines cannot start.
 pub fn driven(
-    machines: &Together,
+    machines: &CoupledMachines,
     simulation: &Simulation,
     drive: Drive<'_>,
 ) -> Result<Result<Driven, SimulationError>, Unfit> {

@@ -119,7 +119,7 @@ pub enum Obstacle {
     /// The machine cannot be placed somewhere.
     Machine(Error),
     /// The duty of a motion cannot be computed.
-    Duty(duty::Fault),
+    Duty(duty::DutyError),
     /// The motion neither consists of moves nor turns endlessly.
     NoMoves(NoMoves),
     /// Data for the copper loss are missing.
@@ -134,10 +134,10 @@ impl From<Error> for Obstacle {
     }
 }
 
-impl From<duty::Fault> for Obstacle {
-    fn from(fault: duty::Fault) -> Self {
+impl From<duty::DutyError> for Obstacle {
+    fn from(fault: duty::DutyError) -> Self {
         match fault {
-            duty::Fault::Machine(error) => Self::Machine(error),
+            duty::DutyError::Machine(error) => Self::Machine(error),
             fault => Self::Duty(fault),
         }
     }

@@ -18,7 +18,7 @@ use jred::machine::motion::State;
 use jred::mechanism::TrainOutput;
 use jred_file::model::coordinate::Coordinate;
 use jred_file::model::machine::MachineFile;
-use jred_file::model::schedule::Now;
+use jred_file::model::schedule::ScheduleInstant;
 use jred_sizing::catalogue::{Drive, Motor};
 use jred_sizing::cycle::form::Coefficients;
 use jred_sizing::motor::envelope::Envelope;
@@ -146,10 +146,10 @@ impl<'a> Way<'a> {
     }
 
     /// The state of a motion in this direction.
-    pub fn now(&self) -> Now {
-        Now {
+    pub fn now(&self) -> ScheduleInstant {
+        ScheduleInstant {
             omega: Some(self.direction),
-            ..Now::default()
+            ..ScheduleInstant::default()
         }
     }
 
@@ -158,14 +158,14 @@ impl<'a> Way<'a> {
     /// # Errors
     /// The mechanism cannot be placed there.
     pub fn place_at_rest(&self, phi: f64) -> Result<Place, Error> {
-        let now = Now {
+        let now = ScheduleInstant {
             omega: Some(0.0),
-            ..Now::default()
+            ..ScheduleInstant::default()
         };
         self.place_now(&now, phi)
     }
 
-    fn place_now(&self, now: &Now, phi: f64) -> Result<Place, Error> {
+    fn place_now(&self, now: &ScheduleInstant, phi: f64) -> Result<Place, Error> {
         let point: Reduction = self.file.machine_at(now, phi)?.bare_reduction(phi)?;
         Ok(Place {
             phi,

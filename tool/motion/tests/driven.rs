@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use jred::machine::motion::State;
 use jred_analysis::checked;
-use jred_analysis::simulate::Together;
+use jred_analysis::simulate::CoupledMachines;
 use jred_file::model::machine::MachineFile;
 use jred_file::units::RPM;
 use jred_motion::driven::{Driven, EASE, Unfit, driven};
@@ -54,7 +54,7 @@ fn gearbox() -> Gearbox {
 
 fn run(file: &MachineFile, drive: Drive<'_>) -> Driven {
     let simulation = file.simulation.as_ref().unwrap();
-    driven(&Together::alone(file), simulation, drive)
+    driven(&CoupledMachines::alone(file), simulation, drive)
         .unwrap()
         .unwrap()
 }
@@ -320,14 +320,24 @@ fn what_cannot_be_simulated_is_refused() {
         gearbox,
         amplifier: None,
     };
-    let refused = driven(&Together::alone(&file), simulation, of(&unknown, None)).unwrap_err();
+    let refused = driven(
+        &CoupledMachines::alone(&file),
+        simulation,
+        of(&unknown, None),
+    )
+    .unwrap_err();
     assert_eq!(refused, Unfit::NoPeak);
     let worm = Gearbox {
         back_efficiency: -0.2,
         ..gearbox()
     };
     let motor = motor();
-    let refused = driven(&Together::alone(&file), simulation, of(&motor, Some(&worm))).unwrap_err();
+    let refused = driven(
+        &CoupledMachines::alone(&file),
+        simulation,
+        of(&motor, Some(&worm)),
+    )
+    .unwrap_err();
     let gearbox = "box".to_owned();
     assert_eq!(refused, Unfit::SelfLocking { gearbox });
 }

@@ -1,7 +1,7 @@
 //! Parts of motions.
 
 use jred::machine::motion::Law;
-use jred_file::model::motion::{Motion, Segment};
+use jred_file::model::motion::{Motion, MotionSegment};
 use jred_motion::moves::{Move, NoMoves, Part, chain};
 
 /// Moves, a pause, a move through a joint of two segments in motion, and an immediate return.
@@ -9,11 +9,11 @@ use jred_motion::moves::{Move, NoMoves, Part, chain};
 fn segments_become_moves_and_pauses() {
     let law = Law::Polynomial345;
     let segments = [
-        Segment::law(1.0, 0.5, law),
-        Segment::dwell(0.25),
-        Segment::law(0.5, 0.25, law),
-        Segment::law(-1.5, 1.0, Law::default()),
-        Segment::dwell(0.1),
+        MotionSegment::law(1.0, 0.5, law),
+        MotionSegment::dwell(0.25),
+        MotionSegment::law(0.5, 0.25, law),
+        MotionSegment::law(-1.5, 1.0, Law::default()),
+        MotionSegment::dwell(0.1),
     ];
     let motion = Motion::segments(0.2, &segments, true).unwrap();
     let found = chain(&motion, &[]).unwrap().parts;
@@ -53,13 +53,13 @@ fn a_motion_without_rest_has_no_moves() {
     let chained = chain(&motion, &[]).unwrap();
     assert!(chained.endless && chained.given_up.is_none());
     assert_eq!(chained.parts.len(), 1);
-    let steady = Segment::constant_speed(6.0, 2.0, 3.0);
+    let steady = MotionSegment::constant_speed(6.0, 2.0, 3.0);
     let once = Motion::segments(0.0, &[steady], false).unwrap();
     let expected = NoMoves::NotAtRest {
         speed: 3.0,
         at_end: false,
     };
     assert_eq!(chain(&once, &[]), Err(expected));
-    let still = Motion::segments(0.0, &[Segment::dwell(1.0)], true).unwrap();
+    let still = Motion::segments(0.0, &[MotionSegment::dwell(1.0)], true).unwrap();
     assert_eq!(chain(&still, &[]), Err(NoMoves::Still));
 }

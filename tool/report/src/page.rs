@@ -253,7 +253,7 @@ fn split_checks(best: &jred_sizing::judge::Judged) -> (Vec<CheckRow>, Vec<(&'sta
     let (open, checked): (Vec<_>, Vec<_>) = best
         .checks
         .iter()
-        .partition(|check| check.verdict == jred_file::model::rules::Verdict::NotChecked);
+        .partition(|check| check.verdict == jred_file::model::rules::RuleVerdict::NotChecked);
     let checked = checked.into_iter().map(CheckRow::of).collect();
     let open = open
         .into_iter()

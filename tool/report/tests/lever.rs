@@ -10,7 +10,7 @@ use jred::number::Transfer;
 use jred_analysis::inspect::Findings;
 use jred_analysis::reduce::{Over, Request, Sets, reduce};
 use jred_file::model::coordinate::Coordinate;
-use jred_file::model::machine::{MachineFile, OverRange};
+use jred_file::model::machine::{MachineFile, ReductionCache};
 use jred_file::model::mechanism::AnyMechanism;
 use jred_report::table::output::Format;
 use jred_report::table::screen::Screen;
@@ -78,7 +78,7 @@ fn lever() -> MachineFile {
     MachineFile {
         title: "Lever".to_owned(),
         machine: Machine::new(mechanism),
-        over_range: OverRange::default(),
+        over_range: ReductionCache::default(),
         ..file
     }
 }

@@ -17,7 +17,7 @@ use crate::catalogue::Drive;
 use crate::cycle::form::{Coefficients, LOADS, MotorDuty, loads_of};
 use crate::motor::envelope::Envelope;
 use jred_analysis::duty::mechanics::Mechanics;
-use jred_analysis::duty::{Duty, Panel, Smooth, Values};
+use jred_analysis::duty::{Duty, Panel, PanelPolynomial, Smooth};
 use jred_file::number::figures::Figures;
 
 mod against;
@@ -274,7 +274,7 @@ impl Cycle {
         &self,
         coefficients: &Coefficients,
         ratio: f64,
-        mut take: impl FnMut(&Panel, &Values, &Values),
+        mut take: impl FnMut(&Panel, &PanelPolynomial, &PanelPolynomial),
     ) -> bool {
         let stretches = self.stretches();
         let mut is_known = false;

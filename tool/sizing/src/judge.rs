@@ -10,7 +10,7 @@ use crate::cycle::form::Coefficients;
 use crate::judge::check::Check;
 use crate::motor::envelope::Prepared;
 use jred_file::model::rule::Rule;
-use jred_file::model::rules::{Finding, RuleSet, Verdict};
+use jred_file::model::rules::{Finding, RuleSet, RuleVerdict};
 use jred_file::model::site::Site;
 use jred_file::units::Vocabulary;
 
@@ -279,7 +279,7 @@ impl<'a> Context<'a> {
         let mut findings = Findings::default();
         self.measure_directly(rules, &mut findings);
         let outcome = Outcome::of(rules, &findings);
-        if outcome.verdict == Verdict::Fail {
+        if outcome.verdict == RuleVerdict::Fail {
             return (findings, outcome);
         }
         self.follow_time(&mut findings);
@@ -305,7 +305,7 @@ pub struct Words {
 pub fn broken(rules: &RuleSet, findings: &Findings) -> Option<Rule> {
     let broken = findings
         .iter()
-        .filter(|(rule, finding)| rules.verdict(*rule, *finding) == Verdict::Fail);
+        .filter(|(rule, finding)| rules.verdict(*rule, *finding) == RuleVerdict::Fail);
     let used = broken.map(|(rule, finding)| (rules.use_of_limit(rule, finding), rule));
     used.max_by(|a, b| a.0.total_cmp(&b.0))
         .map(|(_, rule)| rule)

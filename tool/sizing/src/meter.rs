@@ -15,7 +15,7 @@ use crate::judge::Judged;
 use crate::judge::{Context, Findings};
 use crate::motor::envelope::Envelope;
 use jred_file::model::rule::Rule;
-use jred_file::model::rules::Verdict;
+use jred_file::model::rules::RuleVerdict;
 use jred_file::model::rules::{MeanTorque, RuleSet};
 use jred_file::number::rounding::{short, significant};
 use jred_file::units::Vocabulary;
@@ -277,7 +277,7 @@ impl<'a> MeterLimits<'a> {
     pub fn broken(&self) -> Vec<String> {
         let judged = Judged::new(self.context, self.rules);
         let broken = judged.checks.iter();
-        let broken = broken.filter(|check| check.verdict == Verdict::Fail);
+        let broken = broken.filter(|check| check.verdict == RuleVerdict::Fail);
         let words = broken.map(|check| {
             let rule = check.rule;
             match check.bound() {

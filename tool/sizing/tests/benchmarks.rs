@@ -7,7 +7,7 @@ use std::path::Path;
 use jred_analysis::checked;
 use jred_analysis::duty::Duty;
 use jred_file::model::rule::Rule;
-use jred_file::model::rules::Verdict;
+use jred_file::model::rules::RuleVerdict;
 use jred_sizing::catalogue::{Catalogue, Drive};
 use jred_sizing::cycle::Cycle;
 use jred_sizing::judge::check::Check;
@@ -160,7 +160,7 @@ fn yaskawa_screw_with_its_motor() {
     let speed = of(&checks, Rule::Speed);
     near("speed", speed.value.unwrap(), 3000.0, 1e-9);
     for check in [peak, ratio, speed, of(&checks, Rule::RmsTorque)] {
-        assert_eq!(check.verdict, Verdict::Pass, "{}", check.sentence());
+        assert_eq!(check.verdict, RuleVerdict::Pass, "{}", check.sentence());
     }
     // At five times the acceleration it is too small: T_P = 2.43 N m against 1.91 N m.
     let hasty = Example {
@@ -170,7 +170,7 @@ fn yaskawa_screw_with_its_motor() {
     let checks = hasty.checks();
     let peak = of(&checks, Rule::PeakTorque);
     near("peak", peak.value.unwrap(), hasty.torques()[0], 1e-9);
-    assert_eq!(peak.verdict, Verdict::Fail);
+    assert_eq!(peak.verdict, RuleVerdict::Fail);
     assert!(hasty.torques()[0] > 1.91);
 }
 
@@ -181,9 +181,9 @@ fn yaskawa_small_motor() {
     let checks = SMALL.checks();
     let peak = of(&checks, Rule::PeakTorque);
     within("T_P", peak.value.unwrap(), 0.186, 5e-4);
-    assert_eq!(peak.verdict, Verdict::Pass);
+    assert_eq!(peak.verdict, RuleVerdict::Pass);
     near("used", peak.use_of_limit(), 0.186 / 0.286, 3e-3);
     let ratio = of(&checks, Rule::InertiaRatio);
     near("λ", ratio.value.unwrap(), 0.474 / 0.00629, 1e-9);
-    assert_eq!(ratio.verdict, Verdict::Fail);
+    assert_eq!(ratio.verdict, RuleVerdict::Fail);
 }

@@ -5,11 +5,11 @@ use std::cell::Cell;
 use jred::error::Error;
 use jred::machine::{Mechanism as _, Reducible as _};
 
-use super::{OneWay, Parted};
+use super::{OneWay, Separation};
 use crate::duty::smooth_stretches;
 use jred_file::model::machine::MachineFile;
 use jred_file::model::motion::Motion;
-use jred_file::model::schedule::Now;
+use jred_file::model::schedule::ScheduleInstant;
 use jred_file::number::numerics;
 
 /// Samples of the drive link's range (a turn or its stroke), and the least number for a stretch of the motion between edges.
@@ -21,29 +21,29 @@ const MOST: f64 = 60_000.0;
 
 /// A contact that is lost in a motion.
 #[derive(Clone, Debug)]
-pub struct Lost {
+pub struct ContactLoss {
     /// The contact.
     pub joint: OneWay,
     /// Time of its least force (s).
     pub t: f64,
     /// Description of that instant.
-    pub parted: Parted,
+    pub parted: Separation,
 }
 
 /// The first contact that a motion loses, at its least force.
 ///
 /// # Errors
 /// Errors of the machine.
-pub fn lost(file: &MachineFile, motion: &Motion) -> Result<Option<Lost>, Error> {
+pub fn lost(file: &MachineFile, motion: &Motion) -> Result<Option<ContactLoss>, Error> {
     for joint in OneWay::all(file.machine.mechanism()) {
         let (t, least) = least(file, motion, joint)?;
         if joint.holds(least) {
             continue;
         }
         let state = motion.at(t);
-        let machine = file.machine_at(&Now::of(t, state.omega), state.phi)?;
+        let machine = file.machine_at(&ScheduleInstant::of(t, state.omega), state.phi)?;
         let parted = joint.parted(&machine, [state.phi, state.omega], least)?;
-        return Ok(Some(Lost { joint, t, parted }));
+        return Ok(Some(ContactLoss { joint, t, parted }));
     }
     Ok(None)
 }
@@ -54,7 +54,7 @@ fn least(file: &MachineFile, motion: &Motion, joint: OneWay) -> Result<(f64, f64
     let last: Cell<Option<(usize, [f64; 3], f64)>> = Cell::new(None);
     let force = |t: f64| {
         let state = motion.at(t);
-        let now = Now::of(t, state.omega);
+        let now = ScheduleInstant::of(t, state.omega);
         let number = file.schedule.number(&now);
         let state = [state.phi, state.omega, state.alpha];
         if let Some((same, known, force)) = last.get()
@@ -89,9 +89,9 @@ fn smallest(
         let share = (motion.at(to).phi - motion.at(from).phi).abs() / span;
         let count = (samples * share).ceil().clamp(FEWEST, MOST);
         // The acceleration may jump between stretches, so the ends are moved inside.
-        let hair = 1e-9 * (to - from);
-        let last = (to - hair).min(to.next_down()).max(from);
-        let at = |share: f64| (from + share * (to - from)).max(from + hair).min(last);
+        let inset = 1e-9 * (to - from);
+        let last = (to - inset).min(to.next_down()).max(from);
+        let at = |share: f64| (from + share * (to - from)).max(from + inset).min(last);
         let (mut place, mut least) = (0.0, f64::INFINITY);
         for k in 0..=count as u32 {
             let value = force(at(f64::from(k) / count))?;

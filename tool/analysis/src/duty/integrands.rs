@@ -3,7 +3,7 @@
 //! The integrands are the quantities of which all later sums consist: torque, speed, acceleration and inertia at the input and their products in
 //! pairs, power and its square, |n|·|T|³ for the cubic mean torque, losses, and the powers of the energy balance.
 
-use super::moving::Evaluated;
+use super::moving_machine::DutyInstant;
 use jred_file::number::quadrature::kronrod::{Estimate, MOST_PLACES, Rule};
 
 /// Number of integrands.
@@ -38,8 +38,8 @@ pub(super) fn of_whole(panels: usize) -> f64 {
 }
 
 /// The integrands at an instant, and their rounding errors.
-pub(super) fn integrands(now: &Evaluated) -> [[f64; 2]; COUNT] {
-    let Evaluated {
+pub(super) fn integrands(now: &DutyInstant) -> [[f64; 2]; COUNT] {
+    let DutyInstant {
         instant,
         loss,
         magnitude,
@@ -93,7 +93,7 @@ pub(super) struct Sums {
 
 /// Allowed errors of a panel.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Allowed<'s> {
+pub(super) struct PanelTolerance<'s> {
     pub(super) tolerance: f64,
     /// Approximate ∫|f| of each integrand over the motion.
     pub(super) sizes: &'s [f64; COUNT],
@@ -110,10 +110,10 @@ impl Sums {
     /// divided by the panel's share of the integral.
     pub(super) fn over(
         rule: &Rule,
-        places: &[Evaluated],
-        ends: [&Evaluated; 2],
+        places: &[DutyInstant],
+        ends: [&DutyInstant; 2],
         half: f64,
-        allowed: Allowed,
+        allowed: PanelTolerance,
     ) -> (Self, [f64; 2]) {
         let mut values = [[0.0; MOST_PLACES]; COUNT];
         let mut roundings = [0.0; COUNT];

@@ -13,8 +13,8 @@ mod rest;
 mod run_on;
 mod stop;
 
-pub use rest::{Held, Rest, constant_loads};
-pub use run_on::{Closing, RunOn, Stopped};
+pub use rest::{HoldingTorques, Rest, constant_loads};
+pub use run_on::{BrakeStop, MotorBrake, RunOn};
 pub use stop::{Braking, Stop};
 
 /// Figures of machine and motion at the input of the drive train, that is, at the gearbox output.

@@ -7,14 +7,14 @@
 mod signs;
 mod stretch;
 
-use super::fault::Fault;
-use super::integrands::{Allowed, COUNT, Sums, integrands, of_whole};
-use super::moving::{Evaluated, Moving};
+use super::error::DutyError;
+use super::integrands::{COUNT, PanelTolerance, Sums, integrands, of_whole};
+use super::moving_machine::{DutyInstant, MovingMachine};
 use super::stretches::turns;
 use super::{INSIDE, Instant, Sampling, Smooth, refined};
 use jred_file::number::quadrature::GAUSS_3;
 use jred_file::number::quadrature::kronrod::{KRONROD_7, KRONROD_15, Rule};
-use signs::UNSIGNED;
+use signs::SIGN_ROUNDING;
 use stretch::{Stretch, near_whole};
 
 /// Most instants of a duty; with derived data they take 200 bytes each.
@@ -27,19 +27,19 @@ const OF_TURN: [f64; 2] = [2.0, 8.0];
 const FOR_TURNS: f64 = 1e6;
 
 /// Most panels that are evaluated for the size of the integrals.
-const LOOKED_AT: usize = 256;
+const MOST_FOR_SIZES: usize = 256;
 
 /// Most cuts of a panel at changes of sign; with more it is halved first.
 const MOST_CUTS: usize = 16;
 
 /// A halving that leaves a larger share of the error than this is ineffective: over a smooth part it leaves a thousandth, at a kink half.
-const LITTLE: f64 = 0.7;
+const INEFFECTIVE: f64 = 0.7;
 
 /// After this number of ineffective halvings, an error up to this share counts as rounding, which smaller panels do not reduce.
 const IDLE: [(u32, f64); 2] = [(2, 1e-10), (5, 1e-6)];
 
 /// Largest error by rounding of the times, in rounding errors.
-const TIMES: f64 = 4.0;
+const TIME_ROUNDINGS: f64 = 4.0;
 
 /// Most halvings of a panel.
 const DEEPEST: u32 = 60;
@@ -54,16 +54,16 @@ const OF_LAWS: f64 = 1e-7;
 
 /// An end of a panel.
 #[derive(Clone, Copy)]
-struct End {
+struct PanelEnd {
     t: f64,
-    now: Evaluated,
+    now: DutyInstant,
     /// Whether a torque is zero there, so that its sign is rounding.
     is_zero: bool,
 }
 
 /// History of a panel.
 #[derive(Clone, Copy)]
-struct Way {
+struct PanelHistory {
     /// Halvings.
     depth: u32,
     /// Number of the last halvings that hardly reduced the error.
@@ -72,7 +72,7 @@ struct Way {
     error: f64,
 }
 
-impl Default for Way {
+impl Default for PanelHistory {
     fn default() -> Self {
         Self {
             depth: 0,
@@ -82,9 +82,9 @@ impl Default for Way {
     }
 }
 
-impl Way {
+impl PanelHistory {
     fn further(self, error: f64) -> Self {
-        let is_idle = error > LITTLE * self.error;
+        let is_idle = error > INEFFECTIVE * self.error;
         Self {
             depth: self.depth + 1,
             idle: if is_idle { self.idle + 1 } else { 0 },
@@ -95,7 +95,7 @@ impl Way {
 
 /// The duty under construction.
 pub(super) struct Panels<'a, 'm> {
-    moving: &'a mut Moving<'m>,
+    moving: &'a mut MovingMachine<'m>,
     tolerance: f64,
     duration: f64,
     pub(super) instants: Vec<Instant>,
@@ -119,10 +119,10 @@ pub(super) struct Panels<'a, 'm> {
 impl<'a, 'm> Panels<'a, 'm> {
     /// The instants of a motion with these smooth stretches.
     pub(super) fn new(
-        moving: &'a mut Moving<'m>,
+        moving: &'a mut MovingMachine<'m>,
         stretches: &[(f64, f64)],
         sampling: Sampling,
-    ) -> Result<Self, Fault> {
+    ) -> Result<Self, DutyError> {
         let (file, motion) = (moving.file, moving.motion);
         let duration = motion.duration();
         let each: Vec<f64> = stretches.iter().map(|s| turns(file, motion, *s)).collect();
@@ -130,7 +130,7 @@ impl<'a, 'm> Panels<'a, 'm> {
         let of_turn = (FOR_TURNS / 15.0 / all).clamp(OF_TURN[0], OF_TURN[1]);
         let fewest = (15.0 * OF_TURN[0] * all).max(15.0 * stretches.len() as f64);
         if fewest > MOST_INSTANTS as f64 {
-            return Err(Fault::Fine {
+            return Err(DutyError::Fine {
                 until: duration * MOST_INSTANTS as f64 / fewest,
                 duration,
                 tolerance: sampling.tolerance,
@@ -180,8 +180,8 @@ impl<'a, 'm> Panels<'a, 'm> {
     }
 
     /// Approximate sizes of the integrals, and the largest torques.
-    fn look(&mut self, borders: &[(Stretch, Vec<f64>)], count: usize) -> Result<(), Fault> {
-        let stride = count.div_ceil(LOOKED_AT);
+    fn look(&mut self, borders: &[(Stretch, Vec<f64>)], count: usize) -> Result<(), DutyError> {
+        let stride = count.div_ceil(MOST_FOR_SIZES);
         let mut number = 0;
         let mut noise = 0.0f64;
         for (stretch, borders) in borders {
@@ -209,7 +209,7 @@ impl<'a, 'm> Panels<'a, 'm> {
             }
         }
         for most in &mut self.flows {
-            *most = if *most < UNSIGNED * noise {
+            *most = if *most < SIGN_ROUNDING * noise {
                 f64::INFINITY
             } else {
                 // A torque below the rounding of its terms has no sign either.
@@ -219,12 +219,12 @@ impl<'a, 'm> Panels<'a, 'm> {
         Ok(())
     }
 
-    fn end(&mut self, stretch: &Stretch, t: f64, is_zero: bool) -> Result<End, Fault> {
+    fn end(&mut self, stretch: &Stretch, t: f64, is_zero: bool) -> Result<PanelEnd, DutyError> {
         let now = self.moving.at(stretch.clamp(t))?;
-        Ok(End { t, now, is_zero })
+        Ok(PanelEnd { t, now, is_zero })
     }
 
-    fn stretch(&mut self, stretch: &Stretch, borders: &[f64]) -> Result<(), Fault> {
+    fn stretch(&mut self, stretch: &Stretch, borders: &[f64]) -> Result<(), DutyError> {
         let span = [stretch.from, stretch.to];
         let before = self.sums;
         if let Some(direction) = self.moving.starts(span) {
@@ -238,7 +238,7 @@ impl<'a, 'm> Panels<'a, 'm> {
         let mut left = first;
         for border in borders.get(1..).unwrap_or_default() {
             let right = self.end(stretch, *border, false)?;
-            self.panel(stretch, [&left, &right], Way::default())?;
+            self.panel(stretch, [&left, &right], PanelHistory::default())?;
             left = right;
         }
         if stretch.moves {
@@ -260,7 +260,12 @@ impl<'a, 'm> Panels<'a, 'm> {
     }
 
     /// Adds a panel, or its parts.
-    fn panel(&mut self, stretch: &Stretch, ends: [&End; 2], way: Way) -> Result<(), Fault> {
+    fn panel(
+        &mut self,
+        stretch: &Stretch,
+        ends: [&PanelEnd; 2],
+        history: PanelHistory,
+    ) -> Result<(), DutyError> {
         let [from, to] = ends.map(|end| end.t);
         let inner = stretch.between([from, to]);
         let by_rows = !stretch.rows.is_empty() && inner.is_empty();
@@ -273,35 +278,42 @@ impl<'a, 'm> Panels<'a, 'm> {
         }
         // Where a move comes to rest the sign of the speed is rounding for about this time.
         let shortest = INSIDE * (stretch.to - stretch.from);
-        let is_short = half <= shortest.max(4.0 * f64::EPSILON * to.abs()) || way.depth > DEEPEST;
+        let is_short =
+            half <= shortest.max(4.0 * f64::EPSILON * to.abs()) || history.depth > DEEPEST;
         if stretch.moves && !is_short {
             let cuts = self.changes(stretch, ends, places)?;
             if (1..=MOST_CUTS).contains(&cuts.len()) {
-                return self.parts(stretch, ends, &cuts, true, way.further(f64::INFINITY));
+                return self.parts(stretch, ends, &cuts, true, history.further(f64::INFINITY));
             }
             if cuts.len() > MOST_CUTS {
-                return self.parts(stretch, ends, &[middle], false, way.further(f64::INFINITY));
+                return self.parts(
+                    stretch,
+                    ends,
+                    &[middle],
+                    false,
+                    history.further(f64::INFINITY),
+                );
             }
         }
-        let allowed = Allowed {
+        let allowed = PanelTolerance {
             tolerance: self.tolerance,
             sizes: &self.sizes,
             share: (to - from) / self.duration,
             of_whole: self.of_whole,
-            largest: (way.idle == 0).then_some(self.largest),
+            largest: (history.idle == 0).then_some(self.largest),
         };
         let (sums, [excess, rough]) =
             Sums::over(rule, places, ends.map(|end| &end.now), half, allowed);
-        let way = way.further(rough);
+        let history = history.further(rough);
         // The times of a short stretch late in a long motion are rounded.
-        let rounded = TIMES * f64::EPSILON * to.abs() / (stretch.to - stretch.from);
+        let rounded = TIME_ROUNDINGS * f64::EPSILON * to.abs() / (stretch.to - stretch.from);
         let is_noise = IDLE
             .iter()
-            .any(|(idle, noise)| way.idle >= *idle && rough <= *noise)
-            || way.idle >= 1 && rough <= rounded;
+            .any(|(idle, noise)| history.idle >= *idle && rough <= *noise)
+            || history.idle >= 1 && rough <= rounded;
         if excess > 1.0 && !is_short && !is_noise {
             let cut = inner.get(inner.len() / 2).copied().unwrap_or(middle);
-            return self.parts(stretch, ends, &[cut], false, way);
+            return self.parts(stretch, ends, &[cut], false, history);
         }
         self.accept(stretch, ends, rule, places, &sums)
     }
@@ -310,28 +322,28 @@ impl<'a, 'm> Panels<'a, 'm> {
     fn parts(
         &mut self,
         stretch: &Stretch,
-        [first, last]: [&End; 2],
+        [first, last]: [&PanelEnd; 2],
         cuts: &[f64],
         is_zero: bool,
-        way: Way,
-    ) -> Result<(), Fault> {
+        history: PanelHistory,
+    ) -> Result<(), DutyError> {
         let mut left = *first;
         for cut in cuts {
             let right = self.end(stretch, *cut, is_zero)?;
-            self.panel(stretch, [&left, &right], way)?;
+            self.panel(stretch, [&left, &right], history)?;
             left = right;
         }
-        self.panel(stretch, [&left, last], way)
+        self.panel(stretch, [&left, last], history)
     }
 
     fn accept(
         &mut self,
         stretch: &Stretch,
-        [left, right]: [&End; 2],
+        [left, right]: [&PanelEnd; 2],
         rule: &Rule,
-        places: &[Evaluated],
+        places: &[DutyInstant],
         sums: &Sums,
-    ) -> Result<(), Fault> {
+    ) -> Result<(), DutyError> {
         let span = [left.t, right.t];
         let half = 0.5 * (right.t - left.t);
         self.sums.add(sums);
@@ -364,7 +376,7 @@ impl<'a, 'm> Panels<'a, 'm> {
             before = next;
         }
         if self.instants.len() > MOST_INSTANTS {
-            return Err(Fault::Fine {
+            return Err(DutyError::Fine {
                 until: right.t,
                 duration: self.duration,
                 tolerance: self.tolerance,
@@ -376,10 +388,10 @@ impl<'a, 'm> Panels<'a, 'm> {
     }
 
     /// Whether the errors are within the tolerance and the energy balances.
-    fn judge(&self) -> Result<(), Fault> {
+    fn judge(&self) -> Result<(), DutyError> {
         let reached = self.sums.reached();
         if reached > MOST_OF_TOLERANCE * self.tolerance {
-            return Err(Fault::Rough {
+            return Err(DutyError::Rough {
                 span: self.worst.0,
                 reached,
                 tolerance: self.tolerance,
@@ -401,7 +413,7 @@ impl<'a, 'm> Panels<'a, 'm> {
             OF_LAWS
         };
         if is_whole && share > most + MOST_OF_TOLERANCE * self.tolerance {
-            return Err(Fault::Unbalanced {
+            return Err(DutyError::Unbalanced {
                 work,
                 spent,
                 share,

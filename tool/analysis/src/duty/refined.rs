@@ -2,12 +2,12 @@
 
 use jred::error::Error;
 
-use super::moving::Moving;
+use super::moving_machine::MovingMachine;
 use super::{Instant, Smooth};
 use jred_file::number::parabola;
 
 /// Share of the largest input torque by which linear interpolation between two instants may miss a peak.
-const MISSED: f64 = 1e-5;
+const PEAK_ERROR: f64 = 1e-5;
 
 /// Most parts of a step at a sharp bend of the torque.
 const MOST_PARTS: f64 = 64.0;
@@ -38,8 +38,8 @@ pub(super) fn parts(torques: &[(f64, f64)], largest: f64, most: f64) -> Vec<u32>
         let step = torques[k + 1].0 - torques[k].0;
         let missed = bends.fold(0.0, f64::max) * step * step / 8.0;
         // A motion without torque misses no peak.
-        if missed > MISSED * largest {
-            (missed / (MISSED * largest)).sqrt().ceil().min(most) as u32
+        if missed > PEAK_ERROR * largest {
+            (missed / (PEAK_ERROR * largest)).sqrt().ceil().min(most) as u32
         } else {
             1
         }
@@ -49,7 +49,7 @@ pub(super) fn parts(torques: &[(f64, f64)], largest: f64, most: f64) -> Vec<u32>
 
 /// Inserts instants of zero weight at the extremes of quantities that do not depend on the motor, where they lie between the instants.
 pub(super) fn insert_extremes(
-    moving: &mut Moving,
+    moving: &mut MovingMachine,
     instants: &mut Vec<Instant>,
     smooth: &mut Smooth,
 ) -> Result<(), Error> {

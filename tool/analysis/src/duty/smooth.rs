@@ -165,12 +165,12 @@ impl Panel {
     }
 
     /// A quantity at the weighted instants.
-    pub fn values(&self, value: impl Fn(usize) -> f64) -> Values {
+    pub fn values(&self, value: impl Fn(usize) -> f64) -> PanelPolynomial {
         let mut values = [0.0; MOST_PLACES];
         for (place, k) in values.iter_mut().zip(self.indices()) {
             *place = value(*k);
         }
-        Values {
+        PanelPolynomial {
             rule: self.rule,
             values,
         }
@@ -229,12 +229,12 @@ impl Panel {
 
 /// A quantity over a panel: the polynomial through its values at the weighted instants.
 #[derive(Clone, Copy, Debug)]
-pub struct Values {
+pub struct PanelPolynomial {
     rule: &'static Rule,
     values: [f64; MOST_PLACES],
 }
 
-impl Values {
+impl PanelPolynomial {
     /// The values at the weighted instants.
     pub fn known(&self) -> &[f64] {
         &self.values[..self.rule.places().len()]

@@ -12,10 +12,10 @@ use jred_file::model::motion::Motion;
 const SHORTEST: f64 = 8.0 * f64::EPSILON;
 
 /// Share of the largest speed below which a speed is rounding.
-const ROUNDED: f64 = 1e-13;
+const SPEED_ROUNDING: f64 = 1e-13;
 
 /// Largest share of a stretch that is omitted at an end: a law of seventh degree reaches that speed after 3e-5.
-const MOST_HAIR: f64 = 1e-3;
+const MOST_INSET: f64 = 1e-3;
 
 /// The side of an edge on which the drive link is at φ; on a turn, the number of passages.
 fn side(file: &MachineFile, phi: f64, edge: f64) -> i64 {
@@ -69,7 +69,7 @@ fn crossings(
 
 /// Distance (s) by which the first end of a stretch is moved inside. Where a move comes to rest with a soft law, the speed near its end is rounding,
 /// and friction would take its sign.
-pub(super) fn hair(motion: &Motion, [end, other]: [f64; 2]) -> f64 {
+pub(super) fn start_inset(motion: &Motion, [end, other]: [f64; 2]) -> f64 {
     let (length, inwards) = ((other - end).abs(), (other - end).signum());
     let speed = |share: f64| motion.at(end + inwards * share * length).omega.abs();
     let most = [0.25, 0.5, 0.75].map(speed).into_iter().fold(0.0, f64::max);
@@ -78,7 +78,7 @@ pub(super) fn hair(motion: &Motion, [end, other]: [f64; 2]) -> f64 {
     if motion.is_recorded() {
         return share * length;
     }
-    while speed(share) < ROUNDED * most && share < MOST_HAIR {
+    while speed(share) < SPEED_ROUNDING * most && share < MOST_INSET {
         share *= 2.0;
     }
     share * length
@@ -115,7 +115,7 @@ pub(crate) fn smooth_stretches(file: &MachineFile, motion: &Motion) -> Vec<(f64,
             let ends = [pair[0], pair[1]].map(|t| (t, way(t)));
             crossings(&way, ends, least, &mut turns);
         }
-        let [first, end] = [[from, to], [to, from]].map(|ends| hair(motion, ends));
+        let [first, end] = [[from, to], [to, from]].map(|ends| start_inset(motion, ends));
         turns.retain(|t| *t > from + first && *t < to - end);
         let one_way: Vec<f64> = ([from].into_iter().chain(turns.iter().copied()))
             .chain([to])

@@ -14,7 +14,7 @@ use jred_file::model::coordinate::whole_range;
 use jred_file::model::machine::{MachineFile, Machines};
 use jred_file::model::mechanism::AnyMechanism;
 use jred_file::model::motion::Motion;
-use jred_file::model::schedule::Now;
+use jred_file::model::schedule::ScheduleInstant;
 use jred_file::number::{numerics, parabola};
 
 /// Positions or instants that are compared.
@@ -49,7 +49,7 @@ const SHARE: f64 = 1e-11;
 const TIMES: f64 = 2.0;
 
 /// Share of a stretch by which its ends are moved inside.
-const HAIR: f64 = 1e-13;
+const INSIDE: f64 = 1e-13;
 
 /// The moving masses.
 #[derive(Clone, Copy, Debug, Serialize, schemars::JsonSchema)]
@@ -76,7 +76,7 @@ pub struct Agreement {
     pub energy: Option<f64>,
 }
 
-/// The inertia of a file's machine with its drive train, and of its laden machines.
+/// The inertia of a file's machine with its drive train, and of its machines with payloads.
 pub(super) fn inertia(
     file: &MachineFile,
     machine: &Machine<AnyMechanism>,
@@ -117,11 +117,11 @@ fn extremes(
 ) -> Result<[f64; 3], Error> {
     let (mut places, mut firsts) = (Vec::new(), Vec::new());
     for ([from, to], steps) in parts {
-        let hair = HAIR * (to - from);
+        let inset = INSIDE * (to - from);
         for k in 0..=*steps {
             firsts.push(places.len() - k);
             let even = from + (to - from) * k as f64 / *steps as f64;
-            places.push(even.clamp(from + hair, to - hair));
+            places.push(even.clamp(from + inset, to - inset));
         }
     }
     let values = places
@@ -179,7 +179,7 @@ fn laden_inertia(file: &MachineFile, machines: &Machines) -> Result<Option<[f64;
         .collect();
     let at = |t: f64| {
         let state = motion.at(t);
-        let machine = machines.at(&Now::of(t, state.omega), state.phi)?;
+        let machine = machines.at(&ScheduleInstant::of(t, state.omega), state.phi)?;
         Ok(machine.bare_reduction(state.phi)?.inertia)
     };
     Ok(Some(extremes(&parts, &at)?))
@@ -187,15 +187,15 @@ fn laden_inertia(file: &MachineFile, machines: &Machines) -> Result<Option<[f64;
 
 /// The agreement for a machine file and its machines with the drive train.
 pub(super) fn agreement(file: &MachineFile, machines: &Machines) -> Result<Agreement, Error> {
-    let states: Vec<(Now, [f64; 3])> = match &file.motion {
+    let states: Vec<(ScheduleInstant, [f64; 3])> = match &file.motion {
         Some(motion) => (0..=STEPS)
             .map(|k| motion.duration() * k as f64 / STEPS as f64)
             .map(|t| (t, motion.at(t)))
-            .map(|(t, s)| (Now::of(t, s.omega), [s.phi, s.omega, s.alpha]))
+            .map(|(t, s)| (ScheduleInstant::of(t, s.omega), [s.phi, s.omega, s.alpha]))
             .collect(),
         None => whole_range(file.machine.domain(), STEPS)
             .zip([[1.0, 1.0], [-1.0, 0.5], [1.0, -1.0]].into_iter().cycle())
-            .map(|(phi, [omega, alpha])| (Now::default(), [phi, omega, alpha]))
+            .map(|(phi, [omega, alpha])| (ScheduleInstant::default(), [phi, omega, alpha]))
             .collect(),
     };
     let (mut worst, mut largest) = (0.0f64, 0.0f64);
@@ -238,17 +238,17 @@ pub(super) fn agreement(file: &MachineFile, machines: &Machines) -> Result<Agree
 /// The energy balance over the motion, stretch by stretch: a payload brings its energy and takes it away.
 fn balance(file: &MachineFile, machines: &Machines, motion: &Motion) -> Result<f64, Error> {
     let stretches = duty::smooth_stretches(file, motion);
-    let parts: Vec<Part> = stretches
+    let parts: Vec<SmoothStretch> = stretches
         .into_iter()
         .map(|(from, to)| {
             let turns = duty::turns(file, motion, (from, to));
             let to = from + (to - from) * (MOST_TURNS / turns).min(1.0);
-            Part::new(file, machines, motion, [from, to])
+            SmoothStretch::new(file, machines, motion, [from, to])
         })
         .collect();
     let duration = motion.duration();
     // Between two rows of a recorded or computed motion, where it is smooth.
-    let over = |part: &Part, f: &dyn Fn(f64) -> Result<f64, Error>, tolerance: f64| {
+    let over = |part: &SmoothStretch, f: &dyn Fn(f64) -> Result<f64, Error>, tolerance: f64| {
         let cuts = motion.cut_at_rows(part.span);
         let least = if cuts.len() > 2 {
             (ROW_PANELS / cuts.len()).clamp(1, 4)
@@ -291,10 +291,10 @@ fn balance(file: &MachineFile, machines: &Machines, motion: &Motion) -> Result<f
 }
 
 /// A time (s), the state of the drive link, and the machine.
-type At<'m> = (f64, State<f64>, Cow<'m, Machine<AnyMechanism>>);
+type MachineState<'m> = (f64, State<f64>, Cow<'m, Machine<AnyMechanism>>);
 
 /// A smooth stretch of the motion, over which the machine does not change, except for carriages.
-struct Part<'m> {
+struct SmoothStretch<'m> {
     carriages: &'m [Carriage],
     machines: &'m Machines<'m>,
     machine: &'m Machine<AnyMechanism>,
@@ -302,7 +302,7 @@ struct Part<'m> {
     span: [f64; 2],
 }
 
-impl<'m> Part<'m> {
+impl<'m> SmoothStretch<'m> {
     fn new(
         file: &'m MachineFile,
         machines: &'m Machines,
@@ -313,19 +313,19 @@ impl<'m> Part<'m> {
         Self {
             carriages: file.schedule.carriages(),
             machines,
-            machine: machines.among(&Now::of(t, motion.at(t).omega)),
+            machine: machines.among(&ScheduleInstant::of(t, motion.at(t).omega)),
             motion,
             span,
         }
     }
 
-    /// The machine at a time, moved inside the stretch by [`HAIR`]: at its ends the acceleration of a carriage may jump.
-    fn at(&self, t: f64) -> Result<At<'m>, Error> {
+    /// The machine at a time, moved inside the stretch by [`INSIDE`]: at its ends the acceleration of a carriage may jump.
+    fn at(&self, t: f64) -> Result<MachineState<'m>, Error> {
         let [from, to] = self.span;
-        let hair = HAIR * (to - from);
+        let inset = INSIDE * (to - from);
         let state = self.motion.at(t);
-        let inside = t.clamp(from + hair, to - hair);
-        let now = Now::of(inside, state.omega);
+        let inside = t.clamp(from + inset, to - inset);
+        let now = ScheduleInstant::of(inside, state.omega);
         let machine = self.machines.flowing(self.machine, &now, state.phi)?;
         Ok((inside, state, machine))
     }

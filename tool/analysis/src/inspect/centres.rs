@@ -14,7 +14,7 @@ use jred_file::number::numerics::edge;
 const SAMPLES: usize = 1440;
 
 /// Share of the largest transfer function below which a link is at rest.
-const STILL: f64 = 1e-9;
+const REST_TOLERANCE: f64 = 1e-9;
 
 /// Places (rad) closer than this to a whole turn are its start.
 const ROUNDING: f64 = 1e-8;
@@ -84,7 +84,7 @@ pub(super) fn travels(mechanism: &AnyMechanism) -> Result<Vec<Travel>, Error> {
 }
 
 /// One sample: position of the drive, and the sign of the transfer function there, 0 at rest.
-struct Sample {
+struct TransferSample {
     phi: f64,
     sign: i8,
 }
@@ -109,7 +109,7 @@ fn sign(slope: f64, still: f64) -> i8 {
 fn samples(
     domain: Domain,
     slope: &dyn Fn(f64) -> Result<f64, Error>,
-) -> Result<(Vec<Sample>, f64), Error> {
+) -> Result<(Vec<TransferSample>, f64), Error> {
     let slopes = (0..=SAMPLES)
         .map(|k| slope(place(domain, k)))
         .collect::<Result<Vec<f64>, Error>>()?;
@@ -124,7 +124,7 @@ fn samples(
                     most
                 }
             });
-    let still = STILL * most;
+    let still = REST_TOLERANCE * most;
     let first = if domain == Domain::Turn {
         place(domain, fastest)
     } else {
@@ -134,12 +134,12 @@ fn samples(
     let samples = (0..=SAMPLES)
         .map(|k| {
             let phi = first + step * k as f64;
-            Ok(Sample {
+            Ok(TransferSample {
                 phi,
                 sign: sign(slope(phi)?, still),
             })
         })
-        .collect::<Result<Vec<Sample>, Error>>()?;
+        .collect::<Result<Vec<TransferSample>, Error>>()?;
     Ok((samples, still))
 }
 

@@ -2,8 +2,8 @@
 
 use jred::error::Error;
 
-use super::{Place, Set, Source};
-use jred_file::number::columns::{Column, Quantity};
+use super::{RowPose, Set, Source};
+use jred_file::number::columns::{Column, ColumnQuantity};
 
 /// s, ṡ, s̈ and F of every carriage: data for sizing the axis that moves it.
 pub(super) struct Carriages {
@@ -22,7 +22,7 @@ impl Set for Carriages {
         for carriage in carriages {
             let name = &carriage.name;
             heads.extend(
-                COLUMNS.map(|(symbol, unit)| Column::of(Quantity::Other, name, symbol, unit)),
+                COLUMNS.map(|(symbol, unit)| Column::of(ColumnQuantity::Other, name, symbol, unit)),
             );
             if self.shares {
                 let name = format!("{} {name}", coordinate.inertia());
@@ -32,7 +32,7 @@ impl Set for Carriages {
         heads
     }
 
-    fn values(&self, source: &Source, place: &Place) -> Result<Vec<Option<f64>>, Error> {
+    fn values(&self, source: &Source, place: &RowPose) -> Result<Vec<Option<f64>>, Error> {
         let gravity = source.machine.gravity();
         let mut values = Vec::new();
         for carriage in source.file.schedule.carriages() {

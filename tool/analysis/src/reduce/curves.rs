@@ -4,12 +4,12 @@ use jred::error::Error;
 use jred::machine::{Reducible as _, TorqueTerms};
 use jred::mechanism::TrainOutput;
 
-use super::{Place, Set, Source};
+use super::{RowPose, Set, Source};
 use jred_file::model::coordinate::Coordinate;
-use jred_file::number::columns::{Column, Quantity};
+use jred_file::number::columns::{Column, ColumnQuantity};
 
 /// J_red with its derivatives, the terms of the reduced torque, and the drive torque of the motion.
-pub(super) struct Curves {
+pub(super) struct CurveColumns {
     /// Each link's share of J_red.
     pub(super) links: bool,
     /// Whether there is a motion.
@@ -17,21 +17,21 @@ pub(super) struct Curves {
 }
 
 /// Only speed and acceleration.
-pub(super) struct Motion;
+pub(super) struct MotionColumns;
 
 /// The terms of the motion's drive torque, including drive train and flywheel, without the losses of the drive train.
-pub(super) struct Torques {
+pub(super) struct TorqueColumns {
     /// Also their sum, unless the forces contain it.
     pub(super) sum: bool,
 }
 
-impl Set for Torques {
+impl Set for TorqueColumns {
     fn heads(&self, source: &Source) -> Vec<Column> {
         let sum = self.sum.then(|| source.coordinate.drive_effort());
         terms(source.coordinate).chain(sum).collect()
     }
 
-    fn values(&self, source: &Source, place: &Place) -> Result<Vec<Option<f64>>, Error> {
+    fn values(&self, source: &Source, place: &RowPose) -> Result<Vec<Option<f64>>, Error> {
         let machine = source.machines.at(&place.now, place.phi)?;
         let point = machine.reduction(place.phi)?;
         let terms = place.state.map(|s| point.torque(s.omega, s.alpha));
@@ -46,17 +46,21 @@ fn terms(coordinate: Coordinate) -> impl Iterator<Item = Column> {
     let (effort, unit) = (coordinate.effort(), coordinate.effort_unit());
     let term = move |term: &str| Column {
         part: term.to_owned(),
-        ..Column::new(Quantity::EffortTerm, format!("{effort}_drive {term}"), unit)
+        ..Column::new(
+            ColumnQuantity::EffortTerm,
+            format!("{effort}_drive {term}"),
+            unit,
+        )
     };
     TorqueTerms::NAMES.into_iter().map(term)
 }
 
-impl Set for Motion {
+impl Set for MotionColumns {
     fn heads(&self, source: &Source) -> Vec<Column> {
         source.coordinate.rates().to_vec()
     }
 
-    fn values(&self, _: &Source, place: &Place) -> Result<Vec<Option<f64>>, Error> {
+    fn values(&self, _: &Source, place: &RowPose) -> Result<Vec<Option<f64>>, Error> {
         let rates = place.state.map(|s| [s.omega, s.alpha]);
         Ok(vec![rates.map(|r| r[0]), rates.map(|r| r[1])])
     }
@@ -75,9 +79,9 @@ fn curves(coordinate: Coordinate) -> Vec<Column> {
         Coordinate::Length => "N s/m",
     };
     vec![
-        Column::new(Quantity::ReducedInertia, inertia, unit),
+        Column::new(ColumnQuantity::ReducedInertia, inertia, unit),
         Column::new(
-            Quantity::InertiaSlope,
+            ColumnQuantity::InertiaSlope,
             format!("{inertia}'"),
             format!("{unit}/{per}"),
         ),
@@ -90,7 +94,7 @@ fn curves(coordinate: Coordinate) -> Vec<Column> {
     ]
 }
 
-impl Set for Curves {
+impl Set for CurveColumns {
     fn heads(&self, source: &Source) -> Vec<Column> {
         let coordinate = source.coordinate;
         let (inertia, unit) = (coordinate.inertia(), coordinate.inertia_unit());
@@ -111,7 +115,7 @@ impl Set for Curves {
         heads
     }
 
-    fn values(&self, source: &Source, place: &Place) -> Result<Vec<Option<f64>>, Error> {
+    fn values(&self, source: &Source, place: &RowPose) -> Result<Vec<Option<f64>>, Error> {
         let machine = source.machines.at(&place.now, place.phi)?;
         let point = machine.reduction(place.phi)?;
         let [inertia, slope, bend] = point.inertias();

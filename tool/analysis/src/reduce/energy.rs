@@ -6,8 +6,8 @@
 use jred::error::Error;
 use jred::machine::{Body, Frames, Mechanism as _, Wrench};
 
-use super::{Place, Set, Source};
-use jred_file::number::columns::{Column, Quantity};
+use super::{RowPose, Set, Source};
+use jred_file::number::columns::{Column, ColumnQuantity};
 
 /// Kinetic and potential energy, and the generalised force of weight, loads, springs and dampers.
 pub(super) struct Energy;
@@ -17,7 +17,7 @@ impl Set for Energy {
         let unit = source.coordinate.effort_unit();
         let energies = ["E_kinetic", "E_potential"];
         let mut heads = energies
-            .map(|name| Column::new(Quantity::Energy, name, "J"))
+            .map(|name| Column::new(ColumnQuantity::Energy, name, "J"))
             .to_vec();
         let mut force = |name: &str| heads.push(Column::other(format!("Q {name}"), unit));
         force("weight");
@@ -28,7 +28,7 @@ impl Set for Energy {
         heads
     }
 
-    fn values(&self, source: &Source, place: &Place) -> Result<Vec<Option<f64>>, Error> {
+    fn values(&self, source: &Source, place: &RowPose) -> Result<Vec<Option<f64>>, Error> {
         let machine = source.machines.at(&place.now, place.phi)?;
         let point = machine.bare_reduction(place.phi)?;
         let Some(state) = place.state else {

@@ -7,17 +7,17 @@ use jred::machine::{Mechanism as _, Reducible as _};
 use serde::{Serialize, Serializer};
 
 use super::reactions::{self, Reactions};
-use super::{Over, Pass, Place, Request, Set as _, Source};
+use super::{Over, Pass, Request, RowPose, Set as _, Source};
 use crate::duty::{INSIDE, smooth_stretches};
 use jred_file::model::machine::MachineFile;
 use jred_file::model::motion::Motion;
-use jred_file::model::schedule::Now;
-use jred_file::number::columns::{Column, Quantity};
+use jred_file::model::schedule::ScheduleInstant;
+use jred_file::number::columns::{Column, ColumnQuantity};
 use jred_file::number::parabola;
 use jred_file::number::rounding::short;
 
 /// Least number of positions that are searched: the quarter degrees of a turn.
-const SEARCHED: usize = 1440;
+const LEAST_POSITIONS: usize = 1440;
 
 /// Fewest steps per turn or stroke, in a motion over many.
 const OF_TURN: f64 = 180.0;
@@ -69,18 +69,22 @@ fn title<S: Serializer>(column: &Column, serializer: S) -> Result<S::Ok, S::Erro
 /// Errors of the machine.
 pub fn largest(file: &MachineFile, request: &Request) -> Result<Vec<Largest>, Error> {
     let source = Source::new(file)?;
-    let Some(course) = Course::of(&source, request) else {
+    let Some(course) = SearchDomain::of(&source, request) else {
         return Ok(Vec::new());
     };
-    let stretches = course.stretches(&source, request.positions.max(SEARCHED));
-    let search = Search {
+    let stretches = course.stretches(&source, request.positions.max(LEAST_POSITIONS));
+    let search = PeakSearch {
         reactions: Reactions::new(&source)?,
         source: &source,
         course,
     };
     let heads = search.reactions.heads(&source);
     // Magnitudes and moments; the components add no information.
-    let judged = [Quantity::DriveEffort, Quantity::Force, Quantity::Moment];
+    let judged = [
+        ColumnQuantity::DriveEffort,
+        ColumnQuantity::Force,
+        ColumnQuantity::Moment,
+    ];
     // Towards a change point the forces in the joints grow without bound; the drive and the shaking force, which come first and last, do not.
     let guided = !source.machine.mechanism().change_points().is_empty();
     let joints = 1..heads.len().saturating_sub(reactions::LOADS.len());
@@ -144,14 +148,14 @@ pub fn largest(file: &MachineFile, request: &Request) -> Result<Vec<Largest>, Er
 }
 
 /// The course that is searched.
-enum Course<'f> {
+enum SearchDomain<'f> {
     /// The motion over time.
     Motion(&'f Motion),
     /// All positions, at this speed and acceleration.
     State([f64; 2]),
 }
 
-impl<'f> Course<'f> {
+impl<'f> SearchDomain<'f> {
     /// The course of a request; `None` if no row has a motion.
     fn of(source: &Source<'f>, request: &Request) -> Option<Self> {
         if let Some(state) = request.state {
@@ -234,24 +238,24 @@ pub(crate) fn between_edges(file: &MachineFile) -> Vec<(f64, f64)> {
     cuts.windows(2).map(|cut| (cut[0], cut[1])).collect()
 }
 
-struct Search<'s, 'f> {
+struct PeakSearch<'s, 'f> {
     source: &'s Source<'f>,
     reactions: Reactions,
-    course: Course<'f>,
+    course: SearchDomain<'f>,
 }
 
-impl Search<'_, '_> {
+impl PeakSearch<'_, '_> {
     /// The forces at x.
     fn at(&self, x: f64) -> Result<Vec<f64>, Error> {
         let state = self.course.state(x);
         let now = match self.course {
-            Course::Motion(_) => Now::of(x, state.omega),
-            Course::State(_) => Now {
+            SearchDomain::Motion(_) => ScheduleInstant::of(x, state.omega),
+            SearchDomain::State(_) => ScheduleInstant {
                 omega: Some(state.omega),
-                ..Now::default()
+                ..ScheduleInstant::default()
             },
         };
-        let place = Place {
+        let place = RowPose {
             now,
             phi: state.phi,
             frames: self.source.machine.mechanism().frames(state.phi)?,

@@ -5,10 +5,10 @@ use jred::machine::motion::State;
 use jred::machine::{Frames, Mechanism as _};
 use jred::number::Transfer;
 
-use super::{Place, Set, Source};
+use super::{RowPose, Set, Source};
 use jred_file::model::coordinate::Coordinate;
 use jred_file::model::mechanism::AnyMechanism;
-use jred_file::number::columns::{Column, Quantity};
+use jred_file::number::columns::{Column, ColumnQuantity};
 
 /// Every named point, every link's centre of mass (for links with a mass), and every link's angle.
 pub(super) struct Points {
@@ -48,36 +48,36 @@ impl Set for Points {
             let bend = format!("m/{per}^2");
             let mut add =
                 |quantity, symbol, unit| heads.push(Column::of(quantity, &name, symbol, unit));
-            add(Quantity::Coordinate, "x", "m");
-            add(Quantity::Coordinate, "y", "m");
-            add(Quantity::XSlope, "x'", &slope);
-            add(Quantity::YSlope, "y'", &slope);
-            add(Quantity::Other, "x''", &bend);
-            add(Quantity::Other, "y''", &bend);
+            add(ColumnQuantity::Coordinate, "x", "m");
+            add(ColumnQuantity::Coordinate, "y", "m");
+            add(ColumnQuantity::XSlope, "x'", &slope);
+            add(ColumnQuantity::YSlope, "y'", &slope);
+            add(ColumnQuantity::Other, "x''", &bend);
+            add(ColumnQuantity::Other, "y''", &bend);
             if self.in_time {
-                add(Quantity::Other, "v_x", "m/s");
-                add(Quantity::Other, "v_y", "m/s");
-                add(Quantity::Speed, "v", "m/s");
-                add(Quantity::Other, "a_x", "m/s^2");
-                add(Quantity::Other, "a_y", "m/s^2");
-                add(Quantity::Acceleration, "a", "m/s^2");
+                add(ColumnQuantity::Other, "v_x", "m/s");
+                add(ColumnQuantity::Other, "v_y", "m/s");
+                add(ColumnQuantity::Speed, "v", "m/s");
+                add(ColumnQuantity::Other, "a_x", "m/s^2");
+                add(ColumnQuantity::Other, "a_y", "m/s^2");
+                add(ColumnQuantity::Acceleration, "a", "m/s^2");
             }
         }
         for link in mechanism.link_names() {
             let mut add =
                 |quantity, symbol, unit| heads.push(Column::of(quantity, link, symbol, unit));
-            add(Quantity::Other, "psi", "deg");
-            add(Quantity::AngleSlope, "psi'", ratio[0]);
-            add(Quantity::Other, "psi''", ratio[1]);
+            add(ColumnQuantity::Other, "psi", "deg");
+            add(ColumnQuantity::AngleSlope, "psi'", ratio[0]);
+            add(ColumnQuantity::Other, "psi''", ratio[1]);
             if self.in_time {
-                add(Quantity::AngularSpeed, "omega", "rad/s");
-                add(Quantity::AngularAcceleration, "alpha", "rad/s^2");
+                add(ColumnQuantity::AngularSpeed, "omega", "rad/s");
+                add(ColumnQuantity::AngularAcceleration, "alpha", "rad/s^2");
             }
         }
         heads
     }
 
-    fn values(&self, source: &Source, place: &Place) -> Result<Vec<Option<f64>>, Error> {
+    fn values(&self, source: &Source, place: &RowPose) -> Result<Vec<Option<f64>>, Error> {
         let mechanism = source.machine.mechanism();
         let mut values = Vec::new();
         for (_, link, at) in points(mechanism) {

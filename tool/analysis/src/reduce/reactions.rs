@@ -7,16 +7,16 @@
 use jred::error::Error;
 use jred::machine::{Joint, Jointed as _, Mechanism as _};
 
-use super::{Place, Set, Source};
+use super::{RowPose, Set, Source};
 use jred_file::model::mechanism::AnyMechanism;
-use jred_file::number::columns::{Column, Quantity};
+use jred_file::number::columns::{Column, ColumnQuantity};
 
 /// Symbols and units of the columns of a joint.
-pub(super) const LOADS: [(Quantity, &str, &str); 4] = [
-    (Quantity::Other, "F_x", "N"),
-    (Quantity::Other, "F_y", "N"),
-    (Quantity::Force, "F", "N"),
-    (Quantity::Moment, "M", "N m"),
+pub(super) const LOADS: [(ColumnQuantity, &str, &str); 4] = [
+    (ColumnQuantity::Other, "F_x", "N"),
+    (ColumnQuantity::Other, "F_y", "N"),
+    (ColumnQuantity::Force, "F", "N"),
+    (ColumnQuantity::Moment, "M", "N m"),
 ];
 
 /// Kinds of load in the joints.
@@ -92,7 +92,7 @@ impl Set for Reactions {
         heads
     }
 
-    fn values(&self, source: &Source, place: &Place) -> Result<Vec<Option<f64>>, Error> {
+    fn values(&self, source: &Source, place: &RowPose) -> Result<Vec<Option<f64>>, Error> {
         let Some(state) = place.state else {
             return Ok(vec![None; self.heads(source).len()]);
         };

@@ -2,9 +2,9 @@
 
 use jred_file::model::machine::MachineFile;
 use jred_file::model::motion::Motion;
-use jred_file::model::schedule::Now;
+use jred_file::model::schedule::ScheduleInstant;
 
-use super::geared::Geared;
+use super::coupled::GearedMachine;
 
 /// Distance from a corner, per second of time, at which a step is evaluated: a jump belongs to both sides.
 pub(super) const EDGE: f64 = 1e-13;
@@ -39,15 +39,15 @@ impl Moment {
     }
 
     /// The instant for a machine whose own drive link moves with ω.
-    pub(super) fn now(&self, machine: &Geared, omega: f64) -> Now {
+    pub(super) fn now(&self, machine: &GearedMachine, omega: f64) -> ScheduleInstant {
         let (_, t) = Clock::of(machine.file).split(self.t);
         let direction = self.direction * machine.ratio();
         if self.starts {
-            Now::starting(t, direction)
+            ScheduleInstant::starting(t, direction)
         } else if direction == 0.0 {
-            Now::of(t, 0.0)
+            ScheduleInstant::of(t, 0.0)
         } else {
-            Now::moving(t, omega, direction)
+            ScheduleInstant::moving(t, omega, direction)
         }
     }
 }

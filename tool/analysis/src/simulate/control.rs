@@ -5,8 +5,8 @@ use jred::machine::Reducible as _;
 use jred::machine::motion::State as Reference;
 
 use super::clock::{Clock, Corners, Moment};
-use super::commanded::{Command, Commander};
-use super::geared::Together;
+use super::commander::{Command, Commander};
+use super::coupled::CoupledMachines;
 use super::machine::Plant;
 use jred_file::model::axis::Axis;
 use jred_file::model::coordinate::whole_range;
@@ -14,7 +14,7 @@ use jred_file::model::machine::MachineFile;
 use jred_file::model::motion::Motion;
 use jred_file::model::motor::Motor;
 use jred_file::model::simulation::{Control, FeedForward};
-use jred_file::number::columns::{Column, Quantity};
+use jred_file::number::columns::{Column, ColumnQuantity};
 
 /// Positions over which the inertia is averaged.
 const POSITIONS: usize = 720;
@@ -32,7 +32,7 @@ pub(super) struct Cascade<'a> {
 
 impl<'a> Cascade<'a> {
     pub(super) fn new(
-        machines: &Together,
+        machines: &CoupledMachines,
         control: Control,
         motion: &'a Motion,
     ) -> Result<Self, Error> {
@@ -113,7 +113,7 @@ impl<M: Motor> Commander<M> for Cascade<'_> {
     fn column(&self) -> Column {
         let position = self.axis.column();
         let error = format!("{} error", position.name);
-        Column::new(Quantity::FollowingError, error, position.unit)
+        Column::new(ColumnQuantity::FollowingError, error, position.unit)
     }
 
     fn figure(&self, plant: &Plant<M>, t: f64, [phi, ..]: [f64; 3], _: bool) -> f64 {

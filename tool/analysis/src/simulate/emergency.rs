@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use jred::Domain;
 use jred::machine::Reducible as _;
 
-use super::{Rest, Simulated, SimulationError};
+use super::{Rest, SimulationError, SimulationResult};
 use jred_file::model::machine::MachineFile;
 use jred_file::model::simulation::{Halt, Simulation};
 
@@ -29,7 +29,7 @@ pub fn stops<E: From<SimulationError>>(
     file: &MachineFile,
     simulation: &Simulation,
     count: u32,
-    run: impl Fn(&Simulation) -> Result<Simulated, E>,
+    run: impl Fn(&Simulation) -> Result<SimulationResult, E>,
 ) -> Result<Vec<Stop>, E> {
     let halt = simulation.halt.ok_or(SimulationError::NoStop)?;
     let span = span(file, simulation, halt, &run)?;
@@ -58,7 +58,7 @@ fn span<E: From<SimulationError>>(
     file: &MachineFile,
     simulation: &Simulation,
     halt: Halt,
-    run: impl Fn(&Simulation) -> Result<Simulated, E>,
+    run: impl Fn(&Simulation) -> Result<SimulationResult, E>,
 ) -> Result<f64, E> {
     let followed = file.motion.as_ref().filter(|motion| motion.cyclic);
     if let Some(motion) = followed.filter(|_| simulation.control.is_some()) {

@@ -2,7 +2,7 @@
 
 use jred::error::Error;
 
-use jred_file::number::numerics::dormand_prince::Stopped;
+use jred_file::number::numerics::dormand_prince::IntegrationError;
 
 /// Why a simulation ended early.
 #[derive(Debug, thiserror::Error, miette::Diagnostic)]
@@ -114,11 +114,11 @@ impl<E: Into<Error>> From<E> for SimulationError {
 }
 
 /// Why the integrator stopped, for times counted from `t`.
-pub(super) fn stopped(t: f64, error: Stopped<Error>) -> SimulationError {
+pub(super) fn stopped(t: f64, error: IntegrationError<Error>) -> SimulationError {
     let (x, reason) = match error {
-        Stopped::Function(error) => return error.into(),
-        Stopped::TooManySteps { x } => (x, "too many steps would be needed"),
-        Stopped::StepTooSmall { x } => {
+        IntegrationError::Function(error) => return error.into(),
+        IntegrationError::TooManySteps { x } => (x, "too many steps would be needed"),
+        IntegrationError::StepTooSmall { x } => {
             (x, "the step size has become too small for double precision")
         }
     };

@@ -4,11 +4,11 @@ use jred::error::Error;
 
 use super::SimulationError;
 use super::clock::{Corners, Moment};
-use super::geared::Together;
+use super::coupled::CoupledMachines;
 use super::machine::{Instant, Plant};
-use super::observe::Working;
-use super::run::{self, HAIR, Row};
-use super::simulated::Missing;
+use super::observe::MotorState;
+use super::result::TorqueDeficit;
+use super::run::{self, OutputRow, SIGN_SPEED};
 use jred_file::model::motor::Motor;
 use jred_file::model::simulation::Simulation;
 use jred_file::number::columns::Column;
@@ -124,7 +124,7 @@ impl<M: Motor, const N: usize> run::Plant<N> for Plant<'_, M> {
         self.changes()
     }
 
-    fn machines(&self) -> Together<'_> {
+    fn machines(&self) -> CoupledMachines<'_> {
         self.machines.clone()
     }
 
@@ -132,13 +132,13 @@ impl<M: Motor, const N: usize> run::Plant<N> for Plant<'_, M> {
         self.columns()
     }
 
-    fn working(&self, moment: &Moment, y: &[f64; N]) -> Result<Option<Working>, Error> {
+    fn working(&self, moment: &Moment, y: &[f64; N]) -> Result<Option<MotorState>, Error> {
         let torque = self.torque(moment, y[1]);
         let working = self.working_at(moment, [y[0], y[1]], [torque; 2])?;
         Ok(Some(working))
     }
 
-    fn missing(&self, t: f64, y: &[f64; N]) -> Result<Option<Missing>, Error> {
+    fn missing(&self, t: f64, y: &[f64; N]) -> Result<Option<TorqueDeficit>, Error> {
         let [given, _] = self.motor(0.0);
         let push = (given * self.ratio()).signum();
         let is_off = (self.simulation.halt).is_some_and(|halt| t >= halt.time);
@@ -150,16 +150,16 @@ impl<M: Motor, const N: usize> run::Plant<N> for Plant<'_, M> {
         let moments = [Moment::starting(t, push), Moment::new(t, push)];
         let mut needed = f64::NEG_INFINITY;
         for moment in moments {
-            needed = needed.max(sign * self.keeping(&moment, [y[0], push * HAIR])?);
+            needed = needed.max(sign * self.keeping(&moment, [y[0], push * SIGN_SPEED])?);
         }
-        Ok((needed > given * sign).then_some(Missing {
+        Ok((needed > given * sign).then_some(TorqueDeficit {
             phi: y[0],
             given,
             needed: sign * needed,
         }))
     }
 
-    fn row(&self, moment: &Moment, y: &[f64; N]) -> Result<Row, Error> {
+    fn row(&self, moment: &Moment, y: &[f64; N]) -> Result<OutputRow, Error> {
         let [phi, omega] = [y[0], y[1]];
         let alpha = if moment.direction == 0.0 {
             0.0

@@ -1,14 +1,14 @@
 //! One or several machines that a motor drives through fixed ratios.
 
 mod bends;
-mod shown;
+mod output;
 
 use jred::error::Error;
 use jred::mechanism::{TrainInput, TrainOutput};
 
 use super::clock::{Corners, Moment};
-use super::geared::{Geared, Together};
-use super::point::{Point, Points, sign};
+use super::coupled::{CoupledMachines, GearedMachine};
+use super::point::{ReducedLink, ReducedLinks, sign};
 use bends::Bends;
 use jred_file::model::axis::Axis;
 use jred_file::model::motor::{Motor, loads_of};
@@ -17,7 +17,7 @@ use jred_file::number::numerics::newton;
 
 /// The machine with its drive and motor torque.
 pub(crate) struct Plant<'a, M> {
-    pub(super) machines: Together<'a>,
+    pub(super) machines: CoupledMachines<'a>,
     pub(super) simulation: &'a Simulation,
     pub(crate) motor: M,
     axis: Axis,
@@ -40,7 +40,7 @@ pub(crate) struct Instant {
 }
 
 /// The energy of the machines, their drive trains and the motor.
-pub(super) struct Stored {
+pub(super) struct StoredEnergy {
     /// Inertia of all machines at the first drive link.
     pub(super) inertia: f64,
     /// Kinetic energy beyond ½·J·ω²: that of carriages along their guides (J).
@@ -50,7 +50,7 @@ pub(super) struct Stored {
 }
 
 /// Motor effort for a torque at the drive link during a motion.
-struct Through {
+struct InputEffort {
     torque: f64,
     /// Its derivative by α.
     per_alpha: f64,
@@ -65,7 +65,7 @@ pub fn beside_name(index: usize) -> String {
 }
 
 impl<'a, M: Motor> Plant<'a, M> {
-    pub(crate) fn new(machines: Together<'a>, simulation: &'a Simulation, motor: M) -> Self {
+    pub(crate) fn new(machines: CoupledMachines<'a>, simulation: &'a Simulation, motor: M) -> Self {
         Self {
             axis: machines.first.axis(),
             ends: simulation.ends(machines.first),
@@ -96,8 +96,8 @@ impl<'a, M: Motor> Plant<'a, M> {
         &self,
         direction: f64,
         [omega, alpha]: [f64; 2],
-        loads: impl IntoIterator<Item = (Geared<'a>, [f64; 2])>,
-    ) -> Through {
+        loads: impl IntoIterator<Item = (GearedMachine<'a>, [f64; 2])>,
+    ) -> InputEffort {
         let mut input = TrainInput::default();
         for (machine, [torque, inertia]) in loads {
             let [_, omega, alpha] = machine.state([0.0, omega, alpha]);
@@ -122,7 +122,7 @@ impl<'a, M: Motor> Plant<'a, M> {
         let share = if torque_back == 0.0 { driving } else { back };
         let friction = viscous * speed + coulomb * sign;
         let lost = (share * self.motor.ratio() - 1.0) * input.torque;
-        Through {
+        InputEffort {
             torque: form.torque(&[alpha, torque_driving, torque_back, speed, sign]),
             per_alpha: own * ratio + share * input.torque_per_alpha,
             input_torque: input.torque,
@@ -161,9 +161,9 @@ impl<'a, M: Motor> Plant<'a, M> {
         moment: &Moment,
         [phi, omega, alpha]: [f64; 3],
     ) -> Result<Vec<f64>, Error> {
-        let first = Geared::first(self.machines.first);
+        let first = GearedMachine::first(self.machines.first);
         let link = [self.inside(phi), omega];
-        let point = Point::new(&first, moment, link)?;
+        let point = ReducedLink::new(&first, moment, link)?;
         let resisting = point.resisting(moment.direction, omega);
         Ok(first.file.drive_train.delivered(&TrainOutput {
             torque: point.reduction.inertia * alpha + resisting,
@@ -215,10 +215,10 @@ impl<'a, M: Motor> Plant<'a, M> {
     }
 
     /// The reduced links at a position and speed.
-    fn points(&self, moment: &Moment, [phi, omega]: [f64; 2]) -> Result<Points<'a>, Error> {
-        let first = Geared::first(self.machines.first);
+    fn points(&self, moment: &Moment, [phi, omega]: [f64; 2]) -> Result<ReducedLinks<'a>, Error> {
+        let first = GearedMachine::first(self.machines.first);
         let link = [self.inside(phi), omega];
-        Points::new(first, self.machines.beside(), moment, link)
+        ReducedLinks::new(first, self.machines.beside(), moment, link)
     }
 
     /// The torque at the first drive link that keeps the speed `omega` at the position `phi`, without the losses of drive trains.
@@ -239,7 +239,7 @@ impl<'a, M: Motor> Plant<'a, M> {
     }
 
     /// Inertia and energies at a position and speed.
-    pub(super) fn stored(&self, moment: &Moment, link: [f64; 2]) -> Result<Stored, Error> {
+    pub(super) fn stored(&self, moment: &Moment, link: [f64; 2]) -> Result<StoredEnergy, Error> {
         // The motor and the drive trains rotate with the drive link.
         let ratio = self.machines.first.drive_train.ratio();
         let [mut inertia, mut potential, mut beyond] = [0.0; 3];
@@ -248,7 +248,7 @@ impl<'a, M: Motor> Plant<'a, M> {
             potential += point.reduction.potential_energy;
             beyond += point.kinetic_beyond();
         }
-        Ok(Stored {
+        Ok(StoredEnergy {
             inertia: inertia + self.inertia_at_input() * ratio * ratio,
             beyond,
             potential,
@@ -290,7 +290,7 @@ impl<'a, M: Motor> Plant<'a, M> {
 
     fn solved(
         &self,
-        points: &Points<'a>,
+        points: &ReducedLinks<'a>,
         direction: f64,
         [phi, omega]: [f64; 2],
         torque: f64,

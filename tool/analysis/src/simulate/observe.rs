@@ -1,6 +1,6 @@
 //! The motor during a simulation, and its observers.
 
-use crate::simulate::simulated::{Effort, Following, TorqueLimit};
+use crate::simulate::result::{Effort, FollowingError, TorqueLimit};
 use jred_file::number::columns::Column;
 use jred_file::number::numerics;
 
@@ -9,7 +9,7 @@ pub(super) const PARTS: u32 = 4;
 
 /// The motor at an instant.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Working {
+pub struct MotorState {
     /// Position of the drive link (rad, or m).
     pub phi: f64,
     /// Speed of the motor (rad/s).
@@ -25,7 +25,7 @@ pub struct Working {
     pub error: Option<f64>,
 }
 
-impl Working {
+impl MotorState {
     /// Whether it gives less than requested.
     pub fn is_limited(&self) -> bool {
         self.torque.total_cmp(&self.asked).is_ne()
@@ -38,29 +38,29 @@ pub trait Observer {
     fn columns(&self) -> Vec<Column>;
 
     /// A piece so short that everything is nearly linear: from one time (s) to the next.
-    fn pass(&mut self, from: (f64, Working), to: (f64, Working));
+    fn pass(&mut self, from: (f64, MotorState), to: (f64, MotorState));
 
     /// The figures at the end of the last piece, as many as columns; `now` is the motor's state there.
-    fn figures(&self, now: &Working) -> Vec<f64>;
+    fn figures(&self, now: &MotorState) -> Vec<f64>;
 }
 
 /// No observer.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Nobody;
+pub struct NoObserver;
 
-impl Observer for Nobody {
+impl Observer for NoObserver {
     fn columns(&self) -> Vec<Column> {
         Vec::new()
     }
-    fn pass(&mut self, _: (f64, Working), _: (f64, Working)) {}
-    fn figures(&self, _: &Working) -> Vec<f64> {
+    fn pass(&mut self, _: (f64, MotorState), _: (f64, MotorState)) {}
+    fn figures(&self, _: &MotorState) -> Vec<f64> {
         Vec::new()
     }
 }
 
 /// Sums of the motor's effort, step by step.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Giving {
+pub(super) struct EffortSums {
     torque: [f64; 2],
     power: [f64; 2],
     speed: [f64; 2],
@@ -69,9 +69,9 @@ pub(super) struct Giving {
     time: f64,
 }
 
-impl Giving {
+impl EffortSums {
     /// A step of the integrator from its start, evaluated in equal parts.
-    pub(super) fn pass(&mut self, [from, to]: [f64; 2], seen: &[Working; PARTS as usize + 1]) {
+    pub(super) fn pass(&mut self, [from, to]: [f64; 2], seen: &[MotorState; PARTS as usize + 1]) {
         let length = to - from;
         for (k, working) in seen.iter().enumerate() {
             let t = from + length * k as f64 / f64::from(PARTS);
@@ -104,19 +104,19 @@ impl Giving {
 
 /// Time of a controlled motor at its torque limit, and the following error of the machine.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Controlling {
+pub(super) struct ControlStatistics {
     pub(super) limit: Option<TorqueLimit>,
-    pub(super) following: Option<Following>,
+    pub(super) following: Option<FollowingError>,
     limited: bool,
 }
 
-impl Controlling {
+impl ControlStatistics {
     /// A piece between two instants; `at` gives the states inside, by their share of it.
     pub(super) fn pass<E>(
         &mut self,
         [start, end]: [f64; 2],
-        [from, to]: [Working; 2],
-        at: impl Fn(f64) -> Result<Working, E>,
+        [from, to]: [MotorState; 2],
+        at: impl Fn(f64) -> Result<MotorState, E>,
     ) -> Result<(), E> {
         self.follow(start, &from);
         self.follow(end, &to);
@@ -154,15 +154,15 @@ impl Controlling {
         Ok(())
     }
 
-    fn follow(&mut self, t: f64, working: &Working) {
+    fn follow(&mut self, t: f64, working: &MotorState) {
         let Some(error) = working.error else { return };
-        let largest = self.following.get_or_insert(Following {
+        let largest = self.following.get_or_insert(FollowingError {
             time: t,
             position: working.phi,
             error,
         });
         if error.abs() > largest.error.abs() {
-            *largest = Following {
+            *largest = FollowingError {
                 time: t,
                 position: working.phi,
                 error,

@@ -4,22 +4,22 @@ use jred::error::Error;
 use jred::machine::{Frames, Mechanism as _, Reduction};
 
 use super::clock::Moment;
-use super::geared::Geared;
+use super::coupled::GearedMachine;
 use jred_file::model::carriage::Carriage;
 
 /// The reduced link of a machine at an instant.
-pub(super) struct Point<'a> {
+pub(super) struct ReducedLink<'a> {
     /// Without the motion of carriages along their guides.
     pub(super) reduction: Reduction,
     /// b and c of the motion-opposing loads that do process work; they are contained in those of the reduction.
     pub(super) working: [f64; 2],
     /// Torque of carriages by that motion, against the drive link (N·m).
     resists: f64,
-    carried: Option<Carried<'a>>,
+    carried: Option<CarriageState<'a>>,
 }
 
 /// The carriages of a machine at an instant.
-struct Carried<'a> {
+struct CarriageState<'a> {
     carriages: &'a [Carriage],
     frames: Frames,
     /// Time of the motion (s).
@@ -37,10 +37,10 @@ pub(super) fn sign(direction: f64) -> f64 {
     }
 }
 
-impl<'a> Point<'a> {
+impl<'a> ReducedLink<'a> {
     /// The reduced link of a machine at this position and speed of the first drive link.
     pub(super) fn new(
-        machine: &Geared<'a>,
+        machine: &GearedMachine<'a>,
         moment: &Moment,
         [phi, omega]: [f64; 2],
     ) -> Result<Self, Error> {
@@ -50,7 +50,7 @@ impl<'a> Point<'a> {
         let own = file.machine_at(&now, phi)?;
         let (reduction, resists) = file.apart(&own, own.bare_reduction(phi)?, phi)?;
         let carried = match now.t.filter(|_| file.schedule.flows()) {
-            Some(t) => Some(Carried {
+            Some(t) => Some(CarriageState {
                 carriages: file.schedule.carriages(),
                 frames: own.mechanism().frames(phi)?,
                 t,
@@ -93,7 +93,7 @@ impl<'a> Point<'a> {
         })
     }
 
-    fn each_carriage(&self, value: impl Fn(&Carriage, &Carried) -> Option<f64>) -> f64 {
+    fn each_carriage(&self, value: impl Fn(&Carriage, &CarriageState) -> Option<f64>) -> f64 {
         let all = self.carried.iter().flat_map(|carried| {
             let carriages = carried.carriages.iter();
             carriages.filter_map(|carriage| value(carriage, carried))
@@ -103,28 +103,28 @@ impl<'a> Point<'a> {
 }
 
 /// The reduced links of all machines, at an instant.
-pub(super) struct Points<'a> {
-    first: (Geared<'a>, Point<'a>),
-    beside: Vec<(Geared<'a>, Point<'a>)>,
+pub(super) struct ReducedLinks<'a> {
+    first: (GearedMachine<'a>, ReducedLink<'a>),
+    beside: Vec<(GearedMachine<'a>, ReducedLink<'a>)>,
 }
 
-impl<'a> Points<'a> {
+impl<'a> ReducedLinks<'a> {
     /// The reduced links of these machines, at this position and speed of the first drive link.
     pub(super) fn new(
-        first: Geared<'a>,
-        beside: &[Geared<'a>],
+        first: GearedMachine<'a>,
+        beside: &[GearedMachine<'a>],
         moment: &Moment,
         link: [f64; 2],
     ) -> Result<Self, Error> {
         let beside = beside.iter();
-        let beside = beside.map(|machine| Ok((*machine, Point::new(machine, moment, link)?)));
+        let beside = beside.map(|machine| Ok((*machine, ReducedLink::new(machine, moment, link)?)));
         Ok(Self {
-            first: (first, Point::new(&first, moment, link)?),
+            first: (first, ReducedLink::new(&first, moment, link)?),
             beside: beside.collect::<Result<_, Error>>()?,
         })
     }
 
-    pub(super) fn all(&self) -> impl Iterator<Item = (Geared<'a>, &Point<'a>)> {
+    pub(super) fn all(&self) -> impl Iterator<Item = (GearedMachine<'a>, &ReducedLink<'a>)> {
         let all = std::iter::once(&self.first).chain(&self.beside);
         all.map(|(machine, point)| (*machine, point))
     }

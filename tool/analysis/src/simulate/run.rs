@@ -9,11 +9,11 @@ mod setup;
 mod start;
 mod stops;
 mod stretch;
-mod turned;
+mod turns;
 
 use edges::Edges;
 pub(crate) use plant::Plant;
-pub(crate) use rows::{Row, Terms, Works, cells, heads};
+pub(crate) use rows::{OutputRow, Terms, Works, cells, heads};
 
 use std::cell::Cell;
 
@@ -21,13 +21,13 @@ use jred::error::Error;
 
 use super::SimulationError;
 use super::clock::{Corners, EDGE};
-use super::observe::{Controlling, Giving, Observer};
-use super::simulated::{Impacts, Rest, Simulated, Stuck, Turned};
-use super::watch::{At, Watch};
+use super::observe::{ControlStatistics, EffortSums, Observer};
+use super::result::{Impacts, Rest, SimulationResult, Stall, TurnWorks};
+use super::watch::{LinkState, Watch};
 use jred_file::model::machine::MachineFile;
 use jred_file::model::simulation::{EndStops, Halt, Simulation};
 use jred_file::number::columns::Columns;
-use jred_file::number::numerics::dormand_prince::{Accuracy, Point};
+use jred_file::number::numerics::dormand_prince::{Accuracy, StatePoint};
 
 /// The most steps within one output step.
 const MOST_STEPS: u32 = 1_000_000;
@@ -36,7 +36,7 @@ const MOST_STEPS: u32 = 1_000_000;
 const MOST_TURNS: u32 = 10_000;
 
 /// Smallest speed (rad/s) that determines the direction of a motion to come, and with it the losses of each stage.
-pub(crate) const HAIR: f64 = 1e-12;
+pub(crate) const SIGN_SPEED: f64 = 1e-12;
 
 /// Runs a simulation.
 ///
@@ -46,7 +46,7 @@ pub(super) fn run<const N: usize>(
     plant: &impl Plant<N>,
     simulation: &Simulation,
     observer: &mut dyn Observer,
-) -> Result<Simulated, SimulationError> {
+) -> Result<SimulationResult, SimulationError> {
     let machines = plant.machines();
     let corners = plant.corners();
     let [has_payloads, has_carriages] = machines.guests();
@@ -110,7 +110,7 @@ pub(super) fn run<const N: usize>(
         time,
         way: phi - begin,
     };
-    Ok(Simulated {
+    Ok(SimulationResult {
         columns,
         halted_at: run.halt.map(|[_, phi]| phi),
         held: run.held.filter(|_| runs_down).map(since_start),
@@ -141,7 +141,7 @@ struct Run<'a, P> {
     ends: Option<[f64; 2]>,
     impacts: Option<Impacts>,
     /// Works in whole turns.
-    turned: Option<Turned>,
+    turned: Option<TurnWorks>,
     /// Start position, if the drive link can turn endlessly.
     begin: Option<f64>,
     direction: f64,
@@ -158,11 +158,11 @@ struct Run<'a, P> {
     driven: Option<f64>,
     rest: Option<Rest>,
     turned_back: Option<Rest>,
-    stuck: Option<Stuck>,
-    controlling: Controlling,
+    stuck: Option<Stall>,
+    controlling: ControlStatistics,
     has_payloads: bool,
     /// Effort of the motor.
-    giving: Giving,
+    giving: EffortSums,
     to_speed: Option<f64>,
     /// Time and position at which that speed was reached.
     reached: Option<[f64; 2]>,
@@ -207,10 +207,10 @@ impl<P> Run<'_, P> {
     {
         for _ in 0..MOST_STEPS {
             let [before, after] = corners.around(t);
-            let hair = EDGE * (1.0 + t);
+            let inset = EDGE * (1.0 + t);
             let inside = [
-                before.map_or(f64::NEG_INFINITY, |at| at + hair),
-                after.map_or(f64::INFINITY, |at| at - hair),
+                before.map_or(f64::NEG_INFINITY, |at| at + inset),
+                after.map_or(f64::INFINITY, |at| at - inset),
             ];
             y = self.enter(inside, t, y)?;
             if self.halt.is_none() && halt.is_some_and(|halt| halt.time <= t) {
@@ -353,7 +353,7 @@ impl<P> Run<'_, P> {
         Ok(omega * self.direction < 0.0 || self.stop_behind([phi, omega]).is_some())
     }
 
-    fn at<const N: usize>(&self, t: f64, y: &[f64; N]) -> Result<At, Error>
+    fn at<const N: usize>(&self, t: f64, y: &[f64; N]) -> Result<LinkState, Error>
     where
         P: Plant<N>,
     {
@@ -365,14 +365,14 @@ impl<P> Run<'_, P> {
             self.plant.alpha(&moment, y)?
         };
         let state = [phi, omega, alpha];
-        Ok(At { moment, state })
+        Ok(LinkState { moment, state })
     }
 
     /// Refuses the interval from one step to the next if a joint separates or the equations become invalid.
     fn check<const N: usize>(
         &mut self,
-        from: &Point<N>,
-        to: &Point<N>,
+        from: &StatePoint<N>,
+        to: &StatePoint<N>,
     ) -> Result<(), SimulationError>
     where
         P: Plant<N>,

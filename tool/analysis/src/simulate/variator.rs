@@ -8,19 +8,19 @@ use jred::number::RangeError;
 
 use super::SimulationError;
 use super::clock::{Corners, Moment};
-use super::geared::Together;
-use super::run::{self, Row};
+use super::coupled::CoupledMachines;
+use super::run::{self, OutputRow};
 use jred_file::model::coordinate::Coordinate;
 use jred_file::model::machine::MachineFile;
 use jred_file::model::motor::{Motor as _, OwnMotor};
 use jred_file::model::simulation::{Shaft, Simulation};
 use jred_file::model::variator::{RATIOS, Slip, Variator};
-use jred_file::number::columns::{Column, Quantity};
+use jred_file::number::columns::{Column, ColumnQuantity};
 use jred_file::number::numerics::newton;
 
 /// φ₁, ω₁ of the input shaft; φ of the drive link; ω₂ of the output shaft (creep only); work of the motor, work of the
 /// process loads, losses.
-type State = [f64; 7];
+type VariatorState = [f64; 7];
 
 /// Share of the power through the contact by which losses may be negative: rounding.
 const ROUNDING: f64 = 1e-9;
@@ -58,7 +58,7 @@ struct Instant {
 
 /// Load of the mechanism and its drive train on the output shaft: torque without acceleration of the drive link, and the increase per unit of
 /// acceleration.
-struct Behind<'a> {
+struct OutputLoad<'a> {
     plant: &'a Plant<'a>,
     inertia: f64,
     resisting: f64,
@@ -66,7 +66,7 @@ struct Behind<'a> {
     direction: f64,
 }
 
-impl Behind<'_> {
+impl OutputLoad<'_> {
     /// Torque at the output shaft, its derivative by the drive link's acceleration, and the drive train's loss.
     fn torque(&self, alpha: f64) -> [f64; 3] {
         let train = &self.plant.file.drive_train;
@@ -104,12 +104,12 @@ impl<'a> Plant<'a> {
     }
 
     /// Speed of the output shaft per speed of the input shaft.
-    fn speed_ratio(&self, t: f64, y: &State) -> Result<f64, Error> {
+    fn speed_ratio(&self, t: f64, y: &VariatorState) -> Result<f64, Error> {
         Ok(self.ratios(t, y)?.speed.value)
     }
 
     /// The ratios of a formula are checked here, because they were not evaluated at all times and angles before.
-    fn ratios(&self, t: f64, y: &State) -> Result<Ratios, Error> {
+    fn ratios(&self, t: f64, y: &VariatorState) -> Result<Ratios, Error> {
         let ratios = self.stage.at(OperatingPoint::at_time(t).with_angle(y[0]))?;
         let value = ratios.geometric.value;
         let [min, max] = RATIOS;
@@ -129,7 +129,7 @@ impl<'a> Plant<'a> {
         matches!(self.variator.slip, Slip::Creep(_))
     }
 
-    fn instant(&self, direction: f64, t: f64, y: &State) -> Result<Instant, Error> {
+    fn instant(&self, direction: f64, t: f64, y: &VariatorState) -> Result<Instant, Error> {
         let n = self.file.drive_train.ratio();
         let ratios = self.ratios(t, y)?;
         let (i, j) = (ratios.geometric.value, ratios.speed.value);
@@ -150,7 +150,7 @@ impl<'a> Plant<'a> {
         let friction = point.viscous * omega + point.coulomb * direction;
         let [viscous, coulomb] = self.file.working(&self.file.machine, y[2])?;
         let working = (viscous * omega + coulomb * direction) * omega;
-        let behind = Behind {
+        let behind = OutputLoad {
             plant: self,
             inertia: point.inertia,
             resisting: 0.5 * point.inertia_slope * omega * omega - point.load_torque() + friction
@@ -207,14 +207,14 @@ impl<'a> Plant<'a> {
 }
 
 impl run::Plant<7> for Plant<'_> {
-    fn start(&self) -> Result<State, Error> {
+    fn start(&self) -> Result<VariatorState, Error> {
         let second = self.simulation.start_speed * self.file.drive_train.ratio();
         let first = second / self.speed_ratio(0.0, &[0.0; 7])?;
         let own = if self.creeps() { second } else { 0.0 };
         Ok([0.0, first, self.simulation.start_angle, own, 0.0, 0.0, 0.0])
     }
 
-    fn slope(&self, moment: &Moment, y: &State) -> Result<State, Error> {
+    fn slope(&self, moment: &Moment, y: &VariatorState) -> Result<VariatorState, Error> {
         let now = self.instant(moment.direction, moment.t, y)?;
         let held = moment.direction == 0.0;
         let free = if held && !self.creeps() { 0.0 } else { 1.0 };
@@ -231,7 +231,7 @@ impl run::Plant<7> for Plant<'_> {
         ])
     }
 
-    fn link(&self, t: f64, y: &State) -> Result<[f64; 2], Error> {
+    fn link(&self, t: f64, y: &VariatorState) -> Result<[f64; 2], Error> {
         let second = if self.creeps() {
             y[3]
         } else {
@@ -240,7 +240,12 @@ impl run::Plant<7> for Plant<'_> {
         Ok([y[2], second / self.file.drive_train.ratio()])
     }
 
-    fn with_link(&self, t: f64, y: &State, [phi, omega]: [f64; 2]) -> Result<State, Error> {
+    fn with_link(
+        &self,
+        t: f64,
+        y: &VariatorState,
+        [phi, omega]: [f64; 2],
+    ) -> Result<VariatorState, Error> {
         let mut y = *y;
         let second = omega * self.file.drive_train.ratio();
         y[2] = phi;
@@ -252,11 +257,11 @@ impl run::Plant<7> for Plant<'_> {
         Ok(y)
     }
 
-    fn alpha(&self, moment: &Moment, y: &State) -> Result<f64, Error> {
+    fn alpha(&self, moment: &Moment, y: &VariatorState) -> Result<f64, Error> {
         Ok(self.instant(moment.direction, moment.t, y)?.alpha[2])
     }
 
-    fn check(&self, moment: &Moment, y: &State) -> Result<(), SimulationError> {
+    fn check(&self, moment: &Moment, y: &VariatorState) -> Result<(), SimulationError> {
         let now = self.instant(moment.direction, moment.t, y)?;
         if now.contact_loss < -ROUNDING * (now.contact * now.omega[0]).abs() {
             let power = -now.contact_loss;
@@ -265,7 +270,7 @@ impl run::Plant<7> for Plant<'_> {
         Ok(())
     }
 
-    fn bends(&self, moment: &Moment, y: &State) -> Result<Vec<f64>, Error> {
+    fn bends(&self, moment: &Moment, y: &VariatorState) -> Result<Vec<f64>, Error> {
         let now = self.instant(moment.direction, moment.t, y)?;
         let speed = match self.simulation.at {
             Shaft::Motor => y[1],
@@ -300,8 +305,8 @@ impl run::Plant<7> for Plant<'_> {
         Corners::at(self.variator.ratio.breaks())
     }
 
-    fn machines(&self) -> Together<'_> {
-        Together::alone(self.file)
+    fn machines(&self) -> CoupledMachines<'_> {
+        CoupledMachines::alone(self.file)
     }
 
     fn heads(&self) -> Vec<Column> {
@@ -315,12 +320,12 @@ impl run::Plant<7> for Plant<'_> {
             Column::other("ratio", ""),
             Column::other("slip", "%"),
             Column::other("contact torque", "N m"),
-            Column::new(Quantity::MotorEffort, "motor torque", "N m"),
-            Column::new(Quantity::ReducedInertia, "J_red", "kg m^2"),
+            Column::new(ColumnQuantity::MotorEffort, "motor torque", "N m"),
+            Column::new(ColumnQuantity::ReducedInertia, "J_red", "kg m^2"),
         ]
     }
 
-    fn row(&self, moment: &Moment, y: &State) -> Result<Row, Error> {
+    fn row(&self, moment: &Moment, y: &VariatorState) -> Result<OutputRow, Error> {
         let n = self.file.drive_train.ratio();
         let train = self.file.drive_train.inertia_at_input() + self.variator.inertia[1];
         let input = self.variator.inertia[0] + self.simulation.rotor_inertia;
@@ -329,7 +334,7 @@ impl run::Plant<7> for Plant<'_> {
         let [second, omega] = if held { [0.0; 2] } else { now.omega };
         let behind = now.inertia + train * n * n;
         let speed = self.speed_ratio(moment.t, y)?;
-        Ok(Row {
+        Ok(OutputRow {
             figures: vec![
                 y[2].to_degrees(),
                 omega,

@@ -9,7 +9,7 @@ use jred::machine::{Machine, Reducible as _};
 
 use super::SimulationError;
 use super::clock::Moment;
-use super::geared::{Geared, Together};
+use super::coupled::{CoupledMachines, GearedMachine};
 use crate::contact::OneWay;
 use jred_file::model::mechanism::AnyMechanism;
 use jred_file::number::numerics;
@@ -19,7 +19,7 @@ const PER_RANGE: f64 = 720.0;
 
 /// A state of the drive link.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct At {
+pub(crate) struct LinkState {
     /// The instant.
     pub(crate) moment: Moment,
     /// φ, ω, α.
@@ -28,22 +28,22 @@ pub(crate) struct At {
 
 /// A joint that may separate, and its machine.
 #[derive(Clone, Copy)]
-struct Watched<'a> {
-    machine: Geared<'a>,
+struct WatchedJoint<'a> {
+    machine: GearedMachine<'a>,
     joint: OneWay,
 }
 
 /// The joints of machines that may separate.
 pub(crate) struct Watch<'a> {
     domain: Domain,
-    joints: Vec<Watched<'a>>,
+    joints: Vec<WatchedJoint<'a>>,
 }
 
 impl<'a> Watch<'a> {
-    pub(crate) fn new(machines: &Together<'a>) -> Self {
+    pub(crate) fn new(machines: &CoupledMachines<'a>) -> Self {
         let joints = machines.all().flat_map(|machine| {
             let joints = OneWay::all(machine.file.machine.mechanism());
-            (joints.into_iter()).map(move |joint| Watched { machine, joint })
+            (joints.into_iter()).map(move |joint| WatchedJoint { machine, joint })
         });
         Self {
             domain: machines.first.machine.domain(),
@@ -57,7 +57,7 @@ impl<'a> Watch<'a> {
     }
 
     /// Refuses a state in which a joint separates.
-    pub(crate) fn check(&self, at: At) -> Result<(), SimulationError> {
+    pub(crate) fn check(&self, at: LinkState) -> Result<(), SimulationError> {
         match self.first_open(at)? {
             Some((joint, force)) => Err(parted(joint, force, at)),
             None => Ok(()),
@@ -67,7 +67,7 @@ impl<'a> Watch<'a> {
     /// Refuses the interval from one state to the next, with accelerations from `alpha`, if a joint separates.
     pub(crate) fn check_between(
         &self,
-        [from, to]: [At; 2],
+        [from, to]: [LinkState; 2],
         alpha: impl Fn(f64, [f64; 2]) -> Result<f64, SimulationError>,
     ) -> Result<(), SimulationError> {
         let span = match self.domain {
@@ -77,11 +77,11 @@ impl<'a> Watch<'a> {
         let parts = (PER_RANGE * (to.state[0] - from.state[0]).abs() / span).ceil();
         let parts = parts.clamp(1.0, 1e6) as u32;
         let way = between([from, to]);
-        let at = |share: f64| -> Result<At, SimulationError> {
+        let at = |share: f64| -> Result<LinkState, SimulationError> {
             let [phi, omega] = way(share);
             let t = from.moment.t + share * (to.moment.t - from.moment.t);
             let alpha = alpha(t, [phi, omega])?;
-            Ok(At {
+            Ok(LinkState {
                 moment: Moment { t, ..from.moment },
                 state: [phi, omega, alpha],
             })
@@ -106,9 +106,12 @@ impl<'a> Watch<'a> {
     }
 
     /// The first joint that separates, and its force.
-    fn first_open(&self, at: At) -> Result<Option<(Watched<'a>, f64)>, SimulationError> {
+    fn first_open(
+        &self,
+        at: LinkState,
+    ) -> Result<Option<(WatchedJoint<'a>, f64)>, SimulationError> {
         for watched in &self.joints {
-            let Watched { machine, joint } = watched;
+            let WatchedJoint { machine, joint } = watched;
             let state = machine.state(at.state);
             let force = joint.force(&*machine_at(machine, &at)?, state)?;
             if !joint.holds(force) {
@@ -120,14 +123,17 @@ impl<'a> Watch<'a> {
 }
 
 /// A machine at an instant.
-fn machine_at<'f>(machine: &Geared<'f>, at: &At) -> Result<Cow<'f, Machine<AnyMechanism>>, Error> {
+fn machine_at<'f>(
+    machine: &GearedMachine<'f>,
+    at: &LinkState,
+) -> Result<Cow<'f, Machine<AnyMechanism>>, Error> {
     let [phi, omega, _] = machine.state(at.state);
     let now = at.moment.now(machine, omega);
     machine.file.machine_at(&now, phi)
 }
 
-fn parted(watched: Watched, force: f64, at: At) -> SimulationError {
-    let Watched { machine, joint } = watched;
+fn parted(watched: WatchedJoint, force: f64, at: LinkState) -> SimulationError {
+    let WatchedJoint { machine, joint } = watched;
     let [phi, omega, _] = machine.state(at.state);
     let parted =
         machine_at(&machine, &at).and_then(|machine| joint.parted(&machine, [phi, omega], force));
@@ -143,7 +149,7 @@ fn parted(watched: Watched, force: f64, at: At) -> SimulationError {
 }
 
 /// φ and ω between two states, at a share of the time: the polynomial of fifth degree through their positions, speeds and accelerations.
-pub(super) fn between([from, to]: [At; 2]) -> impl Fn(f64) -> [f64; 2] {
+pub(super) fn between([from, to]: [LinkState; 2]) -> impl Fn(f64) -> [f64; 2] {
     let span = to.moment.t - from.moment.t;
     let ([p, v, a], [q, w, b]) = (from.state, to.state);
     let through =
@@ -163,7 +169,7 @@ mod tests {
     /// A motion of fifth degree is reproduced exactly.
     #[test]
     fn the_way_between_two_states() {
-        let at = |t: f64| At {
+        let at = |t: f64| LinkState {
             moment: Moment::new(t, 1.0),
             state: [
                 1.0 + 2.0 * t - 3.0 * t.powi(3) + t.powi(5),

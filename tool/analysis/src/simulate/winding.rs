@@ -6,11 +6,11 @@
 
 use jred::error::Error;
 
-use super::commanded::{Command, Commander};
+use super::commander::{Command, Commander};
 use super::machine::Plant;
 use jred_file::model::motor::Motor;
 use jred_file::model::simulation::Winding;
-use jred_file::number::columns::{Column, Quantity};
+use jred_file::number::columns::{Column, ColumnQuantity};
 
 impl<M: Motor> Commander<M> for Winding {
     fn command(
@@ -29,7 +29,7 @@ impl<M: Motor> Commander<M> for Winding {
     }
 
     fn column(&self) -> Column {
-        Column::new(Quantity::Current, "current", "A")
+        Column::new(ColumnQuantity::Current, "current", "A")
     }
 
     /// The circuit of a switched-off motor is open.

@@ -7,12 +7,12 @@ use schemars::JsonSchema;
 use serde::{Serialize, Serializer};
 
 use super::SteadyError;
-use super::cycle::{self, Found};
+use super::cycle::{self, CycleResult};
 use super::speed as shown;
-use super::turn::{Reached, Turning};
-use crate::simulate::Together;
+use super::turn::{TurnEnd, TurningMachine};
+use crate::simulate::CoupledMachines;
 use jred_file::model::characteristic::Characteristic;
-use jred_file::model::machine::{MachineFile, OverRange};
+use jred_file::model::machine::{MachineFile, ReductionCache};
 use jred_file::model::motor::OwnMotor;
 use jred_file::model::simulation::Simulation;
 use jred_file::number::numerics;
@@ -37,7 +37,7 @@ pub enum Level {
 
 /// The scaling that gives a mean speed.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
-pub struct Held {
+pub struct Scaling {
     /// The load that is scaled; none: the motor torque.
     #[serde(rename = "scaled", serialize_with = "Level::serialize_load")]
     #[schemars(with = "Option<String>")]
@@ -50,7 +50,7 @@ pub struct Held {
 }
 
 /// The search for cycles of a machine, with different flywheels.
-pub(super) struct Search<'a> {
+pub(super) struct CycleSearch<'a> {
     pub(super) simulation: &'a Simulation,
     pub(super) motor: OwnMotor<'a>,
     pub(super) direction: f64,
@@ -66,29 +66,29 @@ pub(super) struct Guess {
 }
 
 /// A cycle, or the reason for its absence.
-pub(super) struct Ended {
-    pub(super) found: Found,
-    pub(super) held: Option<Held>,
+pub(super) struct CycleOutcome {
+    pub(super) found: CycleResult,
+    pub(super) held: Option<Scaling>,
     pub(super) guess: Option<Guess>,
 }
 
-impl Search<'_> {
+impl CycleSearch<'_> {
     /// Finds the cycle of these machines, near a guess, and calls `ask` with it.
     pub(super) fn with<T>(
         &self,
-        machines: &Together,
+        machines: &CoupledMachines,
         guess: Option<Guess>,
-        ask: impl FnOnce(&Turning, Ended) -> Result<T, SteadyError>,
+        ask: impl FnOnce(&TurningMachine, CycleOutcome) -> Result<T, SteadyError>,
     ) -> Result<T, SteadyError> {
         let Some(aim) = self.mean_speed else {
             let turning = self.turning(machines, self.motor)?;
             let found = cycle::near(&turning, guess.map(|guess| guess.begin))?;
             let guess = match found {
-                Found::Cycle(begin) => Some(Guess { begin, factor: 1.0 }),
-                Found::Loses(_) => None,
+                CycleResult::Cycle(begin) => Some(Guess { begin, factor: 1.0 }),
+                CycleResult::Loses(_) => None,
             };
             let held = None;
-            return ask(&turning, Ended { found, held, guess });
+            return ask(&turning, CycleOutcome { found, held, guess });
         };
         let target = aim.speed.abs();
         let start = guess.map_or(target, |guess| guess.begin);
@@ -132,13 +132,13 @@ impl Search<'_> {
                 Characteristic::Points(points) if points.len() == 1 => points.first(),
                 _ => None,
             };
-            let held = Held {
+            let held = Scaling {
                 by: aim.by.clone(),
                 factor,
                 torque: constant.map(|(_, torque)| *torque),
             };
-            let ended = Ended {
-                found: Found::Cycle(begin),
+            let ended = CycleOutcome {
+                found: CycleResult::Cycle(begin),
                 held: Some(held),
                 guess: Some(Guess { begin, factor }),
             };
@@ -148,20 +148,21 @@ impl Search<'_> {
 
     fn turning<'t>(
         &'t self,
-        machines: &Together<'t>,
+        machines: &CoupledMachines<'t>,
         motor: OwnMotor<'t>,
-    ) -> Result<Turning<'t>, SteadyError> {
-        let turning = Turning::new(machines, self.simulation, motor, self.direction, self.turns)?;
+    ) -> Result<TurningMachine<'t>, SteadyError> {
+        let turning =
+            TurningMachine::new(machines, self.simulation, motor, self.direction, self.turns)?;
         Ok(turning)
     }
 
     /// The machines with the motor or a load scaled.
     fn scaled<T>(
         &self,
-        machines: &Together,
+        machines: &CoupledMachines,
         by: &Level,
         factor: f64,
-        ask: impl FnOnce(&Turning) -> Result<T, SteadyError>,
+        ask: impl FnOnce(&TurningMachine) -> Result<T, SteadyError>,
     ) -> Result<T, SteadyError> {
         match by {
             Level::Motor => {
@@ -170,14 +171,19 @@ impl Search<'_> {
                     characteristic: &characteristic,
                     ..self.motor
                 };
-                let turning =
-                    Turning::new(machines, self.simulation, motor, self.direction, self.turns)?;
+                let turning = TurningMachine::new(
+                    machines,
+                    self.simulation,
+                    motor,
+                    self.direction,
+                    self.turns,
+                )?;
                 ask(&turning)
             }
             Level::Load(name) => {
                 let file = with_load(machines.first, name, factor)?;
                 let machines = machines.with_first(&file);
-                let turning = Turning::new(
+                let turning = TurningMachine::new(
                     &machines,
                     self.simulation,
                     self.motor,
@@ -192,7 +198,7 @@ impl Search<'_> {
     /// The factor with which a cycle ends at its start speed, near a guess, and its mean speed.
     fn level(
         &self,
-        machines: &Together,
+        machines: &CoupledMachines,
         by: &Level,
         begin: f64,
         guess: Option<f64>,
@@ -240,15 +246,20 @@ impl Search<'_> {
         }
         let mean = self.scaled(machines, by, factor, |turning| {
             match turning.turn(begin)? {
-                Reached::End([_, period, ..]) => Ok(turning.span() / period),
-                Reached::Stopped(x) => Err(cycle::stuck(turning, x)?),
+                TurnEnd::End([_, period, ..]) => Ok(turning.span() / period),
+                TurnEnd::Stopped(x) => Err(cycle::stuck(turning, x)?),
             }
         })?;
         Ok((factor, mean))
     }
 
     /// The factor from the work of a cycle at constant speed.
-    fn by_work(&self, machines: &Together, by: &Level, speed: f64) -> Result<f64, SteadyError> {
+    fn by_work(
+        &self,
+        machines: &CoupledMachines,
+        by: &Level,
+        speed: f64,
+    ) -> Result<f64, SteadyError> {
         let keeping =
             |factor: f64| self.scaled(machines, by, factor, |turning| turning.keeping(speed));
         let given = self.scaled(machines, by, 1.0, |turning| {
@@ -319,7 +330,7 @@ fn with_load(file: &MachineFile, name: &str, factor: f64) -> Result<MachineFile,
         });
     }
     file.rebuild([], [])?;
-    file.over_range = OverRange::default();
+    file.over_range = ReductionCache::default();
     Ok(file)
 }
 

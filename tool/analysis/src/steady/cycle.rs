@@ -3,12 +3,12 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::aim::{Ended, Held};
-use super::figures::Figures;
+use super::aim::{CycleOutcome, Scaling};
+use super::figures::SteadyFigures;
 use super::start::Start;
-use super::turn::{Reached, Turning};
+use super::turn::{TurnEnd, TurningMachine};
 use super::{SteadyError, speed, torque};
-use crate::simulate::run::HAIR;
+use crate::simulate::run::SIGN_SPEED;
 use jred_file::number::numerics;
 use jred_file::number::rounding::short;
 
@@ -17,7 +17,7 @@ const FASTEST: f64 = 1e5;
 const SLOWEST: f64 = 1e-3;
 
 /// Share of the energy below which a rise has few significant digits.
-const LOST: f64 = 1e-6;
+const CANCELLATION: f64 = 1e-6;
 
 /// Ratio of successive speeds.
 const STEP: f64 = 1.25;
@@ -26,17 +26,17 @@ const STEP: f64 = 1.25;
 const MOST_TURNS: u32 = 2000;
 
 /// A small relative change of speed or energy.
-const BIT: f64 = 1e-3;
+const SMALL_CHANGE: f64 = 1e-3;
 
 /// The motion that repeats with every turn.
 #[derive(Debug, Serialize, JsonSchema)]
 pub struct Cycle {
     /// Its figures and its course.
     #[serde(flatten)]
-    pub figures: Figures,
+    pub figures: SteadyFigures,
     /// The scale of the motor or a load for a prescribed mean speed.
     #[serde(rename = "for_mean_speed")]
-    pub held: Option<Held>,
+    pub held: Option<Scaling>,
     /// |E(end) − E(0)|/E(0).
     pub residual: f64,
     /// Remaining share of a small deviation of the energy after a cycle: below 1 the cycle is stable.
@@ -51,31 +51,32 @@ pub struct Cycle {
 impl Cycle {
     /// The cycle from a search result, or the reason for its absence.
     pub(super) fn of(
-        turning: &Turning,
-        ended: Ended,
+        turning: &TurningMachine,
+        ended: CycleOutcome,
         positions: usize,
     ) -> Result<Self, SteadyError> {
         match ended.found {
-            Found::Cycle(begin) => Self::at(turning, begin, ended.held, positions),
-            Found::Loses(from) => Err(standstill(turning, from)?),
+            CycleResult::Cycle(begin) => Self::at(turning, begin, ended.held, positions),
+            CycleResult::Loses(from) => Err(standstill(turning, from)?),
         }
     }
 
     /// The cycle that begins with this speed.
     pub(super) fn at(
-        turning: &Turning,
+        turning: &TurningMachine,
         begin: f64,
-        held: Option<Held>,
+        held: Option<Scaling>,
         positions: usize,
     ) -> Result<Self, SteadyError> {
-        let figures = Figures::of(turning, begin, positions)?;
+        let figures = SteadyFigures::of(turning, begin, positions)?;
         figures.check_contacts(turning)?;
         // E at the end as a function of E(0), both relative to the cycle's.
         let energy = |share: f64| -> Result<f64, SteadyError> {
             Ok(share * (1.0 + turning.rise(begin * share.sqrt())?))
         };
         Ok(Self {
-            left_over: (energy(1.0 + BIT)? - energy(1.0 - BIT)?) / (2.0 * BIT),
+            left_over: (energy(1.0 + SMALL_CHANGE)? - energy(1.0 - SMALL_CHANGE)?)
+                / (2.0 * SMALL_CHANGE),
             residual: turning.rise(begin)?.abs(),
             caught_from: caught_from(turning, begin)?,
             start: Start::of(turning, &figures)?,
@@ -86,7 +87,7 @@ impl Cycle {
 }
 
 /// The speeds to evaluate, falling, including those at which the motor's characteristic changes, with some on either side.
-fn speeds(turning: &Turning) -> Vec<f64> {
+fn speeds(turning: &TurningMachine) -> Vec<f64> {
     let ratio = turning.plant.ratio() * turning.direction;
     let marks = turning
         .plant
@@ -109,7 +110,7 @@ fn speeds(turning: &Turning) -> Vec<f64> {
 }
 
 /// Result of the search for the fixed point.
-pub(super) enum Found {
+pub(super) enum CycleResult {
     /// The speed at the start of the turn (rad/s) with which it also ends.
     Cycle(f64),
     /// A cycle loses energy at every speed; this is the lowest speed with which the machine still completes it.
@@ -117,7 +118,7 @@ pub(super) enum Found {
 }
 
 /// The fixed point with the highest speed, if there are several: it is the stable one.
-fn search(turning: &Turning) -> Result<Found, SteadyError> {
+fn search(turning: &TurningMachine) -> Result<CycleResult, SteadyError> {
     let speeds = speeds(turning);
     let mut above = None;
     let mut best: Option<(usize, f64)> = None;
@@ -133,7 +134,7 @@ fn search(turning: &Turning) -> Result<Found, SteadyError> {
                 });
             }
             Some((speed, lost)) if gain > 0.0 => {
-                return between(turning, [at, speed], [gain, lost]).map(Found::Cycle);
+                return between(turning, [at, speed], [gain, lost]).map(CycleResult::Cycle);
             }
             _ => {}
         }
@@ -153,17 +154,17 @@ fn search(turning: &Turning) -> Result<Found, SteadyError> {
         let gain = turning.gain(found)?;
         if gain > 0.0 {
             let gains = [gain, turning.gain(fast)?];
-            return between(turning, [found, fast], gains).map(Found::Cycle);
+            return between(turning, [found, fast], gains).map(CycleResult::Cycle);
         }
     }
-    Ok(Found::Loses(comes_round))
+    Ok(CycleResult::Loses(comes_round))
 }
 
 /// The speed in [low, high] with which a turn ends as it began. The gain is positive at the low speed and negative at the high one, or zero.
-fn between(turning: &Turning, ends: [f64; 2], gains: [f64; 2]) -> Result<f64, SteadyError> {
+fn between(turning: &TurningMachine, ends: [f64; 2], gains: [f64; 2]) -> Result<f64, SteadyError> {
     if gains[1] == 0.0 {
         // The cycle itself, if a turn that begins faster loses energy.
-        if turning.gain(ends[1] * (1.0 + BIT))? < 0.0 {
+        if turning.gain(ends[1] * (1.0 + SMALL_CHANGE))? < 0.0 {
             return Ok(ends[1]);
         }
         return Err(SteadyError::Indifferent {
@@ -171,7 +172,7 @@ fn between(turning: &Turning, ends: [f64; 2], gains: [f64; 2]) -> Result<f64, St
         });
     }
     let rises = [turning.rise(ends[0])?, turning.rise(ends[1])?];
-    if rises[0] > LOST && rises[1] < -LOST {
+    if rises[0] > CANCELLATION && rises[1] < -CANCELLATION {
         numerics::zero(|at| turning.rise(at), ends, rises, 1e-15)
     } else {
         // The work of a cycle is below the digits of the energy.
@@ -180,7 +181,7 @@ fn between(turning: &Turning, ends: [f64; 2], gains: [f64; 2]) -> Result<f64, St
 }
 
 /// The stable fixed point near a guess by the secant method, if that converges to it.
-fn secant(turning: &Turning, guess: f64) -> Result<Option<f64>, SteadyError> {
+fn secant(turning: &TurningMachine, guess: f64) -> Result<Option<f64>, SteadyError> {
     let mut last = (guess, turning.gain(guess)?);
     let mut now = (guess * (1.0 + FIRST * last.1.signum()), 0.0);
     for _ in 0..MOST_SECANTS {
@@ -208,11 +209,14 @@ const MOST_SECANTS: u32 = 10;
 const MOST_AWAY: f64 = 0.1;
 
 /// The fixed point near `guess`, otherwise by the full search.
-pub(super) fn near(turning: &Turning, guess: Option<f64>) -> Result<Found, SteadyError> {
+pub(super) fn near(
+    turning: &TurningMachine,
+    guess: Option<f64>,
+) -> Result<CycleResult, SteadyError> {
     if let Some(guess) = guess
         && let Some(begin) = secant(turning, guess)?
     {
-        return Ok(Found::Cycle(begin));
+        return Ok(CycleResult::Cycle(begin));
     }
     match search(turning) {
         // Loads that are far too large stop every motion almost at once.
@@ -222,7 +226,7 @@ pub(super) fn near(turning: &Turning, guess: Option<f64>) -> Result<Found, Stead
 }
 
 /// The lowest speed at the start of a turn from which the machine gains speed up to this cycle.
-fn caught_from(turning: &Turning, begin: f64) -> Result<Option<f64>, SteadyError> {
+fn caught_from(turning: &TurningMachine, begin: f64) -> Result<Option<f64>, SteadyError> {
     let mut gains = begin;
     while gains > 1e-3 * begin {
         let next = gains / STEP;
@@ -243,12 +247,12 @@ fn caught_from(turning: &Turning, begin: f64) -> Result<Option<f64>, SteadyError
 }
 
 /// Follows a machine that loses speed with every turn to its standstill.
-pub(super) fn standstill(turning: &Turning, from: f64) -> Result<SteadyError, SteadyError> {
+pub(super) fn standstill(turning: &TurningMachine, from: f64) -> Result<SteadyError, SteadyError> {
     let mut now = from;
     for _ in 0..MOST_TURNS {
         match turning.turn(now)? {
-            Reached::Stopped(x) => return stuck(turning, x),
-            Reached::End([z, ..]) => now = (2.0 * z).sqrt(),
+            TurnEnd::Stopped(x) => return stuck(turning, x),
+            TurnEnd::End([z, ..]) => now = (2.0 * z).sqrt(),
         }
         if now < SLOWEST {
             break;
@@ -260,12 +264,12 @@ pub(super) fn standstill(turning: &Turning, from: f64) -> Result<SteadyError, St
 }
 
 /// The missing torque at the place where the motor is weakest at rest; `None` if it can start the machine everywhere.
-fn held_up(turning: &Turning) -> Result<Option<SteadyError>, SteadyError> {
+fn held_up(turning: &TurningMachine) -> Result<Option<SteadyError>, SteadyError> {
     let side = turning.plant.ratio().signum() * turning.direction;
-    let mut worst: Option<Missing> = None;
+    let mut worst: Option<TorqueDeficit> = None;
     for (x, _) in turning.places(360) {
-        let here = Missing::at(turning, x)?;
-        let lacking = |missing: &Missing| (missing.needed - missing.given) * side;
+        let here = TorqueDeficit::at(turning, x)?;
+        let lacking = |missing: &TorqueDeficit| (missing.needed - missing.given) * side;
         if lacking(&here) > worst.as_ref().map_or(0.0, lacking) {
             worst = Some(here);
         }
@@ -274,11 +278,11 @@ fn held_up(turning: &Turning) -> Result<Option<SteadyError>, SteadyError> {
 }
 
 /// The missing torque at the place where the machine stopped.
-pub(super) fn stuck(turning: &Turning, x: f64) -> Result<SteadyError, SteadyError> {
-    Ok(lacks(Missing::at(turning, x)?))
+pub(super) fn stuck(turning: &TurningMachine, x: f64) -> Result<SteadyError, SteadyError> {
+    Ok(lacks(TorqueDeficit::at(turning, x)?))
 }
 
-fn lacks(missing: Missing) -> SteadyError {
+fn lacks(missing: TorqueDeficit) -> SteadyError {
     SteadyError::Stuck {
         place: missing.place,
         given: torque(missing.given),
@@ -289,7 +293,7 @@ fn lacks(missing: Missing) -> SteadyError {
 
 /// A place where the motor is too weak to start or keep the machine moving.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
-pub struct Missing {
+pub struct TorqueDeficit {
     /// The place in words.
     #[serde(skip)]
     pub place: String,
@@ -304,10 +308,10 @@ pub struct Missing {
     pub needed: f64,
 }
 
-impl Missing {
-    pub(super) fn at(turning: &Turning, x: f64) -> Result<Self, SteadyError> {
+impl TorqueDeficit {
+    pub(super) fn at(turning: &TurningMachine, x: f64) -> Result<Self, SteadyError> {
         let phi = turning.at(x).rem_euclid(turning.span());
-        let state = [phi, turning.direction * HAIR];
+        let state = [phi, turning.direction * SIGN_SPEED];
         let coordinate = turning.machines.first.machine.mechanism().coordinate();
         Ok(Self {
             place: coordinate.place(phi),

@@ -5,10 +5,10 @@ use serde::Serialize;
 
 use super::SteadyError;
 use super::cycle;
-use super::turn::{Reached, State, Turning, starting};
+use super::turn::{TurnEnd, TurnState, TurningMachine, starting};
 use crate::simulate::Moment;
 use crate::simulate::run::{Plant as _, Terms, Works, cells, heads};
-use crate::simulate::watch::{At, Watch};
+use crate::simulate::watch::{LinkState, Watch};
 use jred_file::number::columns::Columns;
 use jred_file::number::numerics;
 
@@ -20,7 +20,7 @@ const SPEEDS: u32 = 256;
 
 /// A turn of the steady motion.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
-pub struct Figures {
+pub struct SteadyFigures {
     /// Mean over the time, 2π·turns/period (rad/s); negative: the drive link turns clockwise.
     pub mean_speed: f64,
     /// Speed at the start of the cycle (rad/s), by magnitude.
@@ -93,11 +93,11 @@ pub struct Energies {
 }
 
 /// States over the position.
-type Nodes = Vec<(f64, State)>;
+type Nodes = Vec<(f64, TurnState)>;
 
 /// The nodes of a turn that begins with the speed `begin`, and the indices of those that are rows, at least `positions`.
 fn integrated(
-    turning: &Turning,
+    turning: &TurningMachine,
     begin: f64,
     positions: usize,
 ) -> Result<(Nodes, Vec<usize>), SteadyError> {
@@ -110,9 +110,9 @@ fn integrated(
         let y = match nodes.last() {
             None => starting(begin),
             Some((before, y)) => match turning.advance(*y, [*before, x], begin)? {
-                Reached::End(y) => y,
+                TurnEnd::End(y) => y,
                 // A fixed point just above a standstill is not a cycle.
-                Reached::Stopped(x) => return Err(cycle::stuck(turning, x)?),
+                TurnEnd::Stopped(x) => return Err(cycle::stuck(turning, x)?),
             },
         };
         if part {
@@ -126,9 +126,13 @@ fn integrated(
     Ok((nodes, listed))
 }
 
-impl Figures {
+impl SteadyFigures {
     /// The turn that begins with the speed `begin`, with at least `positions` rows.
-    pub(super) fn of(turning: &Turning, begin: f64, positions: usize) -> Result<Self, SteadyError> {
+    pub(super) fn of(
+        turning: &TurningMachine,
+        begin: f64,
+        positions: usize,
+    ) -> Result<Self, SteadyError> {
         let (nodes, listed) = integrated(turning, begin, positions)?;
         let fastest = extreme_speed(turning, &nodes, begin, 1.0)?;
         let slowest = extreme_speed(turning, &nodes, begin, -1.0)?;
@@ -216,7 +220,7 @@ impl Figures {
     }
 
     /// Refuses a cycle in which a follower leaves its cam or a rope is slack.
-    pub(super) fn check_contacts(&self, turning: &Turning) -> Result<(), SteadyError> {
+    pub(super) fn check_contacts(&self, turning: &TurningMachine) -> Result<(), SteadyError> {
         let watch = Watch::new(&turning.machines);
         if watch.is_idle() {
             return Ok(());
@@ -226,7 +230,7 @@ impl Figures {
             let alpha = turning.instant(*x, speed)?.alpha;
             let state = [turning.at(*x), turning.direction * speed, alpha];
             watch
-                .check(At {
+                .check(LinkState {
                     moment: Moment {
                         t: y[1],
                         ..turning.moment()
@@ -240,11 +244,11 @@ impl Figures {
 }
 
 /// δ of the cycle that begins with a speed, over the ends of the integrator's steps and the extremes between them.
-pub(super) fn delta(turning: &Turning, begin: f64) -> Result<f64, SteadyError> {
+pub(super) fn delta(turning: &TurningMachine, begin: f64) -> Result<f64, SteadyError> {
     let (reached, nodes) = turning.course(begin)?;
     let period = match reached {
-        Reached::End([_, period, ..]) => period,
-        Reached::Stopped(x) => return Err(cycle::stuck(turning, x)?),
+        TurnEnd::End([_, period, ..]) => period,
+        TurnEnd::Stopped(x) => return Err(cycle::stuck(turning, x)?),
     };
     let fastest = extreme_speed(turning, &nodes, begin, 1.0)?;
     let slowest = extreme_speed(turning, &nodes, begin, -1.0)?;
@@ -252,13 +256,13 @@ pub(super) fn delta(turning: &Turning, begin: f64) -> Result<f64, SteadyError> {
 }
 
 /// ½ω² at a place, and its slope along the path.
-fn squares(turning: &Turning, x: f64, z: f64) -> Result<[f64; 2], SteadyError> {
+fn squares(turning: &TurningMachine, x: f64, z: f64) -> Result<[f64; 2], SteadyError> {
     let alpha = turning.instant(x, (2.0 * z).sqrt())?.alpha;
     Ok([z, alpha * turning.direction])
 }
 
 /// The kinetic energy ½Jω² of all moving parts (J), and its slope along the path.
-fn kinetic(turning: &Turning, x: f64, z: f64) -> Result<[f64; 2], SteadyError> {
+fn kinetic(turning: &TurningMachine, x: f64, z: f64) -> Result<[f64; 2], SteadyError> {
     let [inertia, slope] = turning.plant.inertia(turning.at(x))?;
     let [_, along] = squares(turning, x, z)?;
     Ok([inertia * z, inertia * along + turning.direction * slope * z])
@@ -266,8 +270,8 @@ fn kinetic(turning: &Turning, x: f64, z: f64) -> Result<[f64; 2], SteadyError> {
 
 /// The largest (`side` = 1) or smallest (−1) speed, and its distance from the start of the cycle.
 fn extreme_speed(
-    turning: &Turning,
-    nodes: &[(f64, State)],
+    turning: &TurningMachine,
+    nodes: &[(f64, TurnState)],
     begin: f64,
     side: f64,
 ) -> Result<[f64; 2], SteadyError> {
@@ -278,11 +282,11 @@ fn extreme_speed(
 /// The largest (`side` = 1) or smallest (−1) value of a quantity of the place and ½ω², given with its slope, and its distance from the start of the
 /// cycle.
 fn extreme(
-    turning: &Turning,
-    nodes: &[(f64, State)],
+    turning: &TurningMachine,
+    nodes: &[(f64, TurnState)],
     begin: f64,
     side: f64,
-    quantity: impl Fn(&Turning, f64, f64) -> Result<[f64; 2], SteadyError>,
+    quantity: impl Fn(&TurningMachine, f64, f64) -> Result<[f64; 2], SteadyError>,
 ) -> Result<[f64; 2], SteadyError> {
     let of = |x: f64, z: f64| -> Result<[f64; 2], SteadyError> {
         Ok(quantity(turning, x, z)?.map(|value| side * value))
@@ -303,8 +307,8 @@ fn extreme(
                 return Ok(from.1[0]);
             }
             match turning.advance(from.1, [from.0, x], begin)? {
-                Reached::End(y) => Ok(y[0]),
-                Reached::Stopped(_) => Ok(0.0),
+                TurnEnd::End(y) => Ok(y[0]),
+                TurnEnd::Stopped(_) => Ok(0.0),
             }
         };
         let values = [ends[0][0], ends[1][0]];

@@ -7,12 +7,12 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::SteadyError;
-use super::aim::{Ended, Guess, Held, Search};
-use super::cycle::{self, Cycle, Found};
-use super::figures::{self, Figures, MotorTorque};
-use super::turn::Turning;
-use crate::simulate::run::HAIR;
-use jred_file::model::machine::{MachineFile, OverRange};
+use super::aim::{CycleOutcome, CycleSearch, Guess, Scaling};
+use super::cycle::{self, Cycle, CycleResult};
+use super::figures::{self, MotorTorque, SteadyFigures};
+use super::turn::TurningMachine;
+use crate::simulate::run::SIGN_SPEED;
+use jred_file::model::machine::{MachineFile, ReductionCache};
 use jred_file::model::simulation::Shaft;
 use jred_file::number::numerics;
 use jred_file::number::rounding::short;
@@ -30,7 +30,7 @@ pub struct Flywheel {
     /// Inertia at the motor's shaft for the same δ (kg·m²), where the motor drives the machine through stages.
     pub inertia_at_motor: Option<f64>,
     /// The shafts on which it can sit, from the motor to the drive link: the latter alone if the motor acts there, or none is needed.
-    pub places: Vec<Place>,
+    pub places: Vec<ShaftFlywheel>,
     /// The classical estimate.
     pub classical: Classical,
     /// The cycle with it.
@@ -39,7 +39,7 @@ pub struct Flywheel {
 
 /// A shaft of the drive train, and the flywheel on it, or why none there makes the fluctuation this small.
 #[derive(Debug, Serialize, JsonSchema)]
-pub struct Place {
+pub struct ShaftFlywheel {
     /// The stage that the shaft drives, counted from 0; the number of stages means the drive link.
     pub shaft: usize,
     /// The flywheel.
@@ -91,15 +91,15 @@ pub struct Classical {
 
 impl Flywheel {
     pub(super) fn of(
-        turning: &Turning,
-        search: &Search,
+        turning: &TurningMachine,
+        search: &CycleSearch,
         (own, guess): (Option<&Cycle>, Option<Guess>),
         delta: f64,
         positions: usize,
     ) -> Result<Self, SteadyError> {
         let first = turning.machines.first;
         let stages = first.drive_train.stages();
-        let task = Task {
+        let task = FlywheelSearch {
             turning,
             search,
             own,
@@ -128,13 +128,13 @@ impl Flywheel {
                 let there = task.inertia(shaft, inertia / (ratio * ratio));
                 let wheel = there.and_then(|there| {
                     task.with(shaft, there, |with, begin, _| {
-                        Wheel::of(with, shaft, there, &Figures::of(with, begin, 1)?)
+                        Wheel::of(with, shaft, there, &SteadyFigures::of(with, begin, 1)?)
                     })
                 });
-                places.push(Place::new(shaft, wheel));
+                places.push(ShaftFlywheel::new(shaft, wheel));
             }
         }
-        places.push(Place::new(stages.len(), Ok(last)));
+        places.push(ShaftFlywheel::new(stages.len(), Ok(last)));
         let at_motor = places.first().filter(|_| places.len() > 1);
         let at_motor = at_motor.and_then(|place| place.wheel.as_ref());
         Ok(Self {
@@ -148,7 +148,7 @@ impl Flywheel {
     }
 }
 
-impl Place {
+impl ShaftFlywheel {
     fn new(shaft: usize, wheel: Result<Wheel, SteadyError>) -> Self {
         let (wheel, no_flywheel) = match wheel {
             Ok(wheel) => (Some(wheel), None),
@@ -164,10 +164,10 @@ impl Place {
 
 impl Wheel {
     fn of(
-        turning: &Turning,
+        turning: &TurningMachine,
         shaft: usize,
         inertia: f64,
-        figures: &Figures,
+        figures: &SteadyFigures,
     ) -> Result<Self, SteadyError> {
         let stages = turning.machines.first.drive_train.stages();
         let behind = stages.iter().skip(shaft);
@@ -195,9 +195,9 @@ impl Wheel {
 }
 
 /// The search for a flywheel on one of the shafts.
-struct Task<'a> {
-    turning: &'a Turning<'a>,
-    search: &'a Search<'a>,
+struct FlywheelSearch<'a> {
+    turning: &'a TurningMachine<'a>,
+    search: &'a CycleSearch<'a>,
     /// The cycle without it.
     own: Option<&'a Cycle>,
     delta: f64,
@@ -205,17 +205,17 @@ struct Task<'a> {
     guess: Cell<Option<Guess>>,
 }
 
-impl Task<'_> {
+impl FlywheelSearch<'_> {
     /// Calls `ask` with the cycle for a flywheel of this inertia on a shaft; an error if the machine stops.
     fn with<T>(
         &self,
         shaft: usize,
         inertia: f64,
-        ask: impl FnOnce(&Turning, f64, Option<Held>) -> Result<T, SteadyError>,
+        ask: impl FnOnce(&TurningMachine, f64, Option<Scaling>) -> Result<T, SteadyError>,
     ) -> Result<T, SteadyError> {
         self.among(shaft, inertia, |with, ended| match ended.found {
-            Found::Cycle(begin) => ask(with, begin, ended.held),
-            Found::Loses(from) => Err(cycle::standstill(with, from)?),
+            CycleResult::Cycle(begin) => ask(with, begin, ended.held),
+            CycleResult::Loses(from) => Err(cycle::standstill(with, from)?),
         })
     }
 
@@ -223,7 +223,7 @@ impl Task<'_> {
         &self,
         shaft: usize,
         inertia: f64,
-        ask: impl FnOnce(&Turning, Ended) -> Result<T, SteadyError>,
+        ask: impl FnOnce(&TurningMachine, CycleOutcome) -> Result<T, SteadyError>,
     ) -> Result<T, SteadyError> {
         let machines = &self.turning.machines;
         let file = with_flywheel(machines.first, shaft, inertia)?;
@@ -240,8 +240,8 @@ impl Task<'_> {
         // A machine that stops has no evenness.
         let none = -1.0 / self.delta;
         let found = self.among(shaft, inertia, |with, ended| match ended.found {
-            Found::Cycle(begin) => Ok(1.0 / figures::delta(with, begin)? + none),
-            Found::Loses(_) => Ok(none),
+            CycleResult::Cycle(begin) => Ok(1.0 / figures::delta(with, begin)? + none),
+            CycleResult::Loses(_) => Ok(none),
         });
         match found {
             Err(why) if why.is_standstill() => Ok(none),
@@ -282,7 +282,7 @@ impl Task<'_> {
     }
 }
 
-impl Task<'_> {
+impl FlywheelSearch<'_> {
     /// A slightly larger flywheel with which the machine completes a turn, where it may just stop with this one.
     fn running(&self, shaft: usize, inertia: f64) -> Result<f64, SteadyError> {
         let mut more = 1e-12;
@@ -296,7 +296,7 @@ impl Task<'_> {
 
     /// The motor torque with which a slow turn neither gains nor loses energy.
     fn mean_torque(&self) -> Result<f64, SteadyError> {
-        Ok(self.turning.keeping(HAIR)?.abs())
+        Ok(self.turning.keeping(SIGN_SPEED)?.abs())
     }
 }
 
@@ -312,13 +312,13 @@ fn with_flywheel(
     } else {
         file.machine = file.machine.with_flywheel(inertia)?;
     }
-    file.over_range = OverRange::default();
+    file.over_range = ReductionCache::default();
     Ok(file)
 }
 
 impl Classical {
     /// The estimate at constant `speed` (rad/s).
-    fn of(turning: &Turning, delta: f64, speed: f64) -> Result<Self, SteadyError> {
+    fn of(turning: &TurningMachine, delta: f64, speed: f64) -> Result<Self, SteadyError> {
         let plant = &turning.plant;
         // Torque at the drive link that keeps the speed, in the direction of motion. The train's loss of a constant motor torque is constant, and no
         // flywheel stores it.

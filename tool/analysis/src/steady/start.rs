@@ -4,16 +4,16 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::SteadyError;
-use super::cycle::Missing;
-use super::figures::Figures;
-use super::turn::{self, Reached, Turning};
-use crate::simulate::run::HAIR;
+use super::cycle::TorqueDeficit;
+use super::figures::SteadyFigures;
+use super::turn::{self, TurnEnd, TurningMachine};
+use crate::simulate::run::SIGN_SPEED;
 
 /// Parts of a turn after which the speed is compared with the cycle's.
 const PARTS: usize = 24;
 
 /// Relative difference of the speed that counts as reached.
-const NEAR: f64 = 0.01;
+const SPEED_TOLERANCE: f64 = 0.01;
 
 /// Most turns of the simulation.
 const MOST_TURNS: u32 = 300;
@@ -35,7 +35,7 @@ pub enum Start {
         turns: f64,
         /// Where, and how much torque is missing.
         #[serde(flatten)]
-        missing: Missing,
+        missing: TorqueDeficit,
     },
     /// It takes more turns than are simulated.
     Slow {
@@ -49,7 +49,7 @@ pub enum Start {
 }
 
 impl Start {
-    pub(super) fn of(turning: &Turning, cycle: &Figures) -> Result<Self, SteadyError> {
+    pub(super) fn of(turning: &TurningMachine, cycle: &SteadyFigures) -> Result<Self, SteadyError> {
         let parts = PARTS * cycle.turns as usize;
         let every = (cycle.nodes.len() / parts).max(1);
         let last = cycle.nodes.len() - 1;
@@ -57,15 +57,15 @@ impl Start {
         let places = nodes.filter(|(k, _)| *k == last || k % every == 0);
         let places: Vec<(f64, f64)> = places.map(|(_, (x, y))| (*x, y[0])).collect();
         let full = 0.5 * cycle.max_speed * cycle.max_speed;
-        let alpha = turning.instant(0.0, HAIR)?.alpha * turning.direction;
+        let alpha = turning.instant(0.0, SIGN_SPEED)?.alpha * turning.direction;
         if alpha <= 0.0 {
             return Ok(Self::Stuck {
                 turns: 0.0,
-                missing: Missing::at(turning, 0.0)?,
+                missing: TorqueDeficit::at(turning, 0.0)?,
             });
         }
         // The very first part of the path, with the acceleration at its start.
-        let least = 2.0 * turn::STOPPED * full;
+        let least = 2.0 * turn::STANDSTILL_ENERGY * full;
         let first = (least / alpha).min(0.5 * places[0].0);
         let mut y = turn::starting((2.0 * (alpha * first).max(least)).sqrt());
         y[1] = (2.0 * first / alpha).sqrt();
@@ -79,17 +79,17 @@ impl Start {
             for (to, z) in &places {
                 let speed = cycle.max_speed;
                 match turning.advance_by(turn::ROUGH, y, [x, *to], speed, &mut |_, _| ())? {
-                    Reached::End(end) => y = end,
-                    Reached::Stopped(at) => {
+                    TurnEnd::End(end) => y = end,
+                    TurnEnd::Stopped(at) => {
                         return Ok(Self::Stuck {
                             turns: turns * f64::from(turn) + at / std::f64::consts::TAU,
-                            missing: Missing::at(turning, at)?,
+                            missing: TorqueDeficit::at(turning, at)?,
                         });
                     }
                 }
                 x = *to;
                 share = (y[0] / z).sqrt();
-                if (share - 1.0).abs() > NEAR {
+                if (share - 1.0).abs() > SPEED_TOLERANCE {
                     near = None;
                     continue;
                 }

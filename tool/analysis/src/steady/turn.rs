@@ -9,14 +9,14 @@ use jred::error::Error;
 
 use super::SteadyError;
 use crate::simulate::machine::{Instant, Plant};
-use crate::simulate::{Moment, Together};
+use crate::simulate::{CoupledMachines, Moment};
 use jred_file::model::motor::OwnMotor;
 use jred_file::model::simulation::Simulation;
 use jred_file::number::numerics;
-use jred_file::number::numerics::dormand_prince::{Accuracy, Stopped};
+use jred_file::number::numerics::dormand_prince::{Accuracy, IntegrationError};
 
 /// z = ½ω², time, work of the motor, work of the process loads, losses, ∫T dt and ∫T² dt of the motor.
-pub(super) type State = [f64; 7];
+pub(super) type TurnState = [f64; 7];
 
 /// The accuracy of each step. Only a machine that follows its motor at once needs more steps.
 pub(super) const FINE: Accuracy = Accuracy {
@@ -34,19 +34,19 @@ pub(super) const ROUGH: Accuracy = Accuracy {
 const CLOSE: f64 = 1e-6;
 
 /// Share of z at full speed (a three-thousandth of the speed) below which the drive link has stopped.
-pub(super) const STOPPED: f64 = 1e-7;
+pub(super) const STANDSTILL_ENERGY: f64 = 1e-7;
 
 /// How far a motion came.
-pub(super) enum Reached {
+pub(super) enum TurnEnd {
     /// Its end.
-    End(State),
+    End(TurnState),
     /// It stopped at this distance from the start (rad).
     Stopped(f64),
 }
 
 /// A machine that turns in one direction, from a position.
-pub(super) struct Turning<'a> {
-    pub(super) machines: Together<'a>,
+pub(super) struct TurningMachine<'a> {
+    pub(super) machines: CoupledMachines<'a>,
     pub(super) plant: Plant<'a, OwnMotor<'a>>,
     /// +1 or −1.
     pub(super) direction: f64,
@@ -61,9 +61,9 @@ pub(super) struct Turning<'a> {
     inertia: f64,
 }
 
-impl<'a> Turning<'a> {
+impl<'a> TurningMachine<'a> {
     pub(super) fn new(
-        machines: &Together<'a>,
+        machines: &CoupledMachines<'a>,
         simulation: &'a Simulation,
         motor: OwnMotor<'a>,
         direction: f64,
@@ -158,43 +158,43 @@ impl<'a> Turning<'a> {
     /// From one place to another, in a motion with the full speed `speed`, through all edges between them.
     pub(super) fn advance(
         &self,
-        y: State,
+        y: TurnState,
         [from, to]: [f64; 2],
         speed: f64,
-    ) -> Result<Reached, SteadyError> {
+    ) -> Result<TurnEnd, SteadyError> {
         self.advance_by(FINE, y, [from, to], speed, &mut |_, _| ())
     }
 
     pub(super) fn advance_by(
         &self,
         accuracy: Accuracy,
-        y: State,
+        y: TurnState,
         [from, to]: [f64; 2],
         speed: f64,
-        seen: &mut dyn FnMut(f64, &State),
-    ) -> Result<Reached, SteadyError> {
+        seen: &mut dyn FnMut(f64, &TurnState),
+    ) -> Result<TurnEnd, SteadyError> {
         let mut y = y;
         let mut x = from;
         let edges = self.edges.iter().copied();
         for next in edges.filter(|e| *e > from && *e < to).chain([to]) {
             match self.smooth(accuracy, y, [x, next], speed, seen)? {
-                Reached::End(end) => y = end,
-                stopped @ Reached::Stopped(_) => return Ok(stopped),
+                TurnEnd::End(end) => y = end,
+                stopped @ TurnEnd::Stopped(_) => return Ok(stopped),
             }
             x = next;
         }
-        Ok(Reached::End(y))
+        Ok(TurnEnd::End(y))
     }
 
     /// From one place to another without a jump between them; `seen` receives the end of each step.
     fn smooth(
         &self,
         accuracy: Accuracy,
-        y: State,
+        y: TurnState,
         [from, to]: [f64; 2],
         speed: f64,
-        seen: &mut dyn FnMut(f64, &State),
-    ) -> Result<Reached, SteadyError> {
+        seen: &mut dyn FnMut(f64, &TurnState),
+    ) -> Result<TurnEnd, SteadyError> {
         let full = 0.5 * speed * speed;
         let energy = self.effort(speed);
         let torque = energy / self.plant.ratio().abs();
@@ -208,8 +208,8 @@ impl<'a> Turning<'a> {
             torque / speed,
             torque * torque / speed,
         ];
-        let least = STOPPED * full;
-        let slope = |x: f64, y: &State| -> Result<State, Error> {
+        let least = STANDSTILL_ENERGY * full;
+        let slope = |x: f64, y: &TurnState| -> Result<TurnState, Error> {
             let speed = (2.0 * (y[0] * full).max(least)).sqrt();
             let now = self.instant(from + x, speed)?;
             let rates = [
@@ -223,39 +223,46 @@ impl<'a> Turning<'a> {
             ];
             Ok(std::array::from_fn(|i| rates[i] / speed / sizes[i]))
         };
-        let bends = |x: f64, y: &State| -> Result<Vec<f64>, Error> {
+        let bends = |x: f64, y: &TurnState| -> Result<Vec<f64>, Error> {
             let speed = self.direction * (2.0 * (y[0] * full).max(least)).sqrt();
             let [torque, _] = self.plant.motor(speed);
             let link = [self.at(from + x), speed];
             self.plant.bends_under(&self.moment(), link, torque)
         };
         let scaled = std::array::from_fn(|i| y[i] / sizes[i]);
-        let steps = accuracy.steps(slope, bends, scaled, to - from, |_, y| Ok(y[0] <= STOPPED));
+        let steps = accuracy.steps(slope, bends, scaled, to - from, |_, y| {
+            Ok(y[0] <= STANDSTILL_ENERGY)
+        });
         let steps = steps.map_err(|why| match why {
-            Stopped::Function(error) => SteadyError::Machine(error),
-            Stopped::TooManySteps { .. } | Stopped::StepTooSmall { .. } => SteadyError::Integrator,
+            IntegrationError::Function(error) => SteadyError::Machine(error),
+            IntegrationError::TooManySteps { .. } | IntegrationError::StepTooSmall { .. } => {
+                SteadyError::Integrator
+            }
         })?;
         let [.., before, (x, end)] = steps.as_slice() else {
-            return Ok(Reached::End(y));
+            return Ok(TurnEnd::End(y));
         };
-        if end[0] <= STOPPED {
+        if end[0] <= STANDSTILL_ENERGY {
             // Near rest z falls linearly.
             let share = (before.1[0] / (before.1[0] - end[0])).clamp(0.0, 1.0);
-            return Ok(Reached::Stopped(from + before.0 + share * (x - before.0)));
+            return Ok(TurnEnd::Stopped(from + before.0 + share * (x - before.0)));
         }
         for (x, y) in steps.iter().skip(1) {
             seen(from + x, &std::array::from_fn(|i| y[i] * sizes[i]));
         }
-        Ok(Reached::End(std::array::from_fn(|i| end[i] * sizes[i])))
+        Ok(TurnEnd::End(std::array::from_fn(|i| end[i] * sizes[i])))
     }
 
     /// A whole cycle from the start with this speed.
-    pub(super) fn turn(&self, speed: f64) -> Result<Reached, SteadyError> {
+    pub(super) fn turn(&self, speed: f64) -> Result<TurnEnd, SteadyError> {
         self.advance(starting(speed), [0.0, self.span()], speed)
     }
 
     /// The same with the ends of the integrator's steps, the start first.
-    pub(super) fn course(&self, speed: f64) -> Result<(Reached, Vec<(f64, State)>), SteadyError> {
+    pub(super) fn course(
+        &self,
+        speed: f64,
+    ) -> Result<(TurnEnd, Vec<(f64, TurnState)>), SteadyError> {
         let mut course = vec![(0.0, starting(speed))];
         let ends = [0.0, self.span()];
         let reached = self.advance_by(FINE, starting(speed), ends, speed, &mut |x, y| {
@@ -301,8 +308,8 @@ impl<'a> Turning<'a> {
     /// Relative increase of the energy over a cycle from the start with this speed; −1 if the drive link stops.
     pub(super) fn rise(&self, speed: f64) -> Result<f64, SteadyError> {
         Ok(match self.turn(speed)? {
-            Reached::End([z, ..]) => z / (0.5 * speed * speed) - 1.0,
-            Reached::Stopped(_) => -1.0,
+            TurnEnd::End([z, ..]) => z / (0.5 * speed * speed) - 1.0,
+            TurnEnd::Stopped(_) => -1.0,
         })
     }
 
@@ -326,7 +333,7 @@ impl<'a> Turning<'a> {
     fn gain_by(&self, accuracy: Accuracy, speed: f64) -> Result<[f64; 2], SteadyError> {
         let ends = [0.0, self.span()];
         let reached = self.advance_by(accuracy, starting(speed), ends, speed, &mut |_, _| ())?;
-        let Reached::End([_, _, motor, process, losses, ..]) = reached else {
+        let TurnEnd::End([_, _, motor, process, losses, ..]) = reached else {
             return Ok([-1.0, 0.0]);
         };
         let [inertia, before] = self.plant.inertia(self.at(0.0))?;
@@ -341,6 +348,6 @@ impl<'a> Turning<'a> {
 }
 
 /// The state at the start of a turn.
-pub(super) fn starting(speed: f64) -> State {
+pub(super) fn starting(speed: f64) -> TurnState {
     [0.5 * speed * speed, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]
 }

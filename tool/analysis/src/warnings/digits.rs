@@ -4,7 +4,7 @@ use jred_file::model::machine::MachineFile;
 use jred_file::number::rounding::short;
 
 /// Share of a segment from which rounding of its times is reported.
-const NOTICED: f64 = 1e-5;
+const LEAST_SHARE: f64 = 1e-5;
 
 /// A warning for each segment whose times are rounded.
 pub(super) fn of(file: &MachineFile) -> Vec<String> {
@@ -14,7 +14,7 @@ pub(super) fn of(file: &MachineFile) -> Vec<String> {
     let end = motion.duration();
     let rounding = f64::EPSILON * end;
     let courses = motion.courses().into_iter();
-    let rounded = courses.filter(|course| rounding > NOTICED * course.duration);
+    let rounded = courses.filter(|course| rounding > LEAST_SHARE * course.duration);
     rounded
         .map(|course| {
             format!(

@@ -5,7 +5,7 @@ use jred::machine::Mechanism as _;
 
 use jred_file::model::coordinate::whole_range;
 use jred_file::model::machine::MachineFile;
-use jred_file::model::schedule::Now;
+use jred_file::model::schedule::ScheduleInstant;
 use jred_file::number::rounding::short;
 
 /// Positions or instants that are evaluated.
@@ -20,14 +20,19 @@ const BALANCED: f64 = 1e-3;
 pub(super) fn of(file: &MachineFile) -> Result<Vec<String>, Error> {
     let mechanism = file.machine.mechanism();
     let coordinate = mechanism.coordinate();
-    let states: Vec<(Now, [f64; 2])> = match &file.motion {
+    let states: Vec<(ScheduleInstant, [f64; 2])> = match &file.motion {
         Some(motion) => (0..=STEPS)
             .map(|k| motion.duration() * k as f64 / STEPS as f64)
             .map(|t| (t, motion.at(t)))
-            .map(|(t, state)| (Now::of(t, state.omega), [state.phi, state.omega]))
+            .map(|(t, state)| {
+                (
+                    ScheduleInstant::of(t, state.omega),
+                    [state.phi, state.omega],
+                )
+            })
             .collect(),
         None => whole_range(mechanism.domain(), STEPS)
-            .map(|phi| (Now::default(), [phi, 1.0]))
+            .map(|phi| (ScheduleInstant::default(), [phi, 1.0]))
             .collect(),
     };
     let loads = file.loads.iter().enumerate();

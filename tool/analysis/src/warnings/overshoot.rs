@@ -4,7 +4,7 @@ use jred_file::model::machine::MachineFile;
 use jred_file::model::motion::Overshoot;
 
 /// Share of the move below which this is ignored.
-const LITTLE: f64 = 1e-6;
+const NEGLIGIBLE: f64 = 1e-6;
 
 /// A warning for each segment that turns back although no key of it requires that.
 pub(super) fn of(file: &MachineFile) -> Vec<String> {
@@ -13,7 +13,7 @@ pub(super) fn of(file: &MachineFile) -> Vec<String> {
     };
     let drive = file.machine.mechanism().coordinate();
     let all = motion.overshoots().into_iter();
-    let seen = all.filter(|overshoot| overshoot.back > LITTLE * overshoot.distance);
+    let seen = all.filter(|overshoot| overshoot.back > NEGLIGIBLE * overshoot.distance);
     seen.map(|overshoot| format!("{}: {}", overshoot.says(motion, drive), cure(&overshoot)))
         .collect()
 }

@@ -7,9 +7,9 @@ use jred::error::Error;
 use jred::machine::{Body, Joint, Jointed as _, Link, Marker, Mechanism as _};
 
 use jred_file::model::coordinate::Coordinate;
-use jred_file::model::laden::Attached;
 use jred_file::model::machine::MachineFile;
 use jred_file::model::motion::ToolCoordinate;
+use jred_file::model::with_mass::AttachedMass;
 use jred_file::number::rounding::{short, significant};
 
 /// Gravity (m/s²): a tenth of the moon's, five times the earth's.
@@ -53,7 +53,7 @@ pub(super) fn of(file: &MachineFile) -> Result<Vec<String>, Error> {
         let [x, y] = marker.position(&frames);
         [x.value, y.value]
     }));
-    let bodies: Vec<Part> = (mechanism.link_names().iter().zip(mechanism.links()))
+    let bodies: Vec<BodyProperties> = (mechanism.link_names().iter().zip(mechanism.links()))
         .enumerate()
         .map(|(k, (name, link))| {
             let own = joints.iter().flat_map(markers);
@@ -64,14 +64,15 @@ pub(super) fn of(file: &MachineFile) -> Result<Vec<String>, Error> {
                 .chain(named.map(|point| point.at));
             let outlines = mechanism.outlines(k).flatten().copied();
             let turns = frames.get(k).is_some_and(|frame| frame.psi.d1 != 0.0);
-            Part::of_link(name, link, size(points.chain(outlines)), turns)
+            BodyProperties::of_link(name, link, size(points.chain(outlines)), turns)
         })
         .collect();
     let payloads = file.schedule.payloads().iter();
-    let payloads = payloads.map(|payload| Part::attached(&payload.name, &payload.mass));
+    let payloads = payloads.map(|payload| BodyProperties::attached(&payload.name, &payload.mass));
     let carriages = file.schedule.carriages().iter();
-    let carriages = carriages.map(|carriage| Part::attached(&carriage.name, &carriage.mass));
-    let carried: Vec<Part> = payloads.chain(carriages).collect();
+    let carriages =
+        carriages.map(|carriage| BodyProperties::attached(&carriage.name, &carriage.mass));
+    let carried: Vec<BodyProperties> = payloads.chain(carriages).collect();
     for part in bodies.iter().chain(&carried) {
         warnings.extend(part.gyration(whole));
         warnings.extend(part.centre(whole));
@@ -136,7 +137,7 @@ pub(super) fn prescribed(file: &MachineFile) -> Option<(Coordinate, &'static str
 }
 
 /// A body with its figures.
-struct Part<'m> {
+struct BodyProperties<'m> {
     name: &'m str,
     mass: f64,
     inertia: f64,
@@ -147,7 +148,7 @@ struct Part<'m> {
     turns: bool,
 }
 
-impl<'m> Part<'m> {
+impl<'m> BodyProperties<'m> {
     fn of_link(name: &'m str, link: &Link, size: f64, turns: bool) -> Self {
         Self {
             name,
@@ -159,7 +160,7 @@ impl<'m> Part<'m> {
         }
     }
 
-    fn attached(name: &'m str, mass: &Attached) -> Self {
+    fn attached(name: &'m str, mass: &AttachedMass) -> Self {
         Self {
             name,
             mass: mass.mass,
@@ -234,8 +235,12 @@ impl<'m> Part<'m> {
 }
 
 /// The smallest and the largest size, and mass, of the bodies.
-fn apart(bodies: &[Part]) -> Vec<String> {
-    let ends = |figure: fn(&Part) -> f64, most: f64, what: &str, unit: &str, units: &str| {
+fn apart(bodies: &[BodyProperties]) -> Vec<String> {
+    let ends = |figure: fn(&BodyProperties) -> f64,
+                most: f64,
+                what: &str,
+                unit: &str,
+                units: &str| {
         let figures = bodies.iter().filter(|body| figure(body) > 0.0);
         let least = figures
             .clone()

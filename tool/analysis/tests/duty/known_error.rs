@@ -7,7 +7,7 @@ use std::path::Path;
 
 use crate::reader;
 use crate::support::{Folder, budget, near, press_text, within};
-use jred_analysis::duty::{Duty, Fault, Sampling};
+use jred_analysis::duty::{Duty, DutyError, Sampling};
 use jred_analysis::inspect::Findings;
 use jred_file::model::machine::MachineFile;
 use jred_file::model::motion::{Motion, Node};
@@ -37,7 +37,7 @@ fn turning(degrees: f64, more: &str) -> MachineFile {
     reader::parse("drum.toml", &text, Path::new("")).unwrap()
 }
 
-fn duty(file: &MachineFile, sampling: impl Into<Sampling>) -> Result<Duty, Fault> {
+fn duty(file: &MachineFile, sampling: impl Into<Sampling>) -> Result<Duty, DutyError> {
     Duty::new(file, file.motion.as_ref().unwrap(), sampling)
 }
 
@@ -215,7 +215,7 @@ fn a_smaller_tolerance_changes_nothing() {
 #[test]
 fn too_many_turns_are_refused() {
     let fault = duty(&turning(360e6, ""), 2000).unwrap_err();
-    assert!(matches!(fault, Fault::Fine { .. }), "{fault}");
+    assert!(matches!(fault, DutyError::Fine { .. }), "{fault}");
     let words = format!("{fault}; {}", fault.cure());
     for part in ["4000000 instants", "of 100000 s", "one cycle that repeats"] {
         assert!(words.contains(part), "{words}");
@@ -393,7 +393,7 @@ fn energy_from_nowhere_is_an_error() {
     assert!(Duty::new(&file, &right, 2000).is_ok());
     let wrong = Motion::nodes(&[node(0.0, 0.0), node(0.5, 0.5), node(1.0, 1.2)], false);
     let fault = Duty::new(&file, &wrong, 2000).unwrap_err();
-    let Fault::Unbalanced { work, spent, .. } = fault else {
+    let DutyError::Unbalanced { work, spent, .. } = fault else {
         panic!("{fault}");
     };
     near("gain", spent, TORQUE * 1.2f64.sin(), 1e-8);

@@ -8,7 +8,7 @@ use jred::machine::Mechanism as _;
 use jred_analysis::inspect::Findings;
 use jred_analysis::reduce::{Over, Request, Sets, reduce};
 use jred_file::model::machine::MachineFile;
-use jred_file::model::schedule::Now;
+use jred_file::model::schedule::ScheduleInstant;
 use jred_file::number::columns::Columns;
 
 use super::duty;
@@ -135,7 +135,7 @@ fn its_torque_is_lagranges() {
             continue;
         }
         let state = motion.at(t);
-        let now = Now::of(t, state.omega);
+        let now = ScheduleInstant::of(t, state.omega);
         let torque = |file: &MachineFile| {
             let machine = file.machine_at(&now, state.phi).unwrap();
             let forces = machine.forces(state.phi, state.omega, state.alpha).unwrap();

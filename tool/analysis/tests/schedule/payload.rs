@@ -6,7 +6,7 @@ use std::fmt::Write as _;
 use crate::reader;
 use jred::machine::Mechanism;
 use jred_file::model::machine::MachineFile;
-use jred_file::model::schedule::Now;
+use jred_file::model::schedule::ScheduleInstant;
 
 use super::{G, PINION, RACK, RADIUS, WAY, duty, machine, work};
 use crate::support::{Folder, near, within};
@@ -97,7 +97,7 @@ fn on_a_rod_it_is_the_payload_of_a_table() {
         "[[payload]]\nmass = \"2.5 kg\"\ninertia = \"0.03 kg m^2\"\n{place}\nsegments = [1]"
     ));
     let bare = parse("");
-    let now = Now::of(0.5, 9.0);
+    let now = ScheduleInstant::of(0.5, 9.0);
     let mut turned = 0.0f64;
     for k in 0..200 {
         let phi = TAU * (f64::from(k) * 0.618_033_988_749_895).fract();
@@ -113,7 +113,9 @@ fn on_a_rod_it_is_the_payload_of_a_table() {
                 assert!((a - b).abs() < 1e-9, "{phi}: {a} {b}");
             }
         }
-        let after = carried.machine_at(&Now::of(1.1, 0.0), phi).unwrap();
+        let after = carried
+            .machine_at(&ScheduleInstant::of(1.1, 0.0), phi)
+            .unwrap();
         near(
             "set down",
             after.forces(phi, 9.0, -20.0).unwrap().drive,

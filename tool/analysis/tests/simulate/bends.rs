@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 use std::path::Path;
 
 use crate::reader;
-use jred_analysis::simulate::{Simulated, simulate};
+use jred_analysis::simulate::{SimulationResult, simulate};
 use jred_file::model::simulation::Simulation;
 
 use crate::reading::parse;
@@ -146,7 +146,7 @@ fn last(text: &str, tolerance: Option<f64>) -> [f64; 2] {
         tolerance: tolerance.unwrap_or(own.tolerance),
         ..own
     };
-    let states = simulate(&file, &simulation).and_then(Simulated::whole_states);
+    let states = simulate(&file, &simulation).and_then(SimulationResult::whole_states);
     let [phi, omega, _] = *states.unwrap().last().unwrap();
     [phi, omega]
 }

@@ -1,8 +1,8 @@
 //! Points, links and joint forces in the rows of a simulation.
 
 use jred::machine::TorqueTerms;
-use jred_analysis::reduce::{At, Over, Request, Sets, add_columns, reduce_at};
-use jred_analysis::simulate::{Together, simulate};
+use jred_analysis::reduce::{DrivePoint, Over, Request, Sets, add_columns, reduce_at};
+use jred_analysis::simulate::{CoupledMachines, simulate};
 
 use crate::reading::parse;
 use crate::support::{Columns, budget, largest, press_text, within};
@@ -25,12 +25,12 @@ fn forces_are_those_of_the_state_and_do_the_work_of_the_motor() {
         reactions: true,
         ..Sets::default()
     };
-    let alone = Together::alone(&file);
+    let alone = CoupledMachines::alone(&file);
     let machine = alone.all().next().unwrap();
     let states = found.states_of(&machine);
     let all = add_columns(&file, &found.columns, &states, (sets, "")).unwrap();
-    let at: Vec<At> = (found.states.iter())
-        .map(|[phi, omega, alpha]| At {
+    let at: Vec<DrivePoint> = (found.states.iter())
+        .map(|[phi, omega, alpha]| DrivePoint {
             phi: *phi,
             state: Some([*omega, *alpha]),
         })

@@ -2,13 +2,13 @@
 
 use std::f64::consts::TAU;
 
-use jred_analysis::simulate::{Simulated, simulate};
+use jred_analysis::simulate::{SimulationResult, simulate};
 
 use super::{J, turntable};
 use crate::reading::{parse, rendered};
 use crate::support::{budget, near};
 
-fn found(text: &str) -> Simulated {
+fn found(text: &str) -> SimulationResult {
     let file = parse(text).unwrap();
     simulate(&file, file.simulation.as_ref().unwrap()).unwrap()
 }

@@ -2,14 +2,14 @@
 
 use std::f64::consts::PI;
 
-use jred_analysis::simulate::{Simulated, simulate};
+use jred_analysis::simulate::{SimulationResult, simulate};
 
 use super::pendulum::{WEIGHT, pendulum};
 use super::turntable;
 use crate::reading::parse;
 use crate::support::{budget, edited, near, within};
 
-fn found(text: &str) -> Simulated {
+fn found(text: &str) -> SimulationResult {
     let file = parse(text).unwrap();
     simulate(&file, file.simulation.as_ref().unwrap()).unwrap()
 }

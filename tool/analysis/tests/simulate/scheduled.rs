@@ -3,9 +3,9 @@
 mod carriage;
 mod payload;
 
-use jred_analysis::simulate::{Missing, Together};
+use jred_analysis::simulate::{CoupledMachines, TorqueDeficit};
 use jred_file::model::machine::MachineFile;
-use jred_file::model::schedule::Now;
+use jred_file::model::schedule::ScheduleInstant;
 
 use super::{J, imbalance, run, simulate, turntable};
 use crate::reading::parse;
@@ -214,7 +214,7 @@ fn a_load_with_a_value_at_rest_holds_between_both() {
     let file = parse(&text(0.0)).unwrap();
     let found =
         jred_analysis::simulate::simulate(&file, file.simulation.as_ref().unwrap()).unwrap();
-    let Missing { given, needed, .. } = found.missing.unwrap().missing;
+    let TorqueDeficit { given, needed, .. } = found.missing.unwrap().missing;
     near("given", given, 2.0, 1e-12);
     near("needed", needed, 3.0, 1e-12);
 }
@@ -237,7 +237,7 @@ fn machines_on_one_shaft_each_go_by_their_own_clock() {
     let [first, second] =
         [text("0.2 s", "0.3 s"), text("0.1 s", "0.5 s")].map(|text| parse(&text).unwrap());
     let simulation = first.simulation.as_ref().unwrap();
-    let machines = Together::alone(&first)
+    let machines = CoupledMachines::alone(&first)
         .with([(&second, 0.0)], simulation)
         .unwrap();
     let found = jred_analysis::simulate::simulate_together(&machines, simulation).unwrap();
@@ -263,7 +263,7 @@ fn required(file: &MachineFile, t: f64) -> f64 {
     let t = t % motion.duration();
     let state = motion.at(t);
     let machine = file
-        .machine_at(&Now::of(t, state.omega), state.phi)
+        .machine_at(&ScheduleInstant::of(t, state.omega), state.phi)
         .unwrap();
     let forces = machine.forces(state.phi, state.omega, state.alpha);
     forces.unwrap().drive

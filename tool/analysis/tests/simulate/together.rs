@@ -1,6 +1,6 @@
 //! Several machines on one shaft.
 
-use jred_analysis::simulate::{Simulated, Together, simulate_together};
+use jred_analysis::simulate::{CoupledMachines, SimulationResult, simulate_together};
 use jred_file::model::machine::MachineFile;
 
 use super::imbalance;
@@ -20,9 +20,9 @@ rotor_inertia = "0.02 kg m^2"
     table_behind_gears([inertia, friction], driven, rest)
 }
 
-fn run(first: &MachineFile, others: &[(&MachineFile, f64)]) -> (Simulated, Columns) {
+fn run(first: &MachineFile, others: &[(&MachineFile, f64)]) -> (SimulationResult, Columns) {
     let simulation = first.simulation.as_ref().unwrap();
-    let machines = Together::alone(first)
+    let machines = CoupledMachines::alone(first)
         .with(others.iter().copied(), simulation)
         .unwrap();
     let found = simulate_together(&machines, simulation).unwrap();
@@ -151,7 +151,7 @@ fn a_machine_with_a_stroke_is_the_first_or_none() {
     .unwrap();
     let first = table(1.0, 40, 0.0);
     let simulation = first.simulation.as_ref().unwrap();
-    let with = Together::alone(&first).with([(&stroke, 0.0)], simulation);
+    let with = CoupledMachines::alone(&first).with([(&stroke, 0.0)], simulation);
     let why = with.err().unwrap().to_string();
     assert!(why.contains("has a stroke"), "{why}");
 }

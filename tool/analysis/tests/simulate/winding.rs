@@ -1,6 +1,6 @@
 //! A DC motor with its winding, and an induction motor by its name plate.
 
-use jred_analysis::simulate::{Simulated, simulate};
+use jred_analysis::simulate::{SimulationResult, simulate};
 use jred_file::model::characteristic::Characteristic;
 
 use crate::reading::{parse, rendered};
@@ -23,12 +23,12 @@ fn light(loads: &str, motor: &str) -> String {
         .replace("output_step = \"0.1 s\"", "output_step = \"0.5 ms\"")
 }
 
-fn run(text: &str) -> Simulated {
+fn run(text: &str) -> SimulationResult {
     let file = parse(text).unwrap_or_else(|report| panic!("{}", rendered(&report)));
     simulate(&file, file.simulation.as_ref().unwrap()).unwrap()
 }
 
-fn column(found: &Simulated, name: &str) -> Vec<f64> {
+fn column(found: &SimulationResult, name: &str) -> Vec<f64> {
     let names = found.columns.names();
     let k = names.iter().position(|other| other == name).unwrap();
     found

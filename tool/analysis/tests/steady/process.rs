@@ -2,13 +2,13 @@
 
 use std::f64::consts::TAU;
 
-use jred_analysis::steady::{Level, MeanSpeed, Request, Steady, SteadyError, steady};
+use jred_analysis::steady::{Level, MeanSpeed, Steady, SteadyError, SteadyRequest, steady};
 
 use super::{checked, rotor};
 use crate::reading::parse;
 use crate::support::near;
 
-fn asked(text: &str, request: &Request) -> Result<Steady, SteadyError> {
+fn asked(text: &str, request: &SteadyRequest) -> Result<Steady, SteadyError> {
     let file = parse(text).unwrap();
     steady(&file, file.simulation.as_ref().unwrap(), request)
 }
@@ -29,9 +29,9 @@ const GAS: f64 = 40.0 * 140.0 / 360.0 * TAU;
 fn a_brake_holds_an_engine_at_a_mean_speed() {
     let text = rotor(STROKE, "torque = \"-1 N m\"");
     let speed = 30.0;
-    let request = Request {
+    let request = SteadyRequest {
         mean_speed: Some(mean_speed(speed, Level::Motor)),
-        ..Request::default()
+        ..SteadyRequest::default()
     };
     let cycle = checked(asked(&text, &request)).cycle.unwrap();
     let figures = &cycle.figures;
@@ -73,7 +73,7 @@ fn a_brake_holds_an_engine_at_a_mean_speed() {
         1e-9,
     );
     // The flywheel: δ·J·ω² = swing with (ω_max + ω_min)/2; with the mean over the time it differs in the second order of δ.
-    let request = Request {
+    let request = SteadyRequest {
         delta: Some(0.01),
         ..request
     };
@@ -92,7 +92,7 @@ fn a_brake_holds_an_engine_at_a_mean_speed() {
 #[test]
 fn a_generator_takes_what_an_engine_gives() {
     let generator = "start_speed = \"300 rpm\"\ntorque_speed = [[\"-1 rad/s\", \"0.3 N m\"], [\"1000 rad/s\", \"-300 N m\"]]";
-    let cycle = checked(asked(&rotor(STROKE, generator), &Request::default()))
+    let cycle = checked(asked(&rotor(STROKE, generator), &SteadyRequest::default()))
         .cycle
         .unwrap();
     let figures = &cycle.figures;
@@ -113,17 +113,17 @@ fn a_generator_takes_what_an_engine_gives() {
 fn a_load_is_found_for_a_mean_speed() {
     let friction = "[[load]]\nname = \"friction\"\non = \"shaft-1\"\nopposing_moment = \"2 N m\"";
     let motor = "torque_speed = [[\"0 rad/s\", \"10 N m\"], [\"100 rad/s\", \"0 N m\"]]";
-    let request = Request {
+    let request = SteadyRequest {
         mean_speed: Some(mean_speed(30.0, Level::Load("friction".to_owned()))),
-        ..Request::default()
+        ..SteadyRequest::default()
     };
     let cycle = checked(asked(&rotor(friction, motor), &request))
         .cycle
         .unwrap();
     near("factor", cycle.held.unwrap().factor, 3.5, 1e-9);
-    let request = Request {
+    let request = SteadyRequest {
         mean_speed: Some(mean_speed(30.0, Level::Load("fan".to_owned()))),
-        ..Request::default()
+        ..SteadyRequest::default()
     };
     let why = asked(&rotor(friction, motor), &request).unwrap_err();
     assert!(matches!(why, SteadyError::NoLoad { .. }), "{why}");
@@ -133,10 +133,10 @@ fn a_load_is_found_for_a_mean_speed() {
 #[test]
 fn turns_are_those_of_the_loads() {
     let text = rotor(STROKE, "torque = \"-1 N m\"");
-    let with = |turns| Request {
+    let with = |turns| SteadyRequest {
         mean_speed: Some(mean_speed(30.0, Level::Motor)),
         turns: Some(turns),
-        ..Request::default()
+        ..SteadyRequest::default()
     };
     let why = asked(&text, &with(3)).unwrap_err();
     assert!(

@@ -1,7 +1,7 @@
 //! Several machines on one shaft.
 
-use jred_analysis::simulate::Together;
-use jred_analysis::steady::{Figures, Request, Steady, SteadyError, steady_together};
+use jred_analysis::simulate::CoupledMachines;
+use jred_analysis::steady::{Steady, SteadyError, SteadyFigures, SteadyRequest, steady_together};
 use jred_file::model::machine::MachineFile;
 
 use super::{checked, checked_to, of};
@@ -14,12 +14,12 @@ fn together(
     delta: Option<f64>,
 ) -> Result<Steady, SteadyError> {
     let simulation = first.simulation.as_ref().unwrap();
-    let machines = Together::alone(first)
+    let machines = CoupledMachines::alone(first)
         .with(others.iter().copied(), simulation)
         .unwrap();
-    let request = Request {
+    let request = SteadyRequest {
         delta,
-        ..Request::default()
+        ..SteadyRequest::default()
     };
     steady_together(&machines, simulation, &request)
 }
@@ -57,7 +57,7 @@ fn two_presses_in_step_are_one() {
         alone.mean_speed,
         budget::STEADY_BALANCE,
     );
-    let works = |figures: &Figures| {
+    let works = |figures: &SteadyFigures| {
         let energy = figures.energy;
         [energy.motor, energy.process, energy.losses]
     };

@@ -1,13 +1,13 @@
 //! The core's errors as reports: the fault, and its cure as help.
 
 use jred::error::Error;
-use jred_analysis::duty::Fault;
+use jred_analysis::duty::DutyError;
 use miette::{Report, miette};
 
 /// Report of an obstacle to a duty.
-pub(crate) fn duty_report(fault: Fault) -> Report {
+pub(crate) fn duty_report(fault: DutyError) -> Report {
     match fault {
-        Fault::Machine(error) => core_report(error),
+        DutyError::Machine(error) => core_report(error),
         fault => fault.into(),
     }
 }

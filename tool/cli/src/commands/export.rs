@@ -9,7 +9,9 @@ use crate::options;
 use crate::output;
 use jred::machine::Reducible as _;
 use jred_analysis::duty::Duty;
-use jred_export::{Choice, Export, Failure, Form, LayoutChoice, Name, Number, Proven, Task};
+use jred_export::{
+    Choice, Export, Failure, LayoutChoice, Name, Number, OutputForm, ProofResult, Task,
+};
 use jred_file::argument::{self, Argument};
 use jred_file::model::axis::Axis;
 use jred_file::model::machine::MachineFile;
@@ -50,7 +52,7 @@ fn name(options: &options::Export) -> Result<Option<Name>> {
     let Some(text) = &options.name else {
         return Ok(None);
     };
-    if !matches!(options.format, Form::C | Form::Rust) {
+    if !matches!(options.format, OutputForm::C | OutputForm::Rust) {
         return Err(miette!(
             help = "remove --name, or use --format c or rust",
             "--name applies to source code; --format {} has no names",
@@ -184,7 +186,7 @@ pub(super) fn run(options: &options::Export) -> Result<Done> {
 fn show(options: &options::Export, export: &Export) -> Result<Done> {
     let mut answer = list::export::answer(export);
     let format = match (&options.out, options.format) {
-        (None, Form::Json) => Format::Json,
+        (None, OutputForm::Json) => Format::Json,
         _ => Format::Table,
     };
     answer.sentence(match &options.out {
@@ -197,7 +199,7 @@ fn show(options: &options::Export, export: &Export) -> Result<Done> {
 /// Whether the error of the table is proven and within the allowed one; otherwise reports why not.
 fn proof_holds(export: &Export) -> bool {
     let (words, cure) = match (export.proof(), export.excess()) {
-        (Some(Proven::Open(why)), _) => (
+        (Some(ProofResult::Open(why)), _) => (
             format!("the error of the table is not proven: {why}"),
             "without --prove it is estimated",
         ),

@@ -143,7 +143,10 @@ fn state(options: &options::Reduce, file: &MachineFile) -> Result<Option<[f64; 2
 }
 
 /// The positions of the command line with their states.
-fn states(options: &options::Reduce, file: &MachineFile) -> Result<Option<Vec<reduce::At>>> {
+fn states(
+    options: &options::Reduce,
+    file: &MachineFile,
+) -> Result<Option<Vec<reduce::DrivePoint>>> {
     let Some(text) = &options.at else {
         return Ok(None);
     };

@@ -13,7 +13,7 @@ use crate::options::retime::{Ends, RAMP, Retime};
 use crate::output::{self, Files};
 use jred_file::model::drive_train;
 use jred_file::model::machine::MachineFile;
-use jred_file::model::rules::Verdict;
+use jred_file::model::rules::RuleVerdict;
 use jred_file::model::variator;
 use jred_file::number::rounding::short;
 use jred_file::plain;
@@ -107,7 +107,7 @@ pub fn retime(options: &Retime) -> Result<Done> {
     print_answer(&list::retime::answer(&shown), options.format)?;
     let mut violated = checks
         .iter()
-        .filter(|check| check.verdict == Verdict::Fail && check.id.follows_motion());
+        .filter(|check| check.verdict == RuleVerdict::Fail && check.id.follows_motion());
     let exceeds = violated.next().is_some() || broken.is_some();
     Ok(if exceeds { Done::Violated } else { Done::Holds })
 }

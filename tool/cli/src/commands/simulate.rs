@@ -10,7 +10,7 @@ use crate::options::simulate::Simulate;
 use crate::output;
 use jred_analysis::checked;
 use jred_analysis::reduce::{Sets, add_columns};
-use jred_analysis::simulate::{self, Simulated, Together, beside_name};
+use jred_analysis::simulate::{self, CoupledMachines, SimulationResult, beside_name};
 use jred_file::argument::Argument;
 use jred_file::model::coordinate::Coordinate;
 use jred_file::model::machine::MachineFile;
@@ -67,7 +67,7 @@ pub(super) fn run(options: &Simulate) -> Result<Done> {
     };
     warn_of_motion(&file);
     let starts = starts(&others, &options.phase)?;
-    let machines = Together::alone(&file).with(others.iter().zip(starts), simulation)?;
+    let machines = CoupledMachines::alone(&file).with(others.iter().zip(starts), simulation)?;
     let (mut found, drive) = match &chosen {
         None => (simulate::simulate_together(&machines, simulation)?, None),
         Some(chosen) => {
@@ -75,7 +75,7 @@ pub(super) fn run(options: &Simulate) -> Result<Done> {
             (found, Some(drive))
         }
     };
-    let run = |simulation: &Simulation| -> Result<Simulated> {
+    let run = |simulation: &Simulation| -> Result<SimulationResult> {
         match &chosen {
             None => Ok(simulate::simulate_together(&machines, simulation)?),
             Some(chosen) => {
@@ -142,7 +142,7 @@ pub(super) fn starts(others: &[MachineFile], phases: &[f64]) -> Result<Vec<f64>>
 }
 
 /// Adds the requested columns of each machine.
-fn widen(found: &mut Simulated, machines: &Together, asked: Sets) -> Result<()> {
+fn widen(found: &mut SimulationResult, machines: &CoupledMachines, asked: Sets) -> Result<()> {
     for (k, machine) in machines.all().enumerate() {
         let prefix = k
             .checked_sub(1)
@@ -157,9 +157,9 @@ fn widen(found: &mut Simulated, machines: &Together, asked: Sets) -> Result<()> 
 /// The motion under a drive of the catalogue, with the drive's name and loads.
 fn with_drive(
     chosen: &ChosenDrive,
-    machines: &Together,
+    machines: &CoupledMachines,
     simulation: &Simulation,
-) -> Result<(Simulated, (String, Loads))> {
+) -> Result<(SimulationResult, (String, Loads))> {
     let file = machines.first;
     variator::refuse(file, "simulate --drive")?;
     let drive = chosen.drive();

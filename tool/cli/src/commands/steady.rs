@@ -7,8 +7,8 @@ use crate::commands::{Done, print_answer, rate};
 use crate::options;
 use crate::output::{self, print};
 use jred_analysis::checked;
-use jred_analysis::simulate::Together;
-use jred_analysis::steady::{self, Level, MeanSpeed, Request};
+use jred_analysis::simulate::CoupledMachines;
+use jred_analysis::steady::{self, Level, MeanSpeed, SteadyRequest};
 use jred_file::argument::Argument;
 use jred_file::model::characteristic::Characteristic;
 use jred_file::model::machine::MachineFile;
@@ -36,10 +36,10 @@ pub fn steady(options: &options::Steady) -> Result<Done> {
     variator::refuse(&file, "steady")?;
     let simulation = simulation(options, &file)?;
     let starts = starts(&others, &options.phase)?;
-    let machines = Together::alone(&file).with(others.iter().zip(starts), &simulation)?;
+    let machines = CoupledMachines::alone(&file).with(others.iter().zip(starts), &simulation)?;
     let asked = options.mean_speed.as_deref();
     let speed = rate("mean-speed", asked, Argument::any(SPEED), &file.axis())?;
-    let request = Request {
+    let request = SteadyRequest {
         delta: options.delta,
         mean_speed: mean_speed(speed, options)?,
         turns: options.turns,
@@ -47,7 +47,7 @@ pub fn steady(options: &options::Steady) -> Result<Done> {
     };
     let steady = steady::steady_together(&machines, &simulation, &request)?;
     if let Some(path) = &options.report {
-        let finer = Request {
+        let finer = SteadyRequest {
             positions: request.positions.max(DRAWN),
             ..request.clone()
         };

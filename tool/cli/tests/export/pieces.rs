@@ -9,7 +9,7 @@ use jred::{
     curves,
 };
 
-use jred_export::{Answer, Export, LayoutChoice, Number, Task};
+use jred_export::{Export, LayoutChoice, Number, SearchResult, Task};
 use jred_file::model::machine::MachineFile;
 
 use super::images::{errors, machine};
@@ -105,7 +105,7 @@ fn pieces_of_every_type_and_layout_hold_their_error() {
     let export = searched(&file);
     for ((number, layout, answer), kind) in export.answers.iter().zip(KINDS) {
         assert_eq!((number.name(), layout.name()), kind);
-        let Answer::Meets(candidate) = answer else {
+        let SearchResult::Meets(candidate) = answer else {
             panic!("{kind:?}: {}", answer.remark())
         };
         let tables = candidate.tables.iter();
@@ -336,7 +336,7 @@ fn a_narrow_load_has_its_curve_and_its_units() {
         let mut met = Vec::new();
         for (number, layout, answer) in searched(&file).answers {
             // Some layouts would need more cells.
-            let Answer::Meets(candidate) = answer else {
+            let SearchResult::Meets(candidate) = answer else {
                 assert_eq!(answer.remark(), "misses", "{name} {number:?} {layout:?}");
                 continue;
             };

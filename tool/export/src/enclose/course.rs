@@ -3,36 +3,36 @@
 use std::f64::consts::TAU;
 
 use jred::machine::Window;
-use jred_enclosure::{Curves, Form, Interval, Place, factor};
+use jred_enclosure::{Curves, Interval, LinkFrame, TaylorForm, factor};
 
-use jred_file::model::tabulated::{Course, Direction, Over, Place as Point, Table};
-use jred_file::number::spline::{Piece, Spline};
+use jred_file::model::virtual_link::{Direction, LinkCurve, LinkPoint, LoadTable, TableVariable};
+use jred_file::number::spline::{CubicPiece, Spline};
 
 /// A curve and its derivative by its variable.
-struct Found {
-    value: Form,
-    slope: Form,
+struct FormWithSlope {
+    value: TaylorForm,
+    slope: TaylorForm,
 }
 
 /// Adds the represented curve to those of the machine.
 pub(super) fn add(
     curves: &mut Curves,
-    course: &Course,
-    places: &[Place<Form>],
+    course: &LinkCurve,
+    places: &[LinkFrame<TaylorForm>],
     stretch: [f64; 2],
     window: Option<&Window>,
 ) {
-    let phi = Form::variable(stretch);
+    let phi = TaylorForm::variable(stretch);
     let part = window.map(|window| factor(window, stretch));
-    let times = |curve: Form| part.map_or(curve, |part| part * curve);
-    let rates = |on: &Point| point(on, places).map(|c| c.derivative());
+    let times = |curve: TaylorForm| part.map_or(curve, |part| part * curve);
+    let rates = |on: &LinkPoint| point(on, places).map(|c| c.derivative());
     match course {
-        Course::Inertia(curve) => {
+        LinkCurve::Inertia(curve) => {
             let found = at(curve, &phi);
             curves.inertia = curves.inertia + found.value;
             curves.inertia_slope = curves.inertia_slope + found.slope;
         }
-        Course::Payload { mass, on, axis } => {
+        LinkCurve::Payload { mass, on, axis } => {
             let found = at(mass, &phi);
             let rate = rates(on)[*axis % 2];
             let square = rate.square();
@@ -40,41 +40,41 @@ pub(super) fn add(
             curves.inertia_slope =
                 curves.inertia_slope + found.slope * square + found.value * square.derivative();
         }
-        Course::Torque(curve) => curves.load = curves.load + times(at(curve, &phi).value),
-        Course::Potential { torque, .. } => curves.load = curves.load + at(torque, &phi).value,
-        Course::Opposing(curve) => {
+        LinkCurve::Torque(curve) => curves.load = curves.load + times(at(curve, &phi).value),
+        LinkCurve::Potential { torque, .. } => curves.load = curves.load + at(torque, &phi).value,
+        LinkCurve::Opposing(curve) => {
             curves.coulomb = curves.coulomb + times(at(curve, &phi).value.magnitude());
         }
-        Course::Viscous(curve) => {
+        LinkCurve::Viscous(curve) => {
             let value = at(curve, &phi).value;
             // A value below zero by rounding counts as zero.
             let value = if value.values().lo() < 0.0 {
-                Form::somewhere(Interval::between(0.0, value.values().hi().max(0.0)))
+                TaylorForm::somewhere(Interval::between(0.0, value.values().hi().max(0.0)))
             } else {
                 value
             };
             curves.viscous = curves.viscous + times(value);
         }
-        Course::Weight { mass, on, gravity } => {
+        LinkCurve::Weight { mass, on, gravity } => {
             let [x, y] = rates(on);
             let fall = x * gravity[0] + y * gravity[1];
             curves.load = curves.load + times(at(mass, &phi).value * fall);
         }
-        Course::Thrust { force, on } => {
+        LinkCurve::Thrust { force, on } => {
             let [x, y] = rates(on);
             let force = force_at(force, &phi, places).magnitude();
             curves.coulomb = curves.coulomb + times(force * x.length(&y));
         }
-        Course::Force { force, on, along } => {
+        LinkCurve::Force { force, on, along } => {
             let [x, y] = rates(on);
             let [e_x, e_y] = match along {
-                Direction::Fixed(vector) => vector.map(Form::constant),
+                Direction::Fixed(vector) => vector.map(TaylorForm::constant),
                 Direction::OnLink(vector) => link(on.link, places).vector(*vector),
             };
             let way = e_x * x + e_y * y;
             curves.load = curves.load + times(force_at(force, &phi, places) * way);
         }
-        Course::Moment {
+        LinkCurve::Moment {
             moment,
             link: number,
         } => {
@@ -84,25 +84,25 @@ pub(super) fn add(
     }
 }
 
-fn link(number: usize, places: &[Place<Form>]) -> Place<Form> {
-    places.get(number).copied().unwrap_or(Place::GROUND)
+fn link(number: usize, places: &[LinkFrame<TaylorForm>]) -> LinkFrame<TaylorForm> {
+    places.get(number).copied().unwrap_or(LinkFrame::GROUND)
 }
 
-fn point(on: &Point, places: &[Place<Form>]) -> [Form; 2] {
+fn point(on: &LinkPoint, places: &[LinkFrame<TaylorForm>]) -> [TaylorForm; 2] {
     link(on.link, places).point(on.at)
 }
 
 /// A force over a position.
-fn force_at(table: &Table, phi: &Form, places: &[Place<Form>]) -> Form {
+fn force_at(table: &LoadTable, phi: &TaylorForm, places: &[LinkFrame<TaylorForm>]) -> TaylorForm {
     let (curve, over, turns) = table.parts();
     let place = match over {
-        Over::Drive => *phi,
-        Over::Point {
+        TableVariable::Drive => *phi,
+        TableVariable::Point {
             link: number,
             at,
             axis,
             zero,
-        } => link(number, places).point(at)[axis % 2] - Form::constant(zero),
+        } => link(number, places).point(at)[axis % 2] - TaylorForm::constant(zero),
     };
     if !turns {
         return at(curve, &place).value;
@@ -111,40 +111,40 @@ fn force_at(table: &Table, phi: &Form, places: &[Place<Form>]) -> Form {
     let [from, to] = curve.range();
     let middle = place.at.0[0].middle();
     let turn = ((middle - from) / TAU).floor();
-    let place = place - Form::somewhere(Interval::turn() * turn);
+    let place = place - TaylorForm::somewhere(Interval::turn() * turn);
     let values = place.values();
     if values.width() > TAU {
-        return Form::somewhere(Interval::ALL);
+        return TaylorForm::somewhere(Interval::ALL);
     }
     let rows = curve.pieces_between(curve.range());
     let rows = rows
         .iter()
         .filter(|piece| piece.ends.iter().all(|end| end.is_finite()));
-    let gap = Piece {
+    let gap = CubicPiece {
         ends: [to, from + TAU],
         origin: to,
         coefficients: [0.0; 4],
     };
-    let once: Vec<Piece> = rows.copied().chain([gap]).collect();
+    let once: Vec<CubicPiece> = rows.copied().chain([gap]).collect();
     let shifted = [-TAU, 0.0, TAU].into_iter().flat_map(|turn| {
-        once.iter().map(move |piece| Piece {
+        once.iter().map(move |piece| CubicPiece {
             ends: piece.ends.map(|end| end + turn),
             origin: piece.origin + turn,
             ..*piece
         })
     });
-    let pieces: Vec<Piece> = shifted
+    let pieces: Vec<CubicPiece> = shifted
         .filter(|piece| piece.ends[0] <= values.hi() && values.lo() <= piece.ends[1])
         .collect();
     joined(&pieces, &place).value
 }
 
-fn at(curve: &Spline, place: &Form) -> Found {
+fn at(curve: &Spline, place: &TaylorForm) -> FormWithSlope {
     let values = place.values();
     let values = [values.lo(), values.hi()];
     if values.iter().any(|end| !end.is_finite()) {
-        let all = Form::somewhere(Interval::ALL);
-        return Found {
+        let all = TaylorForm::somewhere(Interval::ALL);
+        return FormWithSlope {
             value: all,
             slope: all,
         };
@@ -153,14 +153,14 @@ fn at(curve: &Spline, place: &Form) -> Found {
 }
 
 /// The cubic in the middle, and the deviation of the other cubics on the stretch from it.
-fn joined(pieces: &[Piece], place: &Form) -> Found {
+fn joined(pieces: &[CubicPiece], place: &TaylorForm) -> FormWithSlope {
     let middle = place.at.0[0].middle();
     let values = place.values();
-    let away = |piece: &Piece| (piece.ends[0] - middle).max(middle - piece.ends[1]);
+    let away = |piece: &CubicPiece| (piece.ends[0] - middle).max(middle - piece.ends[1]);
     let main = pieces.iter().min_by(|a, b| away(a).total_cmp(&away(b)));
     let Some(main) = main else {
-        let all = Form::somewhere(Interval::ALL);
-        return Found {
+        let all = TaylorForm::somewhere(Interval::ALL);
+        return FormWithSlope {
             value: all,
             slope: all,
         };
@@ -172,11 +172,11 @@ fn joined(pieces: &[Piece], place: &Form) -> Found {
         let low = values.lo().max(other.ends[0] - beside);
         let high = values.hi().min(other.ends[1] + beside);
         if low <= high && other != main {
-            let u = Form::variable([low, high]);
+            let u = TaylorForm::variable([low, high]);
             let [own, its] = [main, other].map(|piece| polynomials(piece, &u));
             // As series about the middle of their common range.
             let half = 0.5 * (high - low) + beside;
-            let size = |a: Form, b: Form| {
+            let size = |a: TaylorForm, b: TaylorForm| {
                 let (mut sum, mut power) = (0.0, 1.0);
                 for term in &(a - b).at.0[..4] {
                     sum += term.size() * power;
@@ -189,23 +189,23 @@ fn joined(pieces: &[Piece], place: &Form) -> Found {
         }
     }
     let found = polynomials(main, place);
-    let widened = |form: Form, by: f64| {
+    let widened = |form: TaylorForm, by: f64| {
         if by > 0.0 {
-            form + Form::somewhere(Interval::within(by))
+            form + TaylorForm::somewhere(Interval::within(by))
         } else {
             form
         }
     };
-    Found {
+    FormWithSlope {
         value: widened(found.value, apart),
         slope: widened(found.slope, apart_slope),
     }
 }
 
-fn polynomials(piece: &Piece, place: &Form) -> Found {
-    let u = *place - Form::constant(piece.origin);
+fn polynomials(piece: &CubicPiece, place: &TaylorForm) -> FormWithSlope {
+    let u = *place - TaylorForm::constant(piece.origin);
     let [a, b, c, d] = piece.coefficients;
-    Found {
+    FormWithSlope {
         value: u.polynomial(&[a, b, c, d]),
         slope: u.polynomial(&[b, 2.0 * c, 3.0 * d]),
     }

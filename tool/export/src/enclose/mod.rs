@@ -10,24 +10,24 @@ use jred::friction::FrictionDrive;
 use jred::machine::Machine;
 use jred::machine::{Element, Frame, Load, Mechanism as _};
 use jred::mechanism::{BallScrew, Geneva, Hoist, ParallelShafts, Planetary, RackAndPinion, Train};
-use jred_enclosure::{Closure, Curves, Form, Interval, Parts, Place, Unproven};
+use jred_enclosure::{Closure, Curves, Interval, LinkFrame, Parts, ProofError, TaylorForm};
 use std::any::Any;
 
 use jred_file::model::mechanism::{AnyMechanism, Inner};
-use jred_file::model::tabulated::Course;
+use jred_file::model::virtual_link::LinkCurve;
 
 /// A machine whose curves can be enclosed on any stretch of its range.
-pub(crate) struct Enclosed<'m> {
+pub(crate) struct EnclosedMachine<'m> {
     machine: &'m Machine<AnyMechanism>,
-    motion: Motion<'m>,
-    courses: Vec<&'m Course>,
+    motion: LinkMotion<'m>,
+    courses: Vec<&'m LinkCurve>,
     /// Loads on the mechanism's own links.
     loads: Vec<Load>,
     elements: Vec<Element>,
 }
 
 /// Motion of the mechanism's own links.
-enum Motion<'m> {
+enum LinkMotion<'m> {
     /// By the closure of their joints.
     Closed(Closure<'m>),
     /// Every coordinate is proportional to the drive link's.
@@ -36,20 +36,20 @@ enum Motion<'m> {
     Indexed(&'m dyn Inner),
 }
 
-impl<'m> Enclosed<'m> {
+impl<'m> EnclosedMachine<'m> {
     /// The curves of a machine.
     ///
     /// # Errors
     /// A mechanism that cannot be enclosed.
-    pub(crate) fn new(machine: &'m Machine<AnyMechanism>) -> Result<Self, Unproven> {
+    pub(crate) fn new(machine: &'m Machine<AnyMechanism>) -> Result<Self, ProofError> {
         let any = machine.mechanism();
         let (bare, courses) = any.bare();
         let own = any.own_links();
         let phi = machine.mechanism().domain().position(0.3);
         let named = |why| match why {
-            Unproven::Joint { number } => {
+            ProofError::Joint { number } => {
                 let name = any.joint_names().get(number).map_or("", String::as_str);
-                Unproven::Part(format!(
+                ProofError::Part(format!(
                     "the motion that joint \"{name}\" of the {} transmits is not enclosed in intervals",
                     any.kind()
                 ))
@@ -57,13 +57,13 @@ impl<'m> Enclosed<'m> {
             other => other,
         };
         let motion = if is_geared(bare) {
-            Motion::Geared(bare)
+            LinkMotion::Geared(bare)
         } else if (bare as &dyn Any).is::<Geneva>() {
-            Motion::Indexed(bare)
+            LinkMotion::Indexed(bare)
         } else if any.pairs().is_empty() {
-            Motion::Closed(Closure::new(bare, own, any.own_joints(), phi).map_err(named)?)
+            LinkMotion::Closed(Closure::new(bare, own, any.own_joints(), phi).map_err(named)?)
         } else {
-            Motion::Closed(Closure::of_pairs(bare, own, any.pairs(), phi).map_err(named)?)
+            LinkMotion::Closed(Closure::of_pairs(bare, own, any.pairs(), phi).map_err(named)?)
         };
         let on_own = |link: Option<usize>| link.is_none_or(|link| link < own);
         let elements = machine.elements().iter();
@@ -83,17 +83,17 @@ impl<'m> Enclosed<'m> {
     ///
     /// # Errors
     /// The stretch is too long, or a place on it is singular.
-    pub(crate) fn curves(&self, stretch: [f64; 2]) -> Result<Curves, Unproven> {
+    pub(crate) fn curves(&self, stretch: [f64; 2]) -> Result<Curves, ProofError> {
         let places = match &self.motion {
-            Motion::Closed(closure) => closure.places(stretch)?,
-            Motion::Geared(mechanism) => geared(*mechanism, stretch)?,
-            Motion::Indexed(mechanism) => {
+            LinkMotion::Closed(closure) => closure.places(stretch)?,
+            LinkMotion::Geared(mechanism) => geared(*mechanism, stretch)?,
+            LinkMotion::Indexed(mechanism) => {
                 let any = self.machine.mechanism();
                 let middle = stretch[0].midpoint(stretch[1]);
                 match Closure::new(*mechanism, any.own_links(), any.own_joints(), middle) {
                     Ok(closure) => closure.places(stretch)?,
                     // The dwell.
-                    Err(Unproven::Joint { .. }) => geared(*mechanism, stretch)?,
+                    Err(ProofError::Joint { .. }) => geared(*mechanism, stretch)?,
                     Err(why) => return Err(why),
                 }
             }
@@ -134,37 +134,40 @@ fn is_geared(mechanism: &dyn Inner) -> bool {
 }
 
 /// The links of such a mechanism, from one pose: their rates are constant.
-fn geared(mechanism: &dyn Inner, stretch: [f64; 2]) -> Result<Vec<Place<Form>>, Unproven> {
+fn geared(
+    mechanism: &dyn Inner,
+    stretch: [f64; 2],
+) -> Result<Vec<LinkFrame<TaylorForm>>, ProofError> {
     let middle = stretch[0].midpoint(stretch[1]);
     let frames = mechanism
         .frames(middle)
-        .map_err(|_| Unproven::Pose { phi: middle })?;
+        .map_err(|_| ProofError::Pose { phi: middle })?;
     // A few rounding errors of the largest number from whose difference it may be computed.
     let parts = |q: jred::number::Transfer| q.value.abs().max(q.d1.abs());
     let sizes = frames.iter().flat_map(|f| [f.x, f.y, f.psi].map(parts));
     let largest = sizes.fold(1.0, f64::max);
     let number = |value: f64| Interval::around(value, 1e-15 * largest);
-    let away = Form::variable(stretch) - Form::constant(middle);
+    let away = TaylorForm::variable(stretch) - TaylorForm::constant(middle);
     let planets = (mechanism as &dyn Any).is::<Planetary>();
     let place = |(k, frame): (usize, &Frame)| {
         let at = |q: jred::number::Transfer| {
-            let rate = Form::somewhere(number(q.d1));
-            away * rate + Form::somewhere(number(q.value))
+            let rate = TaylorForm::somewhere(number(q.d1));
+            away * rate + TaylorForm::somewhere(number(q.value))
         };
         // The centre of the planets rotates with their carrier.
         let origin = if planets && k == Planetary::PLANETS {
             let carrier = frames.get(Planetary::CARRIER)?;
             let (sin, cos) = at(carrier.psi).sin_cos();
             let arm = frame.x.value.hypot(frame.y.value);
-            let arm = Form::somewhere(number(arm));
+            let arm = TaylorForm::somewhere(number(arm));
             [cos * arm, sin * arm]
         } else {
             [at(frame.x), at(frame.y)]
         };
-        Some(Place::new(origin, at(frame.psi)))
+        Some(LinkFrame::new(origin, at(frame.psi)))
     };
     let places = frames.iter().enumerate().map(place);
     places
         .collect::<Option<_>>()
-        .ok_or(Unproven::Pose { phi: middle })
+        .ok_or(ProofError::Pose { phi: middle })
 }

@@ -6,7 +6,7 @@ use jred::table::{Format, Table, Usage, words_len};
 use jred::tabulate::{self, Request, TableFigures};
 use jred::{CurveSet, Image, Scale};
 
-use crate::candidate::Made;
+use crate::candidate::RangeTable;
 use crate::search::Search;
 use crate::ticks;
 
@@ -78,7 +78,7 @@ impl Size<'_> {
         buffers: &mut Buffers<F>,
         request: &Request,
         looked: f64,
-    ) -> Result<Option<Made>, Error> {
+    ) -> Result<Option<RangeTable>, Error> {
         let search = self.search;
         let table = self.fill(buffers)?;
         let usage = Usage::of(&table).map_err(Error::Table)?;
@@ -101,7 +101,7 @@ impl Size<'_> {
         let (mut found, mut ticks) = (found, ticks);
         found.worst = search.machine.position(found.worst);
         ticks.worst = search.machine.position(ticks.worst);
-        Ok(Some(Made {
+        Ok(Some(RangeTable {
             range: search.machine.ends(),
             curves: self.set,
             found,

@@ -5,7 +5,7 @@ use jred::mechanism::cam::MAX_SEGMENTS;
 use super::inner;
 use super::motion::{LAWS, LAYOUT, SHARES};
 use super::parts::{LINK, SWING};
-use crate::text::key::{Form, Key, Limit, POSITION, Table, key, may, of_axis, pair, quantity};
+use crate::text::key::{ValueForm, Key, ValueRange, POSITION, KeyTable, key, may, of_axis, pair, quantity};
 use crate::units::kind::{ANGLE, CAM_ACCELERATION, CAM_TURNING, CAM_VELOCITY, FORCE, INERTIA, LENGTH, MASS, SHARE, STIFFNESS, TORQUE, TORSION_STIFFNESS};
 
 /// The laws of a cam: those from rest to rest, and further ones.
@@ -18,15 +18,15 @@ pub(crate) const FOLLOWERS: [&str; 4] = ["translating-roller", "translating-flat
 const SWINGING: &[&str] = &["oscillating-roller", "oscillating-flat-face"];
 
 const OPEN_END: &[&str] = &["polynomial-5"];
-const VELOCITY: Form = of_axis([&SHARE, &CAM_VELOCITY]);
-const BEND: Form = of_axis([&CAM_TURNING, &CAM_ACCELERATION]);
+const VELOCITY: ValueForm = of_axis([&SHARE, &CAM_VELOCITY]);
+const BEND: ValueForm = of_axis([&CAM_TURNING, &CAM_ACCELERATION]);
 
-static SEGMENT: Table = Table::of("cam.segment", &[&[
+static SEGMENT: KeyTable = KeyTable::of("cam.segment", &[&[
     may("dwell", quantity(&ANGLE).positive(), "of the cam; no other key"),
     may("rise", of_axis(POSITION), "of the follower, > 0; an angle if it oscillates"),
     may("return", of_axis(POSITION), "of the follower, > 0; an angle if it oscillates"),
     may("angle", quantity(&ANGLE).positive(), "of the cam for it; required"),
-    may("law", Form::Words(&CAM_LAWS), "a law below; required").such_as("\"cycloidal\""),
+    may("law", ValueForm::Words(&CAM_LAWS), "a law below; required").such_as("\"cycloidal\""),
 ], SHARES, &[
     may("start_velocity", VELOCITY, "s′: `\"12 mm/rad\"`; a plain number if it oscillates (the neighbour's)").only(OPEN_END),
     may("end_velocity", VELOCITY, "s′: `\"12 mm/rad\"`; a plain number if it oscillates (the neighbour's)").only(OPEN_END),
@@ -37,40 +37,40 @@ static SEGMENT: Table = Table::of("cam.segment", &[&[
     .elsewhere(&[("duration", "a cam program is defined over the angle of the cam")]);
 
 const BASE_RADIUS: Key = key("base_radius", quantity(&LENGTH).positive(), "r_b, of the profile");
-const CLOSURE: Key = may("closure", Form::Words(&["force", "form"]), "the follower is kept on the cam by a force, or by a groove or second cam").or("force");
+const CLOSURE: Key = may("closure", ValueForm::Words(&["force", "form"]), "the follower is kept on the cam by a force, or by a groove or second cam").or("force");
 
 const SHAPE: &[Key] = &[
-    key("type", Form::Words(&FOLLOWERS), "see above").such_as("\"translating-roller\""),
+    key("type", ValueForm::Words(&FOLLOWERS), "see above").such_as("\"translating-roller\""),
     may("offset", quantity(&LENGTH), "translating: e; oscillating face: h").or("0").only(&["translating-roller", "translating-flat-face", "oscillating-flat-face"]),
     key("pivot", pair(&LENGTH), "A").such_as("[\"90 mm\", \"0 mm\"]").only(SWINGING),
-    key("swing", Form::Words(&["counter-clockwise", "clockwise"]), "the way the arm turns when it rises").only(SWINGING),
+    key("swing", ValueForm::Words(&["counter-clockwise", "clockwise"]), "the way the arm turns when it rises").only(SWINGING),
     key("arm", quantity(&LENGTH).positive(), "l").only(&["oscillating-roller"]),
 ];
 
 /// The program, and where it stands in the file.
-const SEGMENTS: Form = Form::Tables(&SEGMENT, [1, MAX_SEGMENTS], "one turn of the cam is made of rises, dwells and returns");
+const SEGMENTS: ValueForm = ValueForm::Tables(&SEGMENT, [1, MAX_SEGMENTS], "one turn of the cam is made of rises, dwells and returns");
 
-pub(crate) static DISC_CAM: Table = Table::of("disc-cam", &[&[
+pub(crate) static DISC_CAM: KeyTable = KeyTable::of("disc-cam", &[&[
     BASE_RADIUS,
     CLOSURE,
     key("cam", inner!(LINK), ""),
-    key("follower", Form::Table(&Table::of("", &[SHAPE, &[
+    key("follower", ValueForm::Table(&KeyTable::of("", &[SHAPE, &[
         key("mass", quantity(&MASS).not_negative(), "without the roller"),
         key("inertia", quantity(&INERTIA).not_negative(), "about its own centre of mass").only(SWINGING),
         super::parts::COM,
     ]]).by("type").elsewhere(&[("inertia", "a follower that slides does not turn, so it has no moment of inertia")])), ""),
-    may("roller", Form::Table(&Table::of("", &[&[
+    may("roller", ValueForm::Table(&KeyTable::of("", &[&[
         key("radius", quantity(&LENGTH).positive(), "r_r; the roller is required of a follower with one"),
         key("mass", quantity(&MASS).not_negative(), "of the roller"),
         key("inertia", quantity(&INERTIA).not_negative(), "of all that turns with it"),
     ]]).elsewhere(&[("com", "a roller is balanced: its centre of mass is on its axis")])), ""),
     may("spring", inner!(&[
-        key("stiffness", Form::Quantity([&TORSION_STIFFNESS, &STIFFNESS], Limit::Positive), "closing spring on the guide's axis, or a torsion spring about A"),
-        key("preload", Form::Quantity([&TORQUE, &FORCE], Limit::NotNegative), "at s = 0, on the cam"),
+        key("stiffness", ValueForm::Quantity([&TORSION_STIFFNESS, &STIFFNESS], ValueRange::Positive), "closing spring on the guide's axis, or a torsion spring about A"),
+        key("preload", ValueForm::Quantity([&TORQUE, &FORCE], ValueRange::NotNegative), "at s = 0, on the cam"),
     ]), ""),
     may("segment", SEGMENTS, "the program, from φ = 0, together one turn; required without `lift`")
         .such_as(" once for each rise = \"…\", return = \"…\" and dwell = \"…\""),
-    may("lift", Form::File, "relative to the machine file: the [lift over the angle](#table), instead of segments"),
+    may("lift", ValueForm::File, "relative to the machine file: the [lift over the angle](#table), instead of segments"),
     may("lift_within", of_axis(POSITION).positive(), "how far the program may miss the table (0.1 % of the stroke)"),
     LAYOUT[0].meaning("titles of the [columns](import.md#csv) `angle`, `lift`, `slope`, `bend`"),
     LAYOUT[1], LAYOUT[2], LAYOUT[3],
@@ -79,14 +79,14 @@ pub(crate) static DISC_CAM: Table = Table::of("disc-cam", &[&[
 
 /// The keys of a joint that is a cam.
 pub(super) const JOINT: &[Key] = &[
-    key("axis", Form::Name("a point"), "in which the cam turns, of the body with both bearings, mostly the ground").such_as("\"ground.O\": the point of the ground about which the cam turns"),
+    key("axis", ValueForm::Name("a point"), "in which the cam turns, of the body with both bearings, mostly the ground").such_as("\"ground.O\": the point of the ground about which the cam turns"),
     may("axis_direction", quantity(&ANGLE), "+x of the arrangement, from that body's u axis; a translating follower rises along its +y").or("0"),
     CLOSURE,
     BASE_RADIUS,
-    key("follower", Form::Table(&Table::of("", &[SHAPE]).by("type").elsewhere(&[
+    key("follower", ValueForm::Table(&KeyTable::of("", &[SHAPE]).by("type").elsewhere(&[
         ("mass", IS_A_BODY), ("inertia", IS_A_BODY), ("com", IS_A_BODY),
     ])), "").such_as("{ type = \"oscillating-roller\", pivot = [\"120 mm\", \"0 mm\"], arm = \"100 mm\", swing = \"clockwise\" }"),
-    may("roller", Form::Table(&Table::of("", &[&[key("radius", quantity(&LENGTH).positive(), "required of a follower with a roller")]]).elsewhere(&[
+    may("roller", ValueForm::Table(&KeyTable::of("", &[&[key("radius", quantity(&LENGTH).positive(), "required of a follower with a roller")]]).elsewhere(&[
         ("mass", IN_THE_FOLLOWER),
         ("com", IN_THE_FOLLOWER),
         ("inertia", "the rotation of the roller is neglected in a linkage; type = \"disc-cam\" includes it"),

@@ -31,7 +31,7 @@ pub use top::MACHINE;
 /// A table whose keys are listed with those of the table that it is in.
 macro_rules! inner {
     ($($group:expr),* $(,)?) => {
-        $crate::text::key::Form::Table(&$crate::text::key::Table::of("", &[$($group),*]))
+        $crate::text::key::ValueForm::Table(&$crate::text::key::KeyTable::of("", &[$($group),*]))
     };
 }
 use inner;

@@ -1,6 +1,6 @@
 //! Keys that several tables have.
 
-use crate::text::key::{Form, Key, key, may, pair, quantity};
+use crate::text::key::{ValueForm, Key, key, may, pair, quantity};
 use crate::units::kind::{ANGLE, INERTIA, LENGTH, MASS};
 
 /// The length of a link.
@@ -21,7 +21,7 @@ pub(super) const SLIDE: &[Key] = &[key("mass", quantity(&MASS).not_negative(), "
 /// A link that slides on a guide.
 pub(super) const GUIDED: &[Key] = &[
     key("mass", quantity(&MASS).not_negative(), "with all that moves with it"),
-    may("friction", Form::Number([0.0, 2.0]), "[coefficient of the guide](axes.md)").or("0").such_as("0.05"),
+    may("friction", ValueForm::Number([0.0, 2.0]), "[coefficient of the guide](axes.md)").or("0").such_as("0.05"),
     COM,
 ];
 
@@ -46,5 +46,5 @@ pub(super) const NO_INERTIA: &[(&str, &str)] = &[("inertia", "this part does not
 pub(super) const BALANCED: &[(&str, &str)] = &[("com", "this part is balanced: its centre of mass is on its axis")];
 
 /// The words of the side on which a link lies.
-pub(super) const RIGHT_LEFT: Form = Form::Words(&["right", "left"]);
-pub(super) const LEFT_RIGHT: Form = Form::Words(&["left", "right"]);
+pub(super) const RIGHT_LEFT: ValueForm = ValueForm::Words(&["right", "left"]);
+pub(super) const LEFT_RIGHT: ValueForm = ValueForm::Words(&["left", "right"]);

@@ -7,7 +7,7 @@ use jred::machine::motion::State;
 use crate::model::coordinate::Coordinate;
 use crate::model::mechanism::AnyMechanism;
 use crate::model::motion::{Motion, ToolCoordinate};
-use crate::number::columns::{Column, Quantity};
+use crate::number::columns::{Column, ColumnQuantity};
 
 /// A coordinate that is linear in the drive link's: position = zero + scale·φ.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -21,7 +21,7 @@ pub struct Axis {
 
 /// A position of the drive link (rad, or m), and its speed and acceleration there, if given.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct At {
+pub struct DrivePoint {
     /// Position.
     pub phi: f64,
     /// Speed and acceleration.
@@ -73,7 +73,7 @@ impl Axis {
             "φ" => "phi",
             symbol => symbol,
         };
-        Column::new(Quantity::Position, symbol, self.coordinate.unit())
+        Column::new(ColumnQuantity::Position, symbol, self.coordinate.unit())
     }
 
     /// The position (rad or m) at φ of the drive link.

@@ -27,7 +27,7 @@ const FIXED: &str = "or fix it to the link with a [[mass]]";
 
 /// Which parts of a schedule matter to a command.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Which {
+enum ScheduleParts {
     All,
     /// Parts that depend on the time or on rest, not on the direction only.
     Timed,
@@ -55,7 +55,7 @@ impl MachineFile {
     /// # Errors
     /// A load, payload or carriage depends on the time of the motion, or a load has a separate value at rest.
     pub fn refuse_timed(&self, command: &str) -> crate::text::problem::Result<()> {
-        match self.by_motion(Which::Timed).next() {
+        match self.by_motion(ScheduleParts::Timed).next() {
             None => Ok(()),
             Some(ByMotion { what, cure }) => Err(crate::problem!(
                 help = format!("{cure}, for this command; `jred size` contains it"),
@@ -66,12 +66,12 @@ impl MachineFile {
 
     /// All items of the schedule.
     pub fn scheduled(&self) -> impl Iterator<Item = ByMotion> {
-        self.by_motion(Which::All)
+        self.by_motion(ScheduleParts::All)
     }
 
     /// The same without the loads that depend only on the direction of travel.
     pub fn not_by_direction(&self) -> impl Iterator<Item = ByMotion> {
-        self.by_motion(Which::ButLoadsByDirection)
+        self.by_motion(ScheduleParts::ButLoadsByDirection)
     }
 
     /// The carriages, for example `carriage "trolley" moves along beam by its own motion`.
@@ -119,12 +119,12 @@ impl MachineFile {
         timed.chain(carriages)
     }
 
-    fn by_motion(&self, which: Which) -> impl Iterator<Item = ByMotion> {
+    fn by_motion(&self, which: ScheduleParts) -> impl Iterator<Item = ByMotion> {
         let loads = self.schedule.loads().iter().filter_map(move |load| {
             let keys = [
                 (load.when.spans.is_some(), "segments or during"),
                 (
-                    load.when.travel.is_some() && which == Which::All,
+                    load.when.travel.is_some() && which == ScheduleParts::All,
                     "direction",
                 ),
                 (load.at_rest.is_some(), "at_rest"),
@@ -139,7 +139,8 @@ impl MachineFile {
             })
         });
         let payloads = self.schedule.payloads().iter();
-        let payloads = payloads.filter(move |p| which != Which::Timed || p.when.spans.is_some());
+        let payloads =
+            payloads.filter(move |p| which != ScheduleParts::Timed || p.when.spans.is_some());
         let payloads = payloads.map(|payload| ByMotion {
             what: format!("payload \"{}\" {}", payload.name, payload.words),
             cure: format!("remove the payload, {FIXED}"),

@@ -13,8 +13,8 @@
 use jred::machine::Frame;
 use jred::machine::motion::State;
 
-use crate::model::laden::Attached;
 use crate::model::motion::Motion;
+use crate::model::with_mass::AttachedMass;
 
 /// A mass that a second axis moves along a guide on a link.
 #[derive(Clone, Debug)]
@@ -22,7 +22,7 @@ pub struct Carriage {
     /// Its name.
     pub name: String,
     /// The moved mass, at s = 0.
-    pub mass: Attached,
+    pub mass: AttachedMass,
     /// Direction of the guide in the link's frame.
     pub direction: [f64; 2],
     /// s over the time of the machine's motion (m). After its end the carriage is at rest.
@@ -48,9 +48,9 @@ impl Carriage {
     }
 
     /// The moved mass, at this time.
-    pub fn placed(&self, t: f64) -> Attached {
+    pub fn placed(&self, t: f64) -> AttachedMass {
         let s = self.at(t).phi;
-        Attached {
+        AttachedMass {
             at: [0, 1].map(|k| self.mass.at[k] + s * self.direction[k]),
             ..self.mass
         }

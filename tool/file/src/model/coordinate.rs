@@ -6,7 +6,7 @@ use jred::Domain;
 use jred::error::Error;
 use jred::machine::{Joint, Jointed};
 
-use crate::number::columns::{Column, Quantity};
+use crate::number::columns::{Column, ColumnQuantity};
 use crate::units::Vocabulary;
 
 /// Type of motion of the drive link.
@@ -49,7 +49,7 @@ impl Coordinate {
 
     /// The column of positions.
     pub fn column(self) -> Column {
-        Column::new(Quantity::Position, self.pick("phi", "s"), self.unit())
+        Column::new(ColumnQuantity::Position, self.pick("phi", "s"), self.unit())
     }
 
     /// Label of the axis of positions.
@@ -89,12 +89,12 @@ impl Coordinate {
         let acceleration = self.pick("alpha", "a");
         [
             Column::new(
-                Quantity::DriveSpeed,
+                ColumnQuantity::DriveSpeed,
                 self.pick("omega", "v"),
                 self.speed_unit(),
             ),
             Column::new(
-                Quantity::DriveAcceleration,
+                ColumnQuantity::DriveAcceleration,
                 acceleration,
                 self.pick("rad/s^2", "m/s^2"),
             ),
@@ -106,7 +106,7 @@ impl Coordinate {
         Column {
             part: self.effort().to_owned(),
             ..Column::new(
-                Quantity::DriveEffort,
+                ColumnQuantity::DriveEffort,
                 format!("{}_drive", self.effort()),
                 self.effort_unit(),
             )

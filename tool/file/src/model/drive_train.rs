@@ -78,7 +78,7 @@ impl Branch {
 }
 
 /// A stage of the chain, or of a branch.
-enum Of<'a> {
+enum StagePosition<'a> {
     Chain(&'a Stage),
     Branch(&'a Stage),
 }
@@ -174,7 +174,7 @@ impl DriveTrain {
     pub fn delivered(&self, output: &TrainOutput) -> Vec<f64> {
         let mut delivered = Vec::with_capacity(self.steps.len());
         self.walk(output, |of, torque| {
-            if let Of::Chain(_) = of {
+            if let StagePosition::Chain(_) = of {
                 delivered.push(torque);
             }
         });
@@ -197,7 +197,7 @@ impl DriveTrain {
     pub fn lossy_flows(&self, output: &TrainOutput) -> Vec<f64> {
         let mut delivered = Vec::new();
         self.walk(output, |of, torque| {
-            let (Of::Chain(stage) | Of::Branch(stage)) = of;
+            let (StagePosition::Chain(stage) | StagePosition::Branch(stage)) = of;
             if stage.efficiency() < 1.0 {
                 delivered.push(torque);
             }
@@ -206,14 +206,16 @@ impl DriveTrain {
     }
 
     /// From the output shaft to the input; `seen` receives the output torque of each stage.
-    fn walk(&self, output: &TrainOutput, mut seen: impl FnMut(Of, f64)) -> TrainInput {
+    fn walk(&self, output: &TrainOutput, mut seen: impl FnMut(StagePosition, f64)) -> TrainInput {
         let mut input = TrainInput::default();
         let mut shaft = *output;
         // Per acceleration of the current shaft, which turns `ratio` times as fast as the output.
         let mut ratio = 1.0;
         for k in (0..=self.steps.len()).rev() {
             for branch in self.branches.iter().filter(|branch| branch.shaft == k) {
-                let own = branch.input(&shaft, |stage, torque| seen(Of::Branch(stage), torque));
+                let own = branch.input(&shaft, |stage, torque| {
+                    seen(StagePosition::Branch(stage), torque);
+                });
                 shaft.torque += own.torque;
                 shaft.torque_per_alpha += own.torque_per_alpha;
                 input.loss += own.loss;
@@ -225,7 +227,10 @@ impl DriveTrain {
                 break;
             };
             let [_, driven] = stage.inertias();
-            seen(Of::Chain(stage), shaft.torque + driven * shaft.alpha);
+            seen(
+                StagePosition::Chain(stage),
+                shaft.torque + driven * shaft.alpha,
+            );
             let before = step.input(&shaft);
             input.loss += before.loss;
             let i = stage.ratio();

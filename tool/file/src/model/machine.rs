@@ -10,15 +10,15 @@ use jred::machine::{Element, Machine, Mechanism as _, Reducible as _, Reduction}
 use crate::model::axis::Axis;
 use crate::model::coordinate::positions;
 use crate::model::drive_train::DriveTrain;
-use crate::model::laden::{Attached, laden};
 use crate::model::mechanism::{AnyMechanism, NamedElement, NamedLoad};
 use crate::model::motion::{Motion, Steady};
 use crate::model::rules::RuleSet;
-use crate::model::schedule::{Now, Schedule};
+use crate::model::schedule::{Schedule, ScheduleInstant};
 use crate::model::simulation::Simulation;
 use crate::model::site::Site;
 use crate::model::tolerance::Tolerance;
 use crate::model::variator::Variator;
+use crate::model::with_mass::{AttachedMass, laden};
 
 /// Positions over the range at which inertia and holding torque are evaluated.
 pub const POSITIONS: usize = 720;
@@ -57,23 +57,23 @@ pub struct MachineFile {
     /// Supply, surroundings, stiffness and tool.
     pub site: Site,
     /// The reduced link over the range, computed on demand.
-    pub over_range: OverRange,
+    pub over_range: ReductionCache,
 }
 
 /// The reduced link over the range of the drive link, computed once. A clone of a machine, which may be changed, starts without it.
 #[derive(Default)]
-pub struct OverRange(OnceLock<Vec<(f64, Reduction)>>);
+pub struct ReductionCache(OnceLock<Vec<(f64, Reduction)>>);
 
-impl Clone for OverRange {
+impl Clone for ReductionCache {
     fn clone(&self) -> Self {
         Self::default()
     }
 }
 
-impl fmt::Debug for OverRange {
+impl fmt::Debug for ReductionCache {
     /// It follows from the rest of the machine, so a digest does not need it.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("OverRange")
+        f.write_str("ReductionCache")
     }
 }
 
@@ -135,13 +135,17 @@ impl MachineFile {
     ///
     /// # Errors
     /// The mechanism cannot be placed at `phi`, if there are carriages.
-    pub fn machine_at(&self, now: &Now, phi: f64) -> Result<Cow<'_, Machine<AnyMechanism>>, Error> {
+    pub fn machine_at(
+        &self,
+        now: &ScheduleInstant,
+        phi: f64,
+    ) -> Result<Cow<'_, Machine<AnyMechanism>>, Error> {
         let machine = self.machine_among(now);
         self.schedule.flowing(Cow::Borrowed(machine), now, phi)
     }
 
     /// The same without carriages.
-    pub fn machine_among(&self, now: &Now) -> &Machine<AnyMechanism> {
+    pub fn machine_among(&self, now: &ScheduleInstant) -> &Machine<AnyMechanism> {
         let number = self.schedule.number(now);
         self.schedule.machine(number).unwrap_or(&self.machine)
     }
@@ -186,7 +190,7 @@ impl MachineFile {
     /// # Errors
     /// The mechanism cannot be placed at `phi`.
     pub fn bare_reduction(&self, phi: f64) -> Result<Reduction, Error> {
-        self.bare_reduction_at(&Now::default(), phi)
+        self.bare_reduction_at(&ScheduleInstant::default(), phi)
     }
 
     /// [`bare_reduction`](Self::bare_reduction) at [`POSITIONS`] positions over the range, with each of them.
@@ -207,7 +211,7 @@ impl MachineFile {
     ///
     /// # Errors
     /// The mechanism cannot be placed at `phi`.
-    pub fn bare_reduction_at(&self, now: &Now, phi: f64) -> Result<Reduction, Error> {
+    pub fn bare_reduction_at(&self, now: &ScheduleInstant, phi: f64) -> Result<Reduction, Error> {
         self.reduction_of(&*self.machine_at(now, phi)?, phi)
     }
 
@@ -252,7 +256,7 @@ impl MachineFile {
     /// Errors of the machine.
     pub fn rebuild<'a>(
         &mut self,
-        masses: impl IntoIterator<Item = &'a Attached>,
+        masses: impl IntoIterator<Item = &'a AttachedMass>,
         springs: impl IntoIterator<Item = (usize, Option<Element>)>,
     ) -> Result<(), Error> {
         let mut elements: Vec<Option<NamedElement>> = self.elements.drain(..).map(Some).collect();
@@ -279,7 +283,7 @@ impl MachineFile {
         }
         self.schedule = self.schedule.of_machine(&machine, self.motion.as_ref())?;
         self.machine = self.schedule.at_no_time().cloned().unwrap_or(machine);
-        self.over_range = OverRange::default();
+        self.over_range = ReductionCache::default();
         Ok(())
     }
 
@@ -338,12 +342,16 @@ impl<'f> Machines<'f> {
     ///
     /// # Errors
     /// The mechanism cannot be placed at `phi`, if there are carriages.
-    pub fn at(&self, now: &Now, phi: f64) -> Result<Cow<'_, Machine<AnyMechanism>>, Error> {
+    pub fn at(
+        &self,
+        now: &ScheduleInstant,
+        phi: f64,
+    ) -> Result<Cow<'_, Machine<AnyMechanism>>, Error> {
         self.flowing(self.among(now), now, phi)
     }
 
     /// The machine at an instant, without carriages.
-    pub fn among(&self, now: &Now) -> &Machine<AnyMechanism> {
+    pub fn among(&self, now: &ScheduleInstant) -> &Machine<AnyMechanism> {
         &self.machines[self.schedule.number(now)]
     }
 
@@ -354,7 +362,7 @@ impl<'f> Machines<'f> {
     pub fn flowing<'m>(
         &self,
         machine: &'m Machine<AnyMechanism>,
-        now: &Now,
+        now: &ScheduleInstant,
         phi: f64,
     ) -> Result<Cow<'m, Machine<AnyMechanism>>, Error> {
         self.schedule.flowing(Cow::Borrowed(machine), now, phi)

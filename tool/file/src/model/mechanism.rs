@@ -14,9 +14,9 @@ use jred::mechanism::linkage::Pair;
 
 use crate::model::axis::Axis;
 use crate::model::coordinate::Coordinate;
-use crate::model::laden::Laden;
-use crate::model::on_stroke::OnStroke;
-use crate::model::tabulated::{Course, StandIn, Tabulated};
+use crate::model::stroke::StrokeMechanism;
+use crate::model::virtual_link::{CurveMechanism, LinkCurve, VirtualLink};
+use crate::model::with_mass::WithMass;
 
 pub use parts::{ChangePoint, Contact, Fact, NamedElement, NamedLoad, NamedPoint};
 
@@ -106,17 +106,17 @@ impl AnyMechanism {
     }
 
     /// The mechanism without its virtual links and on its whole range, and the curves of all virtual links in the order of these links.
-    pub fn bare(&self) -> (&dyn Inner, Vec<&Course>) {
+    pub fn bare(&self) -> (&dyn Inner, Vec<&LinkCurve>) {
         let mut inner = self.inner.as_ref();
         let mut courses = Vec::new();
         loop {
             let any: &dyn Any = inner;
-            if let Some(tabulated) = any.downcast_ref::<Tabulated>() {
+            if let Some(tabulated) = any.downcast_ref::<CurveMechanism>() {
                 courses.splice(0..0, tabulated.courses());
                 inner = tabulated.inner();
-            } else if let Some(part) = any.downcast_ref::<OnStroke>() {
+            } else if let Some(part) = any.downcast_ref::<StrokeMechanism>() {
                 inner = part.inner();
-            } else if let Some(laden) = any.downcast_ref::<Laden>() {
+            } else if let Some(laden) = any.downcast_ref::<WithMass>() {
                 inner = laden.inner().inner.as_ref();
             } else {
                 return (inner, courses);
@@ -150,7 +150,7 @@ impl AnyMechanism {
     /// The same mechanism on a part of its range.
     #[must_use]
     pub(crate) fn on_stroke(mut self, stroke: [f64; 2]) -> Self {
-        self.inner = Arc::new(OnStroke::new(Arc::clone(&self.inner), stroke));
+        self.inner = Arc::new(StrokeMechanism::new(Arc::clone(&self.inner), stroke));
         self
     }
 
@@ -213,11 +213,11 @@ impl AnyMechanism {
     ///
     /// # Errors
     /// There are more links than a mechanism may have.
-    pub fn with_stand_ins(mut self, stand_ins: &[StandIn]) -> Result<Self, Error> {
+    pub fn with_stand_ins(mut self, stand_ins: &[VirtualLink]) -> Result<Self, Error> {
         let own = self.links.len();
-        self.inner = Arc::new(Tabulated::new(Arc::clone(&self.inner), stand_ins)?);
+        self.inner = Arc::new(CurveMechanism::new(Arc::clone(&self.inner), stand_ins)?);
         for (k, stand_in) in stand_ins.iter().enumerate() {
-            let StandIn { name, course, .. } = stand_in;
+            let VirtualLink { name, course, .. } = stand_in;
             if let Some(load) = course.load(own + k)? {
                 let name = name.clone();
                 let load = match stand_in.window {
@@ -230,7 +230,7 @@ impl AnyMechanism {
                 let name = name.clone();
                 self.elements.push(NamedElement { name, element });
             }
-            if matches!(course, Course::Weight { .. }) {
+            if matches!(course, LinkCurve::Weight { .. }) {
                 self.weights.push(own + k);
             }
             self.links.push(name.clone());

@@ -7,8 +7,8 @@ use jred::machine::motion::{Move, Polynomial, State};
 use jred::number::RangeError;
 
 use crate::number::numerics;
-use crate::number::spline::Fault;
-use piece::{Kind, Piece};
+use crate::number::spline::SplineError;
+use piece::{MotionPiece, PieceKind};
 
 mod course;
 mod limits;
@@ -23,23 +23,23 @@ mod steady;
 mod tool;
 
 pub use course::SegmentCourse;
-pub use limits::{Limits, TooShort, change, fastest};
+pub use limits::{MoveLimits, TooShort, change, fastest};
 pub use nodes::{Node, step_at};
 pub use noise::Noise;
 pub use outlier::Outlier;
 pub use overshoot::Overshoot;
-pub use recording::{Closing, Recording, cutoffs};
-pub use segment::{Course, Phase, Segment};
+pub use recording::{Recording, Repetition, cutoffs};
+pub use segment::{MotionSegment, Phase, SegmentProfile};
 pub use steady::Steady;
 pub use tool::{Measure, Standstill, ToolCoordinate};
 
 /// A motion in consecutive pieces.
 #[derive(Clone, Debug)]
 pub struct Motion {
-    pieces: Vec<Piece>,
+    pieces: Vec<MotionPiece>,
     /// The prescribed coordinate, if it is not the drive link.
     tool: Option<Arc<ToolCoordinate>>,
-    limits: Vec<(usize, Limits)>,
+    limits: Vec<(usize, MoveLimits)>,
     /// Whether the motion repeats; sizing uses the RMS over the whole duration in both cases.
     pub cyclic: bool,
 }
@@ -73,13 +73,13 @@ pub struct Reach {
 impl Motion {
     /// Constant speed `omega` (rad/s, or m/s of a tool; not zero) from `start`, over one turn of the drive link, which is `turn` (rad, or m).
     pub fn constant_speed(start: f64, omega: f64, turn: f64) -> Self {
-        let kind = Kind::Polynomial {
+        let kind = PieceKind::Polynomial {
             start,
             course: Polynomial::constant_jerk([omega, 0.0, 0.0]),
         };
         let duration = (turn / omega).abs();
         Self {
-            pieces: vec![Piece {
+            pieces: vec![MotionPiece {
                 segment: 0,
                 of_drive: false,
                 start: 0.0,
@@ -98,7 +98,7 @@ impl Motion {
     /// The index of a segment whose duration is not positive or whose law is not valid.
     pub fn segments(
         start: f64,
-        segments: &[Segment],
+        segments: &[MotionSegment],
         cyclic: bool,
     ) -> Result<Self, (usize, RangeError)> {
         let (mut t, mut phi, mut of_drive) = (0.0, start, false);
@@ -108,27 +108,27 @@ impl Motion {
                 (phi, of_drive) = (from, true);
             }
             match &segment.course {
-                Course::Law { law, duration } => {
+                SegmentProfile::Law { law, duration } => {
                     let step = Move::new(*law, phi, segment.distance, *duration)
                         .map_err(|error| (index, error))?;
-                    pieces.push(Piece {
+                    pieces.push(MotionPiece {
                         segment: index,
                         of_drive,
                         start: t,
                         duration: *duration,
-                        kind: Kind::Move(step),
+                        kind: PieceKind::Move(step),
                     });
                     t += duration;
                 }
-                Course::Phases(phases) => {
+                SegmentProfile::Phases(phases) => {
                     let mut start = phi;
                     for phase in phases {
-                        pieces.push(Piece {
+                        pieces.push(MotionPiece {
                             segment: index,
                             of_drive,
                             start: t,
                             duration: phase.duration,
-                            kind: Kind::Polynomial {
+                            kind: PieceKind::Polynomial {
                                 start,
                                 course: phase.polynomial,
                             },
@@ -155,11 +155,11 @@ impl Motion {
     ///
     /// # Errors
     /// Times do not rise, there are too few rows, or numbers are not finite.
-    pub fn positions(recording: &Recording) -> Result<Self, Fault> {
+    pub fn positions(recording: &Recording) -> Result<Self, SplineError> {
         let duration = recording.duration()?;
         let advance = match recording.closing {
-            Closing::Open => 0.0,
-            Closing::After(advance) => advance / duration,
+            Repetition::Open => 0.0,
+            Repetition::After(advance) => advance / duration,
         };
         // The deviation from the steady advance is periodic.
         let deviation = recording.times.iter().zip(recording.values);
@@ -173,7 +173,7 @@ impl Motion {
         Ok(Self::recorded(
             duration,
             recording,
-            Kind::Positions {
+            PieceKind::Positions {
                 curve,
                 advance,
                 standstill,
@@ -186,19 +186,19 @@ impl Motion {
     ///
     /// # Errors
     /// As for [`positions`](Self::positions).
-    pub fn speeds(recording: &Recording, start: f64) -> Result<Self, Fault> {
+    pub fn speeds(recording: &Recording, start: f64) -> Result<Self, SplineError> {
         let duration = recording.duration()?;
         let curve = recording.curve(recording.values)?;
         let advance = match recording.closing {
-            Closing::Open => 0.0,
-            Closing::After(advance) => (advance - curve.integral(duration)) / duration,
+            Repetition::Open => 0.0,
+            Repetition::After(advance) => (advance - curve.integral(duration)) / duration,
         };
         let speeds = recording.values.iter().map(|speed| speed.abs());
         let standstill = STANDSTILL * speeds.fold(0.0, f64::max);
         Ok(Self::recorded(
             duration,
             recording,
-            Kind::Speeds {
+            PieceKind::Speeds {
                 curve,
                 start,
                 advance,
@@ -212,12 +212,12 @@ impl Motion {
     pub fn nodes(nodes: &[Node], cyclic: bool) -> Self {
         let piece = |run: Vec<Node>| {
             let [start, end] = [run.first(), run.last()].map(|node| node.map_or(0.0, |n| n.t));
-            Piece {
+            MotionPiece {
                 segment: 0,
                 of_drive: false,
                 start,
                 duration: end - start,
-                kind: Kind::Nodes(run),
+                kind: PieceKind::Nodes(run),
             }
         };
         Self {
@@ -228,9 +228,9 @@ impl Motion {
         }
     }
 
-    fn recorded(duration: f64, recording: &Recording, kind: Kind) -> Self {
+    fn recorded(duration: f64, recording: &Recording, kind: PieceKind) -> Self {
         Self {
-            pieces: vec![Piece {
+            pieces: vec![MotionPiece {
                 segment: 0,
                 of_drive: false,
                 start: 0.0,
@@ -239,18 +239,18 @@ impl Motion {
             }],
             tool: None,
             limits: Vec::new(),
-            cyclic: recording.closing != Closing::Open,
+            cyclic: recording.closing != Repetition::Open,
         }
     }
 
     /// The limits that the file gives its segments, by their indices from 0.
-    pub fn limits(&self) -> &[(usize, Limits)] {
+    pub fn limits(&self) -> &[(usize, MoveLimits)] {
         &self.limits
     }
 
     /// Duration (s).
     pub fn duration(&self) -> f64 {
-        self.pieces.last().map_or(0.0, Piece::end)
+        self.pieces.last().map_or(0.0, MotionPiece::end)
     }
 
     /// Points at which the prescribed position may be at an extreme: the ends of the pieces, turning points of polynomials, and dense samples of a
@@ -268,7 +268,7 @@ impl Motion {
             };
             reach(0.0);
             match &piece.kind {
-                Kind::Polynomial { course, .. } => {
+                PieceKind::Polynomial { course, .. } => {
                     let speed = |t: f64| course.at(t)[1];
                     let place = |k: u32| piece.duration * f64::from(k) / f64::from(TURNS);
                     for k in 0..TURNS {
@@ -280,17 +280,17 @@ impl Motion {
                         }
                     }
                 }
-                Kind::Positions { .. } | Kind::Speeds { .. } => {
+                PieceKind::Positions { .. } | PieceKind::Speeds { .. } => {
                     let place = |k: u32| piece.duration * f64::from(k) / f64::from(RECORDED);
                     (1..RECORDED).for_each(|k| reach(place(k)));
                 }
-                Kind::Nodes(nodes) => {
+                PieceKind::Nodes(nodes) => {
                     for pair in nodes.windows(2) {
                         let [from, to] = [&pair[0], &pair[1]].map(|node| node.t - piece.start);
                         [from.midpoint(to), to].into_iter().for_each(&mut reach);
                     }
                 }
-                Kind::Move(_) => {}
+                PieceKind::Move(_) => {}
             }
             reach(piece.duration);
         }
@@ -303,7 +303,7 @@ impl Motion {
         for piece in &self.pieces {
             let mut from = piece.start;
             let end = piece.start + piece.duration;
-            if let Kind::Move(step) = &piece.kind {
+            if let PieceKind::Move(step) = &piece.kind {
                 for z in step.law().breaks().into_iter().flatten() {
                     let to = piece.start + z * piece.duration;
                     if to > from && to < end {
@@ -319,7 +319,7 @@ impl Motion {
 
     /// Whether a part of it is recorded or computed as rows.
     pub fn is_recorded(&self) -> bool {
-        self.pieces.iter().any(Piece::is_recorded)
+        self.pieces.iter().any(MotionPiece::is_recorded)
     }
 
     /// The times (s) of its rows strictly within a part of the motion, in order: there a derivative jumps. Empty for a motion that is neither
@@ -351,9 +351,11 @@ impl Motion {
         for piece in pieces.take_while(|piece| piece.start < to) {
             let parts = match piece.kind {
                 // It has one direction.
-                Kind::Move(_) => 1,
-                Kind::Polynomial { .. } => TURNS,
-                Kind::Positions { .. } | Kind::Speeds { .. } | Kind::Nodes(_) => TURNS_OF_ROWS,
+                PieceKind::Move(_) => 1,
+                PieceKind::Polynomial { .. } => TURNS,
+                PieceKind::Positions { .. } | PieceKind::Speeds { .. } | PieceKind::Nodes(_) => {
+                    TURNS_OF_ROWS
+                }
             };
             let mut ends = vec![piece.start.max(from)];
             piece.rows_between([from, to], &mut ends);
@@ -399,7 +401,7 @@ impl Motion {
     }
 
     /// The piece that contains the time `t`; at a border the later one.
-    fn piece(&self, t: f64) -> Option<&Piece> {
+    fn piece(&self, t: f64) -> Option<&MotionPiece> {
         let index = self.pieces.partition_point(|p| p.start <= t).max(1) - 1;
         self.pieces.get(index)
     }

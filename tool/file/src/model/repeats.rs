@@ -11,7 +11,7 @@ use crate::model::mechanism::AnyMechanism;
 const POSITIONS: usize = 720;
 
 /// Curves that differ by less than this share of their size are the same.
-const SAME: f64 = 1e-9;
+const CURVE_TOLERANCE: f64 = 1e-9;
 
 /// The curves that are compared, with their units.
 const CURVES: [(&str, &str); 6] = [
@@ -70,7 +70,7 @@ pub fn difference(
     for (phi, here, there) in rows {
         for (k, (curve, unit)) in CURVES.into_iter().enumerate() {
             let share = (there[k] - here[k]).abs() / sizes[k].max(f64::MIN_POSITIVE);
-            if share > worst.map_or(SAME, |(most, _)| most) {
+            if share > worst.map_or(CURVE_TOLERANCE, |(most, _)| most) {
                 let values = [here[k], there[k]];
                 let difference = Difference {
                     curve,

@@ -10,9 +10,9 @@ mod change;
 mod choice;
 mod verdict;
 
-pub use change::{Change, Changes, Contradiction, What, shown};
+pub use change::{Change, Changes, Contradiction, RuleSetting, shown};
 pub use choice::{Choices, InertiaOf, MeanTorque, Moves};
-pub use verdict::{Finding, Verdict};
+pub use verdict::{Finding, RuleVerdict};
 
 /// The limits of one rule, as shares of its rating. `None`: no such limit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, schemars::JsonSchema)]
@@ -86,13 +86,13 @@ impl RuleSet {
     }
 
     /// Verdict of a finding under a rule.
-    pub fn verdict(&self, rule: Rule, finding: Finding) -> Verdict {
+    pub fn verdict(&self, rule: Rule, finding: Finding) -> RuleVerdict {
         let limit = self.limit(rule);
         if !limit.is_set() {
-            return Verdict::Off;
+            return RuleVerdict::Off;
         }
         if !finding.is_known() {
-            return Verdict::NotChecked;
+            return RuleVerdict::NotChecked;
         }
         let beyond = |share: Option<f64>| {
             share.is_some_and(|share| {
@@ -104,11 +104,11 @@ impl RuleSet {
             })
         };
         if beyond(limit.fail) {
-            Verdict::Fail
+            RuleVerdict::Fail
         } else if beyond(limit.warn) {
-            Verdict::Warn
+            RuleVerdict::Warn
         } else {
-            Verdict::Pass
+            RuleVerdict::Pass
         }
     }
 

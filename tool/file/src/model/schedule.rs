@@ -11,17 +11,17 @@ use jred::machine::Mechanism as _;
 use jred::machine::{Action, Load, Machine};
 
 use crate::model::carriage::Carriage;
-use crate::model::laden::{Attached, laden};
 use crate::model::mechanism::AnyMechanism;
 use crate::model::motion::Motion;
+use crate::model::with_mass::{AttachedMass, laden};
 
 mod when;
 
-pub use when::{Now, Travel, When};
+pub use when::{ScheduleInstant, Travel, When};
 
 /// A load that does not always act, or has a separate value at rest.
 #[derive(Clone, Debug)]
-pub struct Scheduled {
+pub struct ScheduledLoad {
     /// Its name.
     pub name: String,
     /// Index of the load among the machine's.
@@ -42,7 +42,7 @@ pub struct Payload {
     /// Its name.
     pub name: String,
     /// The mass.
-    pub mass: Attached,
+    pub mass: AttachedMass,
     /// Its times.
     pub when: When,
     /// Its description for reports.
@@ -51,24 +51,24 @@ pub struct Payload {
 
 /// State of a load at an instant.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-enum Share {
+enum LoadState {
     Nothing,
     Moving,
     AtRest,
 }
 
 /// The states of the loads, and whether each payload is carried, in the schedule's order.
-type State = (Vec<Share>, Vec<bool>);
+type ScheduleState = (Vec<LoadState>, Vec<bool>);
 
 /// All changes during the motion, and the resulting machines.
 #[derive(Clone, Debug, Default)]
 pub struct Schedule {
-    loads: Vec<Scheduled>,
+    loads: Vec<ScheduledLoad>,
     payloads: Vec<Payload>,
     carriages: Vec<Carriage>,
     /// End of the motion (s).
     end: f64,
-    variants: Vec<(State, Machine<AnyMechanism>)>,
+    variants: Vec<(ScheduleState, Machine<AnyMechanism>)>,
 }
 
 impl Schedule {
@@ -78,7 +78,7 @@ impl Schedule {
     /// Errors of the machine.
     pub fn new(
         machine: &Machine<AnyMechanism>,
-        (loads, payloads, carriages): (Vec<Scheduled>, Vec<Payload>, Vec<Carriage>),
+        (loads, payloads, carriages): (Vec<ScheduledLoad>, Vec<Payload>, Vec<Carriage>),
         motion: Option<&Motion>,
     ) -> Result<Self, Error> {
         let mut schedule = Self {
@@ -102,14 +102,14 @@ impl Schedule {
             (rest, Some(-1.0)),
             (rest, Some(1.0)),
         ];
-        let mut states: Vec<State> = Vec::new();
+        let mut states: Vec<ScheduleState> = Vec::new();
         for t in times {
             states.extend(speeds.map(|(omega, starts)| {
-                schedule.state(&Now {
+                schedule.state(&ScheduleInstant {
                     t,
                     omega,
                     starts,
-                    ..Now::default()
+                    ..ScheduleInstant::default()
                 })
             }));
         }
@@ -143,7 +143,7 @@ impl Schedule {
     }
 
     /// The loads that do not always act, or have a separate value at rest.
-    pub fn loads(&self) -> &[Scheduled] {
+    pub fn loads(&self) -> &[ScheduledLoad] {
         &self.loads
     }
 
@@ -197,12 +197,12 @@ impl Schedule {
     }
 
     /// Number of the variant at this instant.
-    pub fn number(&self, now: &Now) -> usize {
+    pub fn number(&self, now: &ScheduleInstant) -> usize {
         if self.is_empty() {
             return 0;
         }
         let state = self.state(now);
-        let same = |(known, _): &(State, _)| *known == state;
+        let same = |(known, _): &(ScheduleState, _)| *known == state;
         self.variants.iter().position(same).unwrap_or_default()
     }
 
@@ -213,7 +213,7 @@ impl Schedule {
 
     /// The machine without any part that depends on the motion; `None` if nothing changes.
     pub fn at_no_time(&self) -> Option<&Machine<AnyMechanism>> {
-        self.machine(self.number(&Now::default()))
+        self.machine(self.number(&ScheduleInstant::default()))
     }
 
     /// The variants, in the order of their numbers.
@@ -228,13 +228,13 @@ impl Schedule {
     pub fn flowing<'m>(
         &self,
         machine: Cow<'m, Machine<AnyMechanism>>,
-        now: &Now,
+        now: &ScheduleInstant,
         phi: f64,
     ) -> Result<Cow<'m, Machine<AnyMechanism>>, Error> {
         let (Some(t), true) = (now.t, self.flows()) else {
             return Ok(machine);
         };
-        let placed: Vec<Attached> = self.carriages.iter().map(|c| c.placed(t)).collect();
+        let placed: Vec<AttachedMass> = self.carriages.iter().map(|c| c.placed(t)).collect();
         let frames = machine.mechanism().frames(phi)?;
         let mechanism = laden(machine.mechanism(), &placed)?;
         let moved = rebuilt(&machine, mechanism, |k, load| {
@@ -253,12 +253,12 @@ impl Schedule {
         if self.flows() {
             return true;
         }
-        let now = Now::of(t, 0.0);
+        let now = ScheduleInstant::of(t, 0.0);
         (self.payloads.iter()).any(|payload| payload.when.holds(&now, self.end))
     }
 
-    fn state(&self, now: &Now) -> State {
-        let share = |load: &Scheduled| {
+    fn state(&self, now: &ScheduleInstant) -> ScheduleState {
+        let share = |load: &ScheduledLoad| {
             if load.at_rest.is_some() && now.is_at_rest() {
                 // Where no move begins the direction is unknown: the value at rest is valid for every direction.
                 let travel = load.when.travel.filter(|_| now.starts.is_some());
@@ -267,14 +267,14 @@ impl Schedule {
                     ..load.when.clone()
                 };
                 if when.holds(now, self.end) {
-                    return Share::AtRest;
+                    return LoadState::AtRest;
                 }
-                return Share::Nothing;
+                return LoadState::Nothing;
             }
             if load.when.holds(now, self.end) {
-                Share::Moving
+                LoadState::Moving
             } else {
-                Share::Nothing
+                LoadState::Nothing
             }
         };
         let carried = |payload: &Payload| payload.when.holds(now, self.end);
@@ -288,7 +288,7 @@ impl Schedule {
     fn variant(
         &self,
         machine: &Machine<AnyMechanism>,
-        (shares, carried): &State,
+        (shares, carried): &ScheduleState,
     ) -> Result<Machine<AnyMechanism>, Error> {
         let masses = (self.payloads.iter().zip(carried))
             .filter_map(|(payload, carried)| carried.then_some(&payload.mass));
@@ -296,12 +296,12 @@ impl Schedule {
         rebuilt(machine, mechanism, |k, load| {
             let scheduled = self.loads.iter().zip(shares).find(|(s, _)| s.load == k);
             Ok(match scheduled {
-                Some((_, Share::Nothing)) => {
+                Some((_, LoadState::Nothing)) => {
                     // Its edges stay: the variants differ only in their forces and masses.
                     let none = Load::new(load.link(), Action::Moment(0.0))?;
                     load.window().map_or(none, |window| none.within(window))
                 }
-                Some((scheduled, Share::AtRest)) => scheduled.at_rest.unwrap_or(*load),
+                Some((scheduled, LoadState::AtRest)) => scheduled.at_rest.unwrap_or(*load),
                 _ => *load,
             })
         })

@@ -7,14 +7,14 @@ use crate::units::literal::{self, Literal};
 
 /// Distribution of deviations.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Shape {
+pub enum Distribution {
     /// Every value within ± the amount is equally likely.
     Uniform,
     /// The normal distribution; the amount is its standard deviation.
     Normal,
 }
 
-impl Shape {
+impl Distribution {
     /// Its name in files.
     pub const fn name(self) -> &'static str {
         match self {
@@ -30,7 +30,7 @@ pub struct Tolerance {
     /// Path of the quantity.
     pub path: String,
     /// Distribution of deviations.
-    pub shape: Shape,
+    pub shape: Distribution,
     /// Size: a share of the quantity, or an amount in a unit of its kind.
     pub amount: Literal,
     /// Position in the machine file; `None`: not from the machine file.
@@ -45,9 +45,12 @@ impl Tolerance {
     pub fn parse(path: &str, text: &str) -> Result<Self, String> {
         let text = text.trim();
         let (shape, amount) = if let Some(rest) = text.strip_prefix("normal") {
-            (Shape::Normal, rest)
+            (Distribution::Normal, rest)
         } else {
-            (Shape::Uniform, text.strip_prefix("uniform").unwrap_or(text))
+            (
+                Distribution::Uniform,
+                text.strip_prefix("uniform").unwrap_or(text),
+            )
         };
         Self::of(path, shape, amount)
     }
@@ -56,7 +59,7 @@ impl Tolerance {
     ///
     /// # Errors
     /// Text for a message.
-    pub fn of(path: &str, shape: Shape, text: &str) -> Result<Self, String> {
+    pub fn of(path: &str, shape: Distribution, text: &str) -> Result<Self, String> {
         let amount = text
             .trim_start_matches([' ', ':'])
             .trim_start_matches(['±', ' ']);
@@ -82,8 +85,8 @@ impl Tolerance {
     /// Shape and amount.
     pub fn shown(&self) -> String {
         match self.shape {
-            Shape::Uniform => format!("uniform ±{}", self.amount.shown()),
-            Shape::Normal => format!("normal, sigma {}", self.amount.shown()),
+            Distribution::Uniform => format!("uniform ±{}", self.amount.shown()),
+            Distribution::Normal => format!("normal, sigma {}", self.amount.shown()),
         }
     }
 }

@@ -15,7 +15,7 @@ use jred_enclosure::Interval;
 
 use crate::model::machine::MachineFile;
 use crate::number::formula::Formula;
-use crate::number::spline::{Fault, Spline, Way};
+use crate::number::spline::{FitMethod, Spline, SplineError};
 
 /// A variator of a machine file.
 #[derive(Clone, Debug)]
@@ -58,14 +58,14 @@ impl Adhesion {
     ///
     /// # Errors
     /// There are fewer than three points, or slips do not rise.
-    pub fn through(slips: &[f64], torques: &[f64]) -> Result<Self, Fault> {
+    pub fn through(slips: &[f64], torques: &[f64]) -> Result<Self, SplineError> {
         let both = |values: &[f64]| {
             let backward = values.iter().rev().map(|value| -value);
             let forward = values.iter().copied();
             // Zero itself is omitted, because a curve of this kind would be level there: the piece between is odd, and so passes through zero.
             backward.chain(forward).collect::<Vec<f64>>()
         };
-        let spline = Spline::bounded(&both(slips), &both(torques), Way::Monotone)?;
+        let spline = Spline::bounded(&both(slips), &both(torques), FitMethod::Monotone)?;
         Ok(Self::Curve(spline))
     }
 
@@ -93,13 +93,13 @@ impl Adhesion {
 pub struct Ratio {
     start: f64,
     shifts: Vec<Shift>,
-    whole: Option<Whole>,
+    whole: Option<RatioFunction>,
 }
 
 /// A course that is given as a whole.
 #[derive(Clone, Debug, PartialEq)]
-enum Whole {
-    Curve(Curve),
+enum RatioFunction {
+    Curve(RatioCurve),
     Formula(Formula),
 }
 
@@ -108,7 +108,7 @@ pub const VARIABLES: [&str; 2] = ["t", "phi"];
 
 /// A curve through points, level at both ends and constant beyond them.
 #[derive(Clone, Debug, PartialEq)]
-struct Curve {
+struct RatioCurve {
     times: Vec<f64>,
     spline: Spline,
 }
@@ -139,11 +139,11 @@ impl Ratio {
     ///
     /// # Errors
     /// There are too few points, or times do not rise.
-    pub fn through(times: &[f64], ratios: &[f64]) -> Result<(Self, [f64; 2]), Fault> {
-        let spline = Spline::bounded(times, ratios, Way::Level)?;
+    pub fn through(times: &[f64], ratios: &[f64]) -> Result<(Self, [f64; 2]), SplineError> {
+        let spline = Spline::bounded(times, ratios, FitMethod::Level)?;
         let (least, at) = spline.least();
         let ratio = Self {
-            whole: Some(Whole::Curve(Curve {
+            whole: Some(RatioFunction::Curve(RatioCurve {
                 times: times.to_vec(),
                 spline,
             })),
@@ -157,7 +157,7 @@ impl Ratio {
         let start = OperatingPoint::at_time(0.0);
         let ratio = Self::new(formula.at(&[start.t, start.phi]).value);
         Self {
-            whole: Some(Whole::Formula(formula)),
+            whole: Some(RatioFunction::Formula(formula)),
             ..ratio
         }
     }
@@ -165,7 +165,7 @@ impl Ratio {
     /// An interval that contains all ratios of a formula over these times (s) and angles of the input shaft (rad); `None` if it is not a formula.
     pub fn bounds(&self, t: Interval, phi: Interval) -> Option<Interval> {
         match &self.whole {
-            Some(Whole::Formula(formula)) => Some(formula.bounds(&[t, phi])),
+            Some(RatioFunction::Formula(formula)) => Some(formula.bounds(&[t, phi])),
             _ => None,
         }
     }
@@ -215,7 +215,7 @@ impl Ratio {
     /// The times of the points of a curve.
     fn times(&self) -> &[f64] {
         match &self.whole {
-            Some(Whole::Curve(curve)) => &curve.times,
+            Some(RatioFunction::Curve(curve)) => &curve.times,
             _ => &[],
         }
     }
@@ -223,26 +223,26 @@ impl Ratio {
     /// Whether it changes with time.
     pub fn is_shifted(&self) -> bool {
         match &self.whole {
-            Some(Whole::Formula(formula)) => formula.contains(0),
-            Some(Whole::Curve(_)) => true,
+            Some(RatioFunction::Formula(formula)) => formula.contains(0),
+            Some(RatioFunction::Curve(_)) => true,
             None => !self.shifts.is_empty(),
         }
     }
 
     /// Whether it changes with the angle of the input shaft.
     pub fn is_turned(&self) -> bool {
-        matches!(&self.whole, Some(Whole::Formula(formula)) if formula.contains(1))
+        matches!(&self.whole, Some(RatioFunction::Formula(formula)) if formula.contains(1))
     }
 }
 
 impl Course for Ratio {
     fn at(&self, at: OperatingPoint) -> Dual<3> {
         match &self.whole {
-            Some(Whole::Curve(curve)) => {
+            Some(RatioFunction::Curve(curve)) => {
                 let [ratio, slope, ..] = curve.spline.at(at.t.value);
                 return at.t.through(ratio, slope);
             }
-            Some(Whole::Formula(formula)) => return formula.at(&[at.t, at.phi]),
+            Some(RatioFunction::Formula(formula)) => return formula.at(&[at.t, at.phi]),
             None => {}
         }
         let begun = self.shifts.partition_point(|s| s.from <= at.t.value);

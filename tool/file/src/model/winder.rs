@@ -7,7 +7,7 @@
 //! J = J₀ + ½·π·ρ·b·(r⁴ − r₀⁴)        J′ = ρ·b·h·r³
 //! ```
 //!
-//! J is that of a rotor of 1 kg·m² with ψ′ = √J, as for [tabulated curves](crate::model::tabulated).
+//! J is that of a rotor of 1 kg·m² with ψ′ = √J, as for [tabulated curves](crate::model::virtual_link).
 
 use std::f64::consts::{PI, TAU};
 

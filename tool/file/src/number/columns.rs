@@ -2,7 +2,7 @@
 
 /// Quantity of a column: a program finds the column by it, whatever its name.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Quantity {
+pub enum ColumnQuantity {
     /// Time.
     Time,
     /// Position of the drive link.
@@ -64,7 +64,7 @@ pub enum Quantity {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Column {
     /// Its quantity.
-    pub quantity: Quantity,
+    pub quantity: ColumnQuantity,
     /// Its part, if several columns have the same quantity: a point, a link, a joint. Empty if there is only one.
     pub part: String,
     /// Its name, for example `B v_x`.
@@ -75,7 +75,7 @@ pub struct Column {
 
 impl Column {
     /// A column of the whole machine.
-    pub fn new(quantity: Quantity, name: impl Into<String>, unit: impl Into<String>) -> Self {
+    pub fn new(quantity: ColumnQuantity, name: impl Into<String>, unit: impl Into<String>) -> Self {
         Self {
             quantity,
             part: String::new(),
@@ -86,11 +86,11 @@ impl Column {
 
     /// A column without a quantity for programs.
     pub fn other(name: impl Into<String>, unit: impl Into<String>) -> Self {
-        Self::new(Quantity::Other, name, unit)
+        Self::new(ColumnQuantity::Other, name, unit)
     }
 
     /// A column of one part, for example `B` and `v_x`.
-    pub fn of(quantity: Quantity, part: &str, symbol: &str, unit: &str) -> Self {
+    pub fn of(quantity: ColumnQuantity, part: &str, symbol: &str, unit: &str) -> Self {
         Self {
             part: part.to_owned(),
             ..Self::new(quantity, format!("{part} {symbol}"), unit)
@@ -144,7 +144,7 @@ impl Columns {
     }
 
     /// The columns of one quantity: index and header.
-    pub fn of(&self, quantity: Quantity) -> impl Iterator<Item = (usize, &Column)> {
+    pub fn of(&self, quantity: ColumnQuantity) -> impl Iterator<Item = (usize, &Column)> {
         let heads = self.heads.iter().enumerate();
         heads.filter(move |(_, head)| head.quantity == quantity)
     }

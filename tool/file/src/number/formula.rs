@@ -44,7 +44,7 @@ const FUNCTIONS: [(&str, Function); 8] = [
 
 /// Why a formula cannot be parsed, with the position.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Fault {
+pub struct FormulaError {
     /// Bytes of the text.
     pub place: Range<usize>,
     /// The fault.
@@ -54,16 +54,16 @@ pub struct Fault {
 /// A formula.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Formula {
-    root: Node,
+    root: Expression,
 }
 
 #[derive(Clone, Debug, PartialEq)]
-enum Node {
+enum Expression {
     Number(f64),
     Variable(usize),
-    Call(usize, Box<Node>),
-    Negative(Box<Node>),
-    Pair(Operation, Box<[Node; 2]>),
+    Call(usize, Box<Expression>),
+    Negative(Box<Expression>),
+    Pair(Operation, Box<[Expression; 2]>),
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -80,9 +80,9 @@ impl Formula {
     ///
     /// # Errors
     /// The position of the fault.
-    pub fn parse(text: &str, variables: &[&str]) -> Result<Self, Fault> {
+    pub fn parse(text: &str, variables: &[&str]) -> Result<Self, FormulaError> {
         if text.len() > LONGEST {
-            return Err(Fault {
+            return Err(FormulaError {
                 place: 0..0,
                 what: format!("it is longer than {LONGEST} characters"),
             });
@@ -96,7 +96,7 @@ impl Formula {
         let root = reader.sum()?;
         match reader.next() {
             None => Ok(Self { root }),
-            Some((place, found)) => Err(Fault {
+            Some((place, found)) => Err(FormulaError {
                 place,
                 what: format!(
                     "\"{found}\" is not expected here: write an operator such as * before it"
@@ -116,29 +116,29 @@ impl Formula {
     }
 }
 
-fn contains(node: &Node, variable: usize) -> bool {
+fn contains(node: &Expression, variable: usize) -> bool {
     match node {
-        Node::Number(_) => false,
-        Node::Variable(k) => *k == variable,
-        Node::Call(_, inner) | Node::Negative(inner) => contains(inner, variable),
-        Node::Pair(_, pair) => pair.iter().any(|node| contains(node, variable)),
+        Expression::Number(_) => false,
+        Expression::Variable(k) => *k == variable,
+        Expression::Call(_, inner) | Expression::Negative(inner) => contains(inner, variable),
+        Expression::Pair(_, pair) => pair.iter().any(|node| contains(node, variable)),
     }
 }
 
-fn value<const N: usize>(node: &Node, variables: &[Dual<N>]) -> Dual<N> {
+fn value<const N: usize>(node: &Expression, variables: &[Dual<N>]) -> Dual<N> {
     match node {
-        Node::Number(number) => Dual::constant(*number),
-        Node::Variable(k) => variables
+        Expression::Number(number) => Dual::constant(*number),
+        Expression::Variable(k) => variables
             .get(*k)
             .copied()
             .unwrap_or(Dual::constant(f64::NAN)),
-        Node::Negative(inner) => -value(inner, variables),
-        Node::Call(function, inner) => {
+        Expression::Negative(inner) => -value(inner, variables),
+        Expression::Call(function, inner) => {
             let inner = value(inner, variables);
             let [at, slope] = FUNCTIONS[*function].1.0(inner.value);
             inner.through(at, slope)
         }
-        Node::Pair(operation, pair) => {
+        Expression::Pair(operation, pair) => {
             let [a, b] = [&pair[0], &pair[1]].map(|node| value(node, variables));
             match operation {
                 Operation::Plus => a + b,
@@ -201,25 +201,25 @@ impl<'t> Reader<'t> {
         Some(which)
     }
 
-    fn sum(&mut self) -> Result<Node, Fault> {
+    fn sum(&mut self) -> Result<Expression, FormulaError> {
         let mut node = self.product()?;
         while let Some(which) = self.take(&["+", "-", "−"]) {
             let operation = [Operation::Plus, Operation::Minus, Operation::Minus][which];
-            node = Node::Pair(operation, Box::new([node, self.product()?]));
+            node = Expression::Pair(operation, Box::new([node, self.product()?]));
         }
         Ok(node)
     }
 
-    fn product(&mut self) -> Result<Node, Fault> {
+    fn product(&mut self) -> Result<Expression, FormulaError> {
         let mut node = self.sign()?;
         while let Some(which) = self.take(&["*", "·", "/"]) {
             let operation = [Operation::Times, Operation::Times, Operation::Over][which];
-            node = Node::Pair(operation, Box::new([node, self.sign()?]));
+            node = Expression::Pair(operation, Box::new([node, self.sign()?]));
         }
         Ok(node)
     }
 
-    fn sign(&mut self) -> Result<Node, Fault> {
+    fn sign(&mut self) -> Result<Expression, FormulaError> {
         self.depth += 1;
         if self.depth > DEPTH {
             return fault(
@@ -229,23 +229,26 @@ impl<'t> Reader<'t> {
         }
         let node = match self.take(&["-", "−", "+"]) {
             Some(2) => self.sign()?,
-            Some(_) => Node::Negative(Box::new(self.sign()?)),
+            Some(_) => Expression::Negative(Box::new(self.sign()?)),
             None => self.power()?,
         };
         self.depth -= 1;
         Ok(node)
     }
 
-    fn power(&mut self) -> Result<Node, Fault> {
+    fn power(&mut self) -> Result<Expression, FormulaError> {
         let base = self.atom()?;
         if self.take(&["^"]).is_none() {
             return Ok(base);
         }
         let exponent = self.sign()?;
-        Ok(Node::Pair(Operation::Power, Box::new([base, exponent])))
+        Ok(Expression::Pair(
+            Operation::Power,
+            Box::new([base, exponent]),
+        ))
     }
 
-    fn atom(&mut self) -> Result<Node, Fault> {
+    fn atom(&mut self) -> Result<Expression, FormulaError> {
         let Some((place, found)) = self.next() else {
             let end = self.text.len();
             return fault(end..end, "it ends where a number, a name or ( is expected");
@@ -258,7 +261,7 @@ impl<'t> Reader<'t> {
         }
         if first.is_ascii_digit() || first == '.' {
             return match found.parse::<f64>() {
-                Ok(number) if number.is_finite() => Ok(Node::Number(number)),
+                Ok(number) if number.is_finite() => Ok(Expression::Number(number)),
                 _ => fault(place, format!("\"{found}\" is no number")),
             };
         }
@@ -269,10 +272,10 @@ impl<'t> Reader<'t> {
             );
         }
         if found == "pi" || found == "π" {
-            return Ok(Node::Number(std::f64::consts::PI));
+            return Ok(Expression::Number(std::f64::consts::PI));
         }
         if let Some(variable) = self.variables.iter().position(|name| *name == found) {
-            return Ok(Node::Variable(variable));
+            return Ok(Expression::Variable(variable));
         }
         if let Some(function) = FUNCTIONS.iter().position(|(name, _)| *name == found) {
             let Some((bracket, "(")) = self.next() else {
@@ -284,7 +287,7 @@ impl<'t> Reader<'t> {
             self.at = bracket.end;
             let inner = self.sum()?;
             let inner = self.closed(inner, bracket)?;
-            return Ok(Node::Call(function, Box::new(inner)));
+            return Ok(Expression::Call(function, Box::new(inner)));
         }
         let functions: Vec<&str> = FUNCTIONS.iter().map(|(name, _)| *name).collect();
         fault(
@@ -298,7 +301,11 @@ impl<'t> Reader<'t> {
     }
 
     /// The content of brackets that were opened at `open`.
-    fn closed(&mut self, inner: Node, open: Range<usize>) -> Result<Node, Fault> {
+    fn closed(
+        &mut self,
+        inner: Expression,
+        open: Range<usize>,
+    ) -> Result<Expression, FormulaError> {
         match self.take(&[")"]) {
             Some(_) => Ok(inner),
             None => fault(open, "this bracket is not closed"),
@@ -306,9 +313,9 @@ impl<'t> Reader<'t> {
     }
 }
 
-fn fault<T>(place: Range<usize>, what: impl Into<String>) -> Result<T, Fault> {
+fn fault<T>(place: Range<usize>, what: impl Into<String>) -> Result<T, FormulaError> {
     let what = what.into();
-    Err(Fault { place, what })
+    Err(FormulaError { place, what })
 }
 
 /// Length in bytes of the number at the start of the text.

@@ -4,7 +4,7 @@
 const MOST_SUMMITS: usize = 8;
 
 /// Steps to a peak, each to the vertex of the parabola through three positions around it.
-const CLOSER: u32 = 6;
+const PEAK_STEPS: u32 = 6;
 
 /// The parabola through three points, in Newton's form.
 #[derive(Clone, Copy, Debug)]
@@ -48,7 +48,7 @@ impl Parabola {
 pub fn peak<E>(mut f: impl FnMut(f64) -> Result<f64, E>, around: [f64; 3]) -> Result<f64, E> {
     let [a, b, c] = around;
     let mut three = [(a, f(a)?), (b, f(b)?), (c, f(c)?)];
-    for _ in 0..CLOSER {
+    for _ in 0..PEAK_STEPS {
         let [a, b, c] = three;
         let vertex = Parabola::through([a.0, b.0, c.0], [a.1, b.1, c.1]).vertex();
         // Equal positions would cause a division by zero.

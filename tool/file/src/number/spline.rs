@@ -23,7 +23,7 @@ pub const MIN_POINTS: usize = 5;
 
 /// Faults of points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Fault {
+pub enum SplineError {
     /// Fewer than [`MIN_POINTS`].
     TooFew,
     /// The arguments do not rise, a number is not finite, or the two lists differ in length.
@@ -32,7 +32,7 @@ pub enum Fault {
     BeyondPeriod,
 }
 
-impl fmt::Display for Fault {
+impl fmt::Display for SplineError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::TooFew => write!(f, "a curve needs at least {MIN_POINTS} points"),
@@ -42,11 +42,11 @@ impl fmt::Display for Fault {
     }
 }
 
-impl std::error::Error for Fault {}
+impl std::error::Error for SplineError {}
 
 /// The type of fit.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Way {
+pub enum FitMethod {
     /// Through every point, twice continuously differentiable.
     Interpolating,
     /// The same, level at both ends; not for periodic curves.
@@ -71,7 +71,7 @@ pub struct Spline {
 
 /// One of the cubics of a curve.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Piece {
+pub struct CubicPiece {
     /// Its range.
     pub ends: [f64; 2],
     /// Origin of its u.
@@ -84,8 +84,8 @@ impl Spline {
     /// A curve over the range of its points, constant beyond its ends.
     ///
     /// # Errors
-    /// See [`Fault`].
-    pub fn bounded(x: &[f64], y: &[f64], way: Way) -> Result<Self, Fault> {
+    /// See [`SplineError`].
+    pub fn bounded(x: &[f64], y: &[f64], way: FitMethod) -> Result<Self, SplineError> {
         check(x, y, MIN_POINTS)?;
         Ok(Self::new(x.to_vec(), fit::bounded(x, y, way), false))
     }
@@ -93,15 +93,20 @@ impl Spline {
     /// A curve that repeats after `period`: the points lie in one period, without the last, which equals the first.
     ///
     /// # Errors
-    /// See [`Fault`].
-    pub fn periodic(x: &[f64], y: &[f64], period: f64, way: Way) -> Result<Self, Fault> {
+    /// See [`SplineError`].
+    pub fn periodic(
+        x: &[f64],
+        y: &[f64],
+        period: f64,
+        way: FitMethod,
+    ) -> Result<Self, SplineError> {
         check(x, y, MIN_POINTS - 1)?;
         let (Some(first), Some(last)) = (x.first(), x.last()) else {
-            return Err(Fault::TooFew);
+            return Err(SplineError::TooFew);
         };
         let end = first + period;
         if !end.is_finite() || end <= *last {
-            return Err(Fault::BeyondPeriod);
+            return Err(SplineError::BeyondPeriod);
         }
         let mut knots = x.to_vec();
         knots.push(end);
@@ -141,11 +146,11 @@ impl Spline {
     /// The smoothing curve near these points, over the same range.
     ///
     /// # Errors
-    /// See [`Fault`].
-    pub fn smoothed(&self, cutoff: f64) -> Result<Self, Fault> {
+    /// See [`SplineError`].
+    pub fn smoothed(&self, cutoff: f64) -> Result<Self, SplineError> {
         let (x, y) = self.points();
         let [from, to] = self.range();
-        let way = Way::Smoothing(cutoff);
+        let way = FitMethod::Smoothing(cutoff);
         if self.periodic {
             Self::periodic(&x, &y, to - from, way)
         } else {
@@ -189,7 +194,7 @@ impl Spline {
     }
 
     /// The cubics of f between two arguments, with the constants beyond the ends of a curve that does not repeat.
-    pub fn pieces_between(&self, [low, high]: [f64; 2]) -> Vec<Piece> {
+    pub fn pieces_between(&self, [low, high]: [f64; 2]) -> Vec<CubicPiece> {
         let [from, to] = self.range();
         let period = to - from;
         let mut found = Vec::new();
@@ -198,12 +203,12 @@ impl Spline {
             // One more on each side, because of rounding.
             (turn(low) as i64 - 1, turn(high) as i64 + 1)
         } else {
-            found.push(Piece {
+            found.push(CubicPiece {
                 ends: [f64::NEG_INFINITY, from],
                 origin: from,
                 coefficients: [self.at(from)[0], 0.0, 0.0, 0.0],
             });
-            found.push(Piece {
+            found.push(CubicPiece {
                 ends: [to, f64::INFINITY],
                 origin: to,
                 coefficients: [self.at(to)[0], 0.0, 0.0, 0.0],
@@ -213,7 +218,7 @@ impl Spline {
         for turn in turns.0..=turns.1 {
             let ahead = turn as f64 * period;
             let knots = self.knots.windows(2).zip(&self.pieces);
-            found.extend(knots.map(|(ends, coefficients)| Piece {
+            found.extend(knots.map(|(ends, coefficients)| CubicPiece {
                 ends: [ends[0] + ahead, ends[1] + ahead],
                 origin: ends[0] + ahead,
                 coefficients: *coefficients,
@@ -269,13 +274,13 @@ impl Spline {
     }
 }
 
-fn check(x: &[f64], y: &[f64], fewest: usize) -> Result<(), Fault> {
+fn check(x: &[f64], y: &[f64], fewest: usize) -> Result<(), SplineError> {
     if x.len() < fewest {
-        return Err(Fault::TooFew);
+        return Err(SplineError::TooFew);
     }
     let finite = x.iter().chain(y).all(|value| value.is_finite());
     if !finite || x.len() != y.len() || x.windows(2).any(|pair| pair[1] <= pair[0]) {
-        return Err(Fault::NotRising);
+        return Err(SplineError::NotRising);
     }
     Ok(())
 }

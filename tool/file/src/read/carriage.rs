@@ -18,7 +18,7 @@ use crate::text::problem::Result;
 use crate::text::section::Section;
 
 /// Share of its stroke, and of its largest speed, by which the motion of a carriage may miss its start: rounding.
-const CLOSED: f64 = 1e-9;
+const CLOSURE_TOLERANCE: f64 = 1e-9;
 
 /// Share of the time of the motion by which two times may differ: rounding.
 const SAME_TIME: f64 = 1e-9;
@@ -128,7 +128,7 @@ fn fits(own: &Section, motion: &Motion, of_machine: &Motion, stroke: f64) -> Res
     let [first, last] = [0.0, lasts].map(|t| motion.at(t));
     let place = |k: u32| lasts * f64::from(k) / f64::from(INSTANTS);
     let speeds = (0..=INSTANTS).map(|k| motion.at(place(k)).omega.abs());
-    let still = CLOSED * speeds.fold(0.0, f64::max);
+    let still = CLOSURE_TOLERANCE * speeds.fold(0.0, f64::max);
     let shorter = lasts < whole * (1.0 - SAME_TIME);
     if shorter && last.omega.abs() > still {
         return Err(own
@@ -141,7 +141,7 @@ fn fits(own: &Section, motion: &Motion, of_machine: &Motion, stroke: f64) -> Res
     if !of_machine.cyclic {
         return Ok(());
     }
-    if (last.phi - first.phi).abs() > CLOSED * stroke {
+    if (last.phi - first.phi).abs() > CLOSURE_TOLERANCE * stroke {
         return Err(own
             .problem(
                 format!(

@@ -6,7 +6,7 @@ use jred::Domain;
 
 use super::drive_link::DriveLink;
 use crate::number::rounding::figure;
-use crate::number::spline::{MIN_POINTS, Spline, Way};
+use crate::number::spline::{FitMethod, MIN_POINTS, Spline};
 use crate::text::columns::Columns;
 use crate::text::problem::{Problem, Result};
 
@@ -14,7 +14,7 @@ use crate::text::problem::{Problem, Result};
 const CLOSEST: f64 = 1e-6;
 
 /// Largest difference between the first and the last row of a turn, as a share of the column's largest magnitude.
-const CLOSED: f64 = 1e-6;
+const CLOSURE_TOLERANCE: f64 = 1e-6;
 
 /// Without a closing last row, a turn may be open by this many of its largest steps.
 const OPEN: f64 = 2.0;
@@ -23,7 +23,7 @@ const OPEN: f64 = 2.0;
 const ROUNDING: f64 = 1e-9;
 
 /// The variable of a file's rows.
-pub(super) struct Rows {
+pub(super) struct RowVariable {
     /// The range of the positions.
     pub(super) domain: Domain,
     /// Name of the moving part.
@@ -34,7 +34,7 @@ pub(super) struct Rows {
     pub(super) turns: u32,
 }
 
-impl Rows {
+impl RowVariable {
     /// The whole range of the drive link.
     pub(super) fn of(drive: DriveLink) -> Self {
         Self {
@@ -83,7 +83,7 @@ pub(super) struct Positions<'c> {
 
 impl<'c> Positions<'c> {
     /// The rising rows of column 0, over a turn or at least the stroke of their variable.
-    pub(super) fn of(columns: &'c Columns, rows: &Rows) -> Result<Self> {
+    pub(super) fn of(columns: &'c Columns, rows: &RowVariable) -> Result<Self> {
         columns.check_rising(
             0,
             "position",
@@ -179,7 +179,7 @@ impl<'c> Positions<'c> {
     }
 
     /// Rows over a part of the range; outside it the curve is zero.
-    fn part(columns: &'c Columns, rows: &Rows) -> Result<Self> {
+    fn part(columns: &'c Columns, rows: &RowVariable) -> Result<Self> {
         let x = columns.get(0).unwrap_or_default();
         let (Some(&first), Some(&last)) = (x.first(), x.last()) else {
             return Err(Problem::new("the file has no rows"));
@@ -233,7 +233,7 @@ impl<'c> Positions<'c> {
         };
         if let (true, [first, .., last]) = (self.closing, values) {
             let most = values.iter().fold(0.0f64, |most, v| most.max(v.abs()));
-            if (last - first).abs() > CLOSED * most {
+            if (last - first).abs() > CLOSURE_TOLERANCE * most {
                 return Err(self
                     .columns
                     .problem(
@@ -247,7 +247,7 @@ impl<'c> Positions<'c> {
                     .help(format!(
                         "after a turn the machine is back where it was: make the two rows equal to within {} of the \
                          largest value, or remove the last row",
-                        figure(CLOSED)
+                        figure(CLOSURE_TOLERANCE)
                     )));
             }
         }
@@ -275,7 +275,7 @@ impl<'c> Positions<'c> {
     }
 
     /// A curve through values at these positions.
-    pub(super) fn curve(&self, values: &[f64], way: Way) -> Result<Spline> {
+    pub(super) fn curve(&self, values: &[f64], way: FitMethod) -> Result<Spline> {
         let spline = if self.turn {
             Spline::periodic(self.x, values, self.period, way)
         } else {
@@ -293,9 +293,9 @@ impl<'c> Positions<'c> {
         let every_second = |v: &[f64]| -> Vec<f64> { v.iter().copied().step_by(2).collect() };
         let (x, y) = (every_second(self.x), every_second(values));
         let coarse = if self.turn {
-            Spline::periodic(&x, &y, self.period, Way::Interpolating)
+            Spline::periodic(&x, &y, self.period, FitMethod::Interpolating)
         } else {
-            Spline::bounded(&x, &y, Way::Interpolating)
+            Spline::bounded(&x, &y, FitMethod::Interpolating)
         }
         .ok()?;
         let [from, to] = coarse.range();

@@ -18,7 +18,7 @@ use crate::units::kind::Kind;
 const ROUNDING: f64 = 1e-9;
 
 /// Speed (rad/s or m/s) below which a link is at rest: a turn in twenty years.
-const STANDS: f64 = 1e-8;
+const STANDSTILL: f64 = 1e-8;
 
 /// Type and range of the drive link's motion, or of another coordinate that is prescribed.
 #[derive(Clone, Copy, Debug)]
@@ -61,7 +61,7 @@ impl DriveLink {
 
     /// A speed (rad/s or m/s) with its unit; rounding is shown as zero.
     pub(super) fn pace(self, speed: f64) -> String {
-        let speed = if speed.abs() < STANDS { 0.0 } else { speed };
+        let speed = if speed.abs() < STANDSTILL { 0.0 } else { speed };
         match self.coordinate {
             Coordinate::Angle => format!("{} rpm", figure(speed / RPM)),
             Coordinate::Length => format!("{} m/s", figure(speed)),

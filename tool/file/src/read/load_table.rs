@@ -5,7 +5,7 @@ use std::ops::Range;
 use jred::Domain;
 use jred::machine::{MAX_LOADS, Window};
 
-use super::curve_file::Rows;
+use super::curve_file::RowVariable;
 use super::drive_link::DriveLink;
 use super::effect::Effect;
 use super::loads::SCHEDULE;
@@ -14,8 +14,8 @@ use crate::keys::loads::LOAD_TABLE;
 use crate::model::coordinate::Coordinate;
 use crate::model::machine::least_common_multiple;
 use crate::model::mechanism::AnyMechanism;
-use crate::model::tabulated::{Direction, Over, Place, StandIn};
-use crate::number::spline::Way;
+use crate::model::virtual_link::{Direction, LinkPoint, TableVariable, VirtualLink};
+use crate::number::spline::FitMethod;
 use crate::text::columns::{CsvFile, Layout};
 use crate::text::file::Files;
 use crate::text::item::Item;
@@ -71,13 +71,13 @@ struct Target<'t> {
     gravity: [f64; 2],
     name: &'t str,
     /// The point of a link, unless it acts on the drive link.
-    on: Option<(Item<'t>, Place)>,
+    on: Option<(Item<'t>, LinkPoint)>,
     /// The direction of the column Force.
     along: Option<(Item<'t>, Direction)>,
     /// The variable of the rows.
-    over: Over,
-    rows: Rows,
-    way: Option<(Item<'t>, Way)>,
+    over: TableVariable,
+    rows: RowVariable,
+    way: Option<(Item<'t>, FitMethod)>,
     window: Option<Window>,
     layout: Layout<'t>,
 }
@@ -88,7 +88,7 @@ fn table(
     drive: DriveLink,
     (gravity, turns): ([f64; 2], u32),
     files: &dyn Files,
-) -> Result<Vec<StandIn>> {
+) -> Result<Vec<VirtualLink>> {
     let name = section.text("name")?.unwrap_or("load table");
     let item = section.need("table")?;
     let on = place(section, mechanism)?;
@@ -99,7 +99,7 @@ fn table(
             .help("add on = \"slider\", the link on which the force acts"));
     }
     let (over, domain, of) = over(section, mechanism, drive)?;
-    if let (Some(item), Over::Point { .. }) = (section.peek("turns"), over) {
+    if let (Some(item), TableVariable::Point { .. }) = (section.peek("turns"), over) {
         return Err(item
             .problem(
                 "is given for rows over the position of a point",
@@ -108,7 +108,7 @@ fn table(
             .help("give the rows over the drive link's angle, without `over`, or remove `turns`"));
     }
     let partly = section.word("outside")? == 1;
-    let way = section.pick("curve", [Way::Interpolating, Way::Monotone])?;
+    let way = section.pick("curve", [FitMethod::Interpolating, FitMethod::Monotone])?;
     let way = section.get("curve").map(|item| (item, way));
     let target = Target {
         mechanism,
@@ -118,7 +118,7 @@ fn table(
         on,
         along,
         over,
-        rows: Rows {
+        rows: RowVariable {
             domain,
             of,
             partly,
@@ -135,7 +135,10 @@ fn table(
 }
 
 /// `on` and `at`.
-fn place<'t>(section: &Section<'t>, mechanism: &AnyMechanism) -> Result<Option<(Item<'t>, Place)>> {
+fn place<'t>(
+    section: &Section<'t>,
+    mechanism: &AnyMechanism,
+) -> Result<Option<(Item<'t>, LinkPoint)>> {
     let links = mechanism.link_names();
     let at = section.get("at");
     let Some(on) = section.get("on") else {
@@ -148,7 +151,7 @@ fn place<'t>(section: &Section<'t>, mechanism: &AnyMechanism) -> Result<Option<(
     };
     let link = on.choice(links)?;
     let at = section.two("at")?;
-    Ok(Some((on, Place { link, at })))
+    Ok(Some((on, LinkPoint { link, at })))
 }
 
 /// `angle` and `angle_on_link`.
@@ -178,15 +181,19 @@ fn over(
     section: &Section,
     mechanism: &AnyMechanism,
     drive: DriveLink,
-) -> Result<(Over, Domain, String)> {
+) -> Result<(TableVariable, Domain, String)> {
     let Some(item) = section.get("over") else {
-        return Ok((Over::Drive, drive.domain, "the drive link".to_owned()));
+        return Ok((
+            TableVariable::Drive,
+            drive.domain,
+            "the drive link".to_owned(),
+        ));
     };
     let section = section.table("over")?;
     let (name, link, at) = tool::place(&section, &section.need("point")?, mechanism)?;
     let (axis, zero) = (section.word("along")?, section.si("zero")?);
     section.finish()?;
-    let over = Over::Point {
+    let over = TableVariable::Point {
         link,
         at,
         axis,
@@ -216,13 +223,13 @@ impl Target<'_> {
     /// The coordinate of the rows.
     fn coordinate(&self) -> Coordinate {
         match self.over {
-            Over::Drive => self.drive.coordinate,
-            Over::Point { .. } => Coordinate::Length,
+            TableVariable::Drive => self.drive.coordinate,
+            TableVariable::Point { .. } => Coordinate::Length,
         }
     }
 
     /// Checks that the force or moment has an effect on the link.
-    fn check_effect(&self, force: bool, fixed: bool) -> Result<Place> {
+    fn check_effect(&self, force: bool, fixed: bool) -> Result<LinkPoint> {
         let Some((item, place)) = &self.on else {
             return Err(Problem::new("a table acts on no link"));
         };

@@ -1,8 +1,8 @@
 //! `[[mass]]`: a mass fixed to a link, for example a counterweight or a tool.
 
 use super::names::Names;
-use crate::model::laden::{Attached, laden};
 use crate::model::mechanism::AnyMechanism;
+use crate::model::with_mass::{AttachedMass, laden};
 use crate::text::item::Item;
 use crate::text::problem::Result;
 use crate::text::section::Section;
@@ -31,7 +31,7 @@ pub(super) fn attached(
     section: &Section,
     mechanism: &AnyMechanism,
     what: &str,
-) -> Result<(String, Attached)> {
+) -> Result<(String, AttachedMass)> {
     let (on, link) = link_of(section, mechanism)?;
     let name = match section.text("name")? {
         Some(name) => name.to_owned(),
@@ -44,7 +44,7 @@ pub(super) fn attached(
     );
     Ok((
         name,
-        Attached {
+        AttachedMass {
             link,
             at,
             mass,

@@ -39,7 +39,7 @@ use jred::machine::Machine;
 
 use crate::keys::MACHINE;
 use crate::model::axis::Axis;
-use crate::model::machine::{MachineFile, OverRange};
+use crate::model::machine::{MachineFile, ReductionCache};
 use crate::model::mechanism::{AnyMechanism, NamedElement, NamedLoad};
 use crate::model::rules::RuleSet;
 use crate::plain;
@@ -119,13 +119,13 @@ pub fn folder(path: &Path) -> &Path {
 
 /// A machine file as read: its values are checked one by one, its mechanics are not. `jred_analysis::checked` gives the checked file.
 #[derive(Debug)]
-pub struct Unchecked {
+pub struct UncheckedFile {
     file: MachineFile,
     mechanism: Range<usize>,
     motion: Range<usize>,
 }
 
-impl Unchecked {
+impl UncheckedFile {
     /// The machine file, for a text whose mechanics are known to pass the checks.
     pub fn trusted(self) -> MachineFile {
         self.file
@@ -151,7 +151,7 @@ impl Unchecked {
 ///
 /// # Errors
 /// The first fault in the file, with its place and a cure.
-pub fn parse(name: &str, text: &str, files: impl Files) -> Result<Unchecked> {
+pub fn parse(name: &str, text: &str, files: impl Files) -> Result<UncheckedFile> {
     machine(name, text, &files).map_err(|problem| problem.in_text(name, text))
 }
 
@@ -189,7 +189,7 @@ fn loaded(
     Ok(machine)
 }
 
-fn machine(name: &str, text: &str, files: &dyn Files) -> Result<Unchecked> {
+fn machine(name: &str, text: &str, files: &dyn Files) -> Result<UncheckedFile> {
     if text.len() as u64 > MAX_SIZE {
         let why = file::too_large(&file::size(text.len() as u64), MAX_SIZE);
         return Err(
@@ -238,7 +238,7 @@ fn machine(name: &str, text: &str, files: &dyn Files) -> Result<Unchecked> {
     let (machine, carriages) = carriage::read(&root, files, machine, &mut loads, moved)?;
     let schedule = schedule::read(&root, (&entries, carriages), &loads, &machine, moved)?;
     let machine = schedule.at_no_time().cloned().unwrap_or(machine);
-    let around = simulation::Around {
+    let around = simulation::SimulationContext {
         drive: drive_link,
         axis: Axis::of(motion.as_ref(), machine.mechanism()),
         drive_train: &drive_train,
@@ -277,11 +277,11 @@ fn machine(name: &str, text: &str, files: &dyn Files) -> Result<Unchecked> {
             tool,
             ..site
         },
-        over_range: OverRange::default(),
+        over_range: ReductionCache::default(),
     };
     let motion = root.maybe_table("motion")?;
     let motion = motion.map_or_else(|| root.header(), |section| section.header());
-    Ok(Unchecked {
+    Ok(UncheckedFile {
         file,
         mechanism: section.header(),
         motion,

@@ -18,7 +18,7 @@ mod segment;
 mod segments;
 mod tool;
 
-pub(super) use tool::Prescribed;
+pub(super) use tool::PrescribedCoordinate;
 
 /// The prescribed motion of a machine and its loads, if the file has one. The file of a profile is taken from `files`.
 pub(super) fn read(
@@ -32,7 +32,7 @@ pub(super) fn read(
     };
     let kind = section.word("type")?;
     section.choose(["constant-speed", "cycle", "point-to-point", "profile"][kind]);
-    let prescribed = Prescribed::read(&section, drive, loaded)?;
+    let prescribed = PrescribedCoordinate::read(&section, drive, loaded)?;
     let motion = match kind {
         0 => constant_speed(&section, &prescribed)?,
         1 => segments::read(&section, true, &prescribed)?,
@@ -43,7 +43,7 @@ pub(super) fn read(
 }
 
 /// Start position of the motion.
-fn start(section: &Section, prescribed: &Prescribed) -> Result<f64> {
+fn start(section: &Section, prescribed: &PrescribedCoordinate) -> Result<f64> {
     let Some(start) = section.given("start")? else {
         return Ok(prescribed.start());
     };
@@ -61,7 +61,7 @@ pub(super) fn along(
     section.set_slides(true);
     let kind = section.word("type")?;
     section.choose(["cycle", "point-to-point", "profile"][kind]);
-    let prescribed = Prescribed {
+    let prescribed = PrescribedCoordinate {
         axis,
         drive: axis,
         tool: None,
@@ -75,7 +75,7 @@ pub(super) fn along(
     }
 }
 
-fn constant_speed(section: &Section, prescribed: &Prescribed) -> Result<Motion> {
+fn constant_speed(section: &Section, prescribed: &PrescribedCoordinate) -> Result<Motion> {
     let axis = prescribed.axis;
     let Some(per_turn) = prescribed.per_turn() else {
         let kind = section.need("type")?;

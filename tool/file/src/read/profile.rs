@@ -3,14 +3,14 @@
 use std::f64::consts::TAU;
 
 use crate::model::coordinate::Coordinate;
-use crate::model::motion::{Closing, Motion, Recording, cutoffs};
+use crate::model::motion::{Motion, Recording, Repetition, cutoffs};
 use crate::model::repeats::Difference;
 use crate::text::file::Files;
 
 use super::drive_link::DriveLink;
-use super::motion::{self, Prescribed};
+use super::motion::{self, PrescribedCoordinate};
 use crate::number::rounding::figure;
-use crate::text::columns::{Columns, CsvFile, Fault, Layout};
+use crate::text::columns::{Columns, CsvFault, CsvFile, Layout};
 use crate::text::csv;
 use crate::text::item::Value;
 use crate::text::problem::{Problem, Result};
@@ -20,21 +20,21 @@ mod closing;
 mod form;
 mod states;
 
-use closing::{CLOSED, check_speed_closes, closed};
+use closing::{CLOSURE, check_speed_closes, closed};
 use form::{ACCELERATION, POSITION, SPEED, TIME_COLUMN, read_columns};
 
 /// A time step this many times the median step is a gap in the recording.
 const GAP: f64 = 20.0;
 
 /// A time step this many times shorter than the median means two rows of one instant.
-const TWICE: f64 = 1000.0;
+const DOUBLE_ROW: f64 = 1000.0;
 
 /// Cure for most faults of the time column.
 const TIMES: &str =
     "give one row for each instant, in order, with enough digits in the times to tell them apart";
 
 /// Keys of `[motion]` about the file.
-struct Request {
+struct ProfileKeys {
     cyclic: bool,
     /// Start position of a recorded speed (rad or m).
     start: Option<Value>,
@@ -52,11 +52,11 @@ struct Request {
 pub(super) fn read(
     section: &Section,
     files: &dyn Files,
-    prescribed: &Prescribed,
+    prescribed: &PrescribedCoordinate,
 ) -> Result<Motion> {
     let drive = prescribed.axis;
     let item = section.need("file")?;
-    let request = Request {
+    let request = ProfileKeys {
         cyclic: section.get("cyclic").map_or(Ok(true), |item| item.flag())?,
         start: section.given("start")?,
         step: section.given("step")?,
@@ -103,7 +103,11 @@ pub(super) fn read(
 }
 
 /// Checks that the keys of `[motion]` match the columns of the file.
-fn check_request(request: &Request, columns: &Columns, prescribed: &Prescribed) -> Result<()> {
+fn check_request(
+    request: &ProfileKeys,
+    columns: &Columns,
+    prescribed: &PrescribedCoordinate,
+) -> Result<()> {
     let of_positions = columns.get(POSITION).is_some();
     if let (Some(start), true) = (&request.start, of_positions) {
         return Err(start
@@ -131,11 +135,11 @@ fn check_request(request: &Request, columns: &Columns, prescribed: &Prescribed) 
 
 fn curve(
     columns: &Columns,
-    request: &Request,
-    prescribed: &Prescribed,
+    request: &ProfileKeys,
+    prescribed: &PrescribedCoordinate,
     text: &str,
     repeats: &Repeats,
-) -> std::result::Result<Motion, Fault> {
+) -> std::result::Result<Motion, CsvFault> {
     let drive = prescribed.axis;
     let turn = prescribed.per_turn();
     let span = turn.unwrap_or(drive.domain.span()).abs();
@@ -144,9 +148,9 @@ fn curve(
     let cutoff = cutoff(request, &times)?;
     let closing = |what: f64| {
         if request.cyclic {
-            Closing::After(what)
+            Repetition::After(what)
         } else {
-            Closing::Open
+            Repetition::Open
         }
     };
     let unmade = |fault| {
@@ -170,7 +174,7 @@ fn curve(
         if let ([first, .., last], true) = (nodes.as_slice(), request.cyclic) {
             check_speed_closes(columns, columns.get(SPEED).unwrap_or_default())?;
             let way = [first.phi, last.phi - first.phi];
-            closed(way, most(CLOSED * span), columns, prescribed, repeats)?;
+            closed(way, most(CLOSURE * span), columns, prescribed, repeats)?;
         }
         Motion::nodes(&nodes, request.cyclic)
     } else if let Some(positions) = columns.get(POSITION) {
@@ -180,7 +184,7 @@ fn curve(
         );
         if request.cyclic {
             let way = [first, last - first];
-            advance = closed(way, most(CLOSED * span), columns, prescribed, repeats)?;
+            advance = closed(way, most(CLOSURE * span), columns, prescribed, repeats)?;
         }
         let recording = Recording {
             times: &times,
@@ -202,7 +206,7 @@ fn curve(
             times: &times,
             values: speeds,
             cutoff,
-            closing: Closing::Open,
+            closing: Repetition::Open,
         };
         if request.cyclic {
             let way = Motion::speeds(&recording, start)
@@ -211,8 +215,8 @@ fn curve(
                 .phi
                 - start;
             let way = [start, way];
-            advance = closed(way, most(CLOSED * span), columns, prescribed, repeats)?;
-            recording.closing = Closing::After(advance);
+            advance = closed(way, most(CLOSURE * span), columns, prescribed, repeats)?;
+            recording.closing = Repetition::After(advance);
         }
         Motion::speeds(&recording, start).map_err(unmade)?
     };
@@ -244,7 +248,7 @@ fn check_stroke(motion: &Motion, times: &[f64], columns: &Columns, drive: DriveL
 }
 
 /// The times since the first row (s).
-fn times(columns: &Columns, request: &Request) -> Result<Vec<f64>> {
+fn times(columns: &Columns, request: &ProfileKeys) -> Result<Vec<f64>> {
     if let Some(step) = &request.step {
         return Ok((0..columns.rows()).map(|k| k as f64 * step.si).collect());
     }
@@ -271,7 +275,7 @@ fn times(columns: &Columns, request: &Request) -> Result<Vec<f64>> {
             "a curve through a gap of more than {GAP} steps would be guesswork: add the missing rows, including those at standstill"
         )));
     }
-    let twice = steps.iter().position(|step| *step * TWICE < usual);
+    let twice = steps.iter().position(|step| *step * DOUBLE_ROW < usual);
     if let (Some(row), None) = (twice, &request.smoothing) {
         return Err(Problem::new(format!(
             "row {} is {} s after the previous row; the usual step is {} s",
@@ -288,7 +292,7 @@ fn times(columns: &Columns, request: &Request) -> Result<Vec<f64>> {
 }
 
 /// The cut-off (rad/s); it must be within the range that the rows allow.
-fn cutoff(request: &Request, times: &[f64]) -> std::result::Result<Option<f64>, Fault> {
+fn cutoff(request: &ProfileKeys, times: &[f64]) -> std::result::Result<Option<f64>, CsvFault> {
     let Some(smoothing) = &request.smoothing else {
         return Ok(None);
     };
@@ -308,7 +312,7 @@ fn cutoff(request: &Request, times: &[f64]) -> std::result::Result<Option<f64>, 
                 smoothing.show(high)
             )
         };
-        return Err(Fault::InMachine(
+        return Err(CsvFault::InMachine(
             smoothing.problem(&what, "not possible").help(
                 "take a frequency well above that of the motion and well below that of the rows; without `smoothing` the curve \
                  goes through every row",

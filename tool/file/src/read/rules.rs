@@ -7,7 +7,7 @@ use std::sync::Arc;
 use crate::keys::site::RULE_SET;
 use crate::model::rule::Rule;
 use crate::model::rules::{
-    Change, Changes, Contradiction, InertiaOf, Limit, MeanTorque, Moves, RuleSet, What,
+    Change, Changes, Contradiction, InertiaOf, Limit, MeanTorque, Moves, RuleSet, RuleSetting,
 };
 use crate::text::file::Files;
 
@@ -172,7 +172,7 @@ fn explain(key: &str) -> Option<&'static str> {
 /// All changes in a table.
 fn changes(section: &Section, source: &str) -> Result<Changes> {
     let mut changes = Vec::new();
-    let mut change = |what: What, source: &str, place: Range<usize>| {
+    let mut change = |what: RuleSetting, source: &str, place: Range<usize>| {
         let source = source.to_owned();
         changes.push(Change {
             what,
@@ -184,26 +184,30 @@ fn changes(section: &Section, source: &str) -> Result<Changes> {
         if let Some(item) = section.get(rule.key()) {
             let place = item.span();
             if item.is_word("off") {
-                change(What::Off(rule), source, place);
+                change(RuleSetting::Off(rule), source, place);
             } else if item.is_table() {
                 let (limit, said) = both(&item, rule)?;
                 change(
-                    What::Both(rule, limit),
+                    RuleSetting::Both(rule, limit),
                     said.as_deref().unwrap_or(source),
                     place,
                 );
             } else {
-                change(What::Fail(rule, limit(&item, rule)?), source, place);
+                change(RuleSetting::Fail(rule, limit(&item, rule)?), source, place);
             }
         }
         if let Some(item) = section.get(rule.warning_key()) {
-            change(What::Warn(rule, limit(&item, rule)?), source, item.span());
+            change(
+                RuleSetting::Warn(rule, limit(&item, rule)?),
+                source,
+                item.span(),
+            );
         }
     }
     if let Some(item) = section.get("inertia_ratio_of") {
         let word = InertiaOf::WORDS[item.word()?];
         change(
-            What::InertiaOf(InertiaOf::of(word).unwrap_or_default()),
+            RuleSetting::InertiaOf(InertiaOf::of(word).unwrap_or_default()),
             source,
             item.span(),
         );
@@ -211,14 +215,14 @@ fn changes(section: &Section, source: &str) -> Result<Changes> {
     if let Some(item) = section.get("gearbox_mean_exponent") {
         let word = MeanTorque::WORDS[item.word()?];
         change(
-            What::MeanTorque(MeanTorque::of(word).unwrap_or_default()),
+            RuleSetting::MeanTorque(MeanTorque::of(word).unwrap_or_default()),
             source,
             item.span(),
         );
     }
     if let Some(item) = section.get("inertia_ratio_by_moves") {
         let bands = by_moves(&section.tables("inertia_ratio_by_moves")?)?;
-        change(What::InertiaByMoves(bands), source, item.span());
+        change(RuleSetting::InertiaByMoves(bands), source, item.span());
     }
     Ok(Changes(changes))
 }

@@ -9,13 +9,13 @@ use super::loads;
 use crate::model::carriage::Carriage;
 use crate::model::mechanism::{AnyMechanism, NamedLoad};
 use crate::model::motion::Motion;
-use crate::model::schedule::{Now, Schedule, Scheduled, Travel, When};
+use crate::model::schedule::{Schedule, ScheduleInstant, ScheduledLoad, Travel, When};
 use crate::number::rounding::figure;
 use crate::text::item::Item;
 use crate::text::problem::Result;
 use crate::text::section::Section;
 
-use contradictions::{Acting, check_contradictions};
+use contradictions::{LoadActivity, check_contradictions};
 
 mod contradictions;
 mod payload;
@@ -27,14 +27,14 @@ const INSTANTS: u32 = 64;
 const MOST_SEGMENTS: u32 = 1000;
 
 /// The motion of the file, as far as schedules refer to it.
-struct Course<'m> {
+struct MotionSegments<'m> {
     motion: Option<&'m Motion>,
     /// Start and end of its segments (s); empty if it has none.
     segments: Vec<[f64; 2]>,
 }
 
 /// The part of the motion in which something acts.
-struct Part<'s> {
+struct ActivePart<'s> {
     when: When,
     /// In words, for example "in segments 2 and 3".
     words: Vec<String>,
@@ -55,9 +55,9 @@ pub(super) fn read(
     machine: &Machine<AnyMechanism>,
     motion: Option<&Motion>,
 ) -> Result<Schedule> {
-    let course = Course::of(root, motion)?;
+    let course = MotionSegments::of(root, motion)?;
     let mut scheduled = Vec::new();
-    let mut acting: Vec<Acting> = Vec::new();
+    let mut acting: Vec<LoadActivity> = Vec::new();
     for (section, entry) in root.tables("load")?.into_iter().zip(entries) {
         let part = part(&section, &course)?;
         let at_rest = section.get("at_rest");
@@ -78,7 +78,11 @@ pub(super) fn read(
         let first = named
             .get(entry.loads.start)
             .filter(|_| !entry.loads.is_empty());
-        acting.push(Acting::new(section, part, first.map(|named| &named.load)));
+        acting.push(LoadActivity::new(
+            section,
+            part,
+            first.map(|named| &named.load),
+        ));
     }
     check_contradictions(&acting, &course)?;
     let payloads = payload::read(root, machine, &course)?;
@@ -93,9 +97,9 @@ pub(super) fn read(
 fn entry_of(
     section: &Section,
     (name, load, own): (&str, usize, &Load),
-    part: &Part,
+    part: &ActivePart,
     at_rest: Option<&Item>,
-) -> Result<Scheduled> {
+) -> Result<ScheduledLoad> {
     let mut words = part.words.clone();
     let mut rest = None;
     let mut is_static_friction = false;
@@ -109,7 +113,7 @@ fn entry_of(
             "with a value of its own at rest".to_owned()
         });
     }
-    Ok(Scheduled {
+    Ok(ScheduledLoad {
         name: name.to_owned(),
         load,
         when: part.when.clone(),
@@ -119,7 +123,7 @@ fn entry_of(
     })
 }
 
-impl<'m> Course<'m> {
+impl<'m> MotionSegments<'m> {
     fn of(root: &Section, motion: Option<&'m Motion>) -> Result<Self> {
         let mut segments = Vec::new();
         if let (Some(item), Some(motion)) = (root.peek("motion"), motion) {
@@ -154,8 +158,8 @@ impl<'m> Course<'m> {
 }
 
 /// `segments`, `during` and `direction`.
-fn part<'s>(section: &Section<'s>, course: &Course) -> Result<Part<'s>> {
-    let mut part = Part {
+fn part<'s>(section: &Section<'s>, course: &MotionSegments) -> Result<ActivePart<'s>> {
+    let mut part = ActivePart {
         when: When::default(),
         words: Vec::new(),
         item: None,
@@ -189,7 +193,7 @@ fn part<'s>(section: &Section<'s>, course: &Course) -> Result<Part<'s>> {
 }
 
 /// `segments = [2, 3]`
-fn of_segments(item: &Item, course: &Course) -> Result<(Vec<[f64; 2]>, String)> {
+fn of_segments(item: &Item, course: &MotionSegments) -> Result<(Vec<[f64; 2]>, String)> {
     course.required(item)?;
     let count = course.segments.len();
     if count == 0 {
@@ -248,7 +252,7 @@ fn joined(spans: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
 }
 
 /// `during = ["0.2 s", "0.5 s"]`; in a cycle it can extend past the end.
-fn of_times(item: &Item, course: &Course) -> Result<(Vec<[f64; 2]>, String)> {
+fn of_times(item: &Item, course: &MotionSegments) -> Result<(Vec<[f64; 2]>, String)> {
     let motion = course.required(item)?;
     let times = item.values()?;
     let end = motion.duration();
@@ -287,7 +291,7 @@ fn of_times(item: &Item, course: &Course) -> Result<(Vec<[f64; 2]>, String)> {
 }
 
 /// Instants over the whole motion, inside its stretches, which are also divided at these spans.
-fn instants(course: &Course, spans: &[[f64; 2]]) -> Vec<Now> {
+fn instants(course: &MotionSegments, spans: &[[f64; 2]]) -> Vec<ScheduleInstant> {
     let Some(motion) = course.motion else {
         return Vec::new();
     };
@@ -299,14 +303,14 @@ fn instants(course: &Course, spans: &[[f64; 2]]) -> Vec<Now> {
     for cut in cuts.windows(2) {
         for k in 0..INSTANTS {
             let t = cut[0] + (cut[1] - cut[0]) * (f64::from(k) + 0.5) / f64::from(INSTANTS);
-            found.push(Now::of(t, motion.at(t).omega));
+            found.push(ScheduleInstant::of(t, motion.at(t).omega));
         }
     }
     found
 }
 
 /// Checks that a load acts at some instant of the motion.
-fn check_acts(part: &Part, course: &Course) -> Result<()> {
+fn check_acts(part: &ActivePart, course: &MotionSegments) -> Result<()> {
     let Some(item) = &part.item else {
         return Ok(());
     };

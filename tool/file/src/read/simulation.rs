@@ -4,7 +4,7 @@ mod control;
 mod motor;
 mod place;
 
-pub(super) use control::Around;
+pub(super) use control::SimulationContext;
 
 use crate::model::coordinate::Coordinate;
 use crate::model::simulation::{Shaft, Simulation};
@@ -16,14 +16,14 @@ use crate::text::problem::{Problem, Result};
 use crate::text::section::Section;
 use crate::units::kind::LENGTH;
 use motor::effort;
-use place::Places;
+use place::AxisReader;
 
 /// The most output points of a simulation.
 const MAX_STEPS: f64 = 100_000.0;
 
 /// The simulation for `jred simulate`, if the file has one.
-pub(super) fn read(root: &Section, around: Around) -> Result<Option<Simulation>> {
-    let Around {
+pub(super) fn read(root: &Section, around: SimulationContext) -> Result<Option<Simulation>> {
+    let SimulationContext {
         drive, drive_train, ..
     } = around;
     let Some(section) = root.maybe_table("simulation")? else {
@@ -126,7 +126,7 @@ fn times(section: &Section) -> Result<[Value; 2]> {
 }
 
 /// A position of the prescribed coordinate in a file that prescribes none.
-fn no_axis(position: &Item, around: Around) -> Problem {
+fn no_axis(position: &Item, around: SimulationContext) -> Problem {
     let has = if around.motion.is_some() {
         "a [motion] without `of`"
     } else {
@@ -140,8 +140,8 @@ fn no_axis(position: &Item, around: Around) -> Problem {
 }
 
 /// Start position (rad or m) and speed of the drive link. By default a controlled machine starts with its motion.
-fn start(section: &Section, around: Around) -> Result<[f64; 2]> {
-    let places = Places::of(around);
+fn start(section: &Section, around: SimulationContext) -> Result<[f64; 2]> {
+    let places = AxisReader::of(around);
     let speed = match section.get("start_speed") {
         Some(item) => Some(places.speed(&item)?.drive),
         None => None,

@@ -20,13 +20,13 @@ pub(super) enum Losses {
 }
 
 /// A stage and its place in the file.
-pub(super) struct Placed {
+pub(super) struct StageEntry {
     stage: Stage,
     place: Range<usize>,
 }
 
 /// The stages of a table with `type = "gear-train"`.
-pub(super) fn gears(section: &Section, losses: Losses) -> Result<Vec<Placed>> {
+pub(super) fn gears(section: &Section, losses: Losses) -> Result<Vec<StageEntry>> {
     let stages = section.tables("stage")?;
     stages
         .iter()
@@ -34,7 +34,7 @@ pub(super) fn gears(section: &Section, losses: Losses) -> Result<Vec<Placed>> {
         .collect()
 }
 
-fn gear_pair(section: &Section, losses: Losses) -> Result<Placed> {
+fn gear_pair(section: &Section, losses: Losses) -> Result<StageEntry> {
     let [driver, driven] = [gear(section, "driver")?, gear(section, "driven")?];
     let mesh = section.pick("mesh", [Mesh::External, Mesh::Internal])?;
     let efficiency = efficiency(section, losses)?;
@@ -45,7 +45,7 @@ fn gear_pair(section: &Section, losses: Losses) -> Result<Placed> {
         mesh,
     })
     .and_then(|stage| stage.with_efficiency(efficiency))
-    .map(|stage| Placed {
+    .map(|stage| StageEntry {
         stage,
         place: section.header(),
     })
@@ -60,7 +60,7 @@ fn gear(section: &Section, key: &'static str) -> Result<(u32, f64)> {
 }
 
 /// The stage of a table with `type = "belt"`.
-pub(super) fn belt(section: &Section, losses: Losses) -> Result<Placed> {
+pub(super) fn belt(section: &Section, losses: Losses) -> Result<StageEntry> {
     let [driver, driven] = [pulley(section, "driver")?, pulley(section, "driven")?];
     let mass = section.si("belt_mass")?;
     let efficiency = efficiency(section, losses)?;
@@ -70,7 +70,7 @@ pub(super) fn belt(section: &Section, losses: Losses) -> Result<Placed> {
         mass,
     })
     .and_then(|stage| stage.with_efficiency(efficiency))
-    .map(|stage| Placed {
+    .map(|stage| StageEntry {
         stage,
         place: section.header(),
     })
@@ -79,7 +79,7 @@ pub(super) fn belt(section: &Section, losses: Losses) -> Result<Placed> {
 
 /// The stage of a table with `type = "friction"`: a friction wheel, a V-belt or a disc, whose slip reduces the speed and thus the power. The torques
 /// are in the ratio of the radii, so the efficiency is 1 − ε.
-pub(super) fn friction(section: &Section) -> Result<Placed> {
+pub(super) fn friction(section: &Section) -> Result<StageEntry> {
     let item = section.need("ratio")?;
     let ratio = item.figure()?;
     if ratio.abs() < 1e-3 {
@@ -93,7 +93,7 @@ pub(super) fn friction(section: &Section) -> Result<Placed> {
     let (input, output) = (section.si("input_inertia")?, section.si("output_inertia")?);
     Stage::new(1.0 / (ratio * (1.0 - slip)), [input, output])
         .and_then(|stage| stage.with_efficiency(1.0 - slip))
-        .map(|stage| Placed {
+        .map(|stage| StageEntry {
             stage,
             place: section.header(),
         })
@@ -101,7 +101,7 @@ pub(super) fn friction(section: &Section) -> Result<Placed> {
 }
 
 /// The stages with an additional inertia (kg·m²) after the last.
-pub(super) fn with_load(mut stages: Vec<Placed>, inertia: f64) -> Result<Vec<Placed>> {
+pub(super) fn with_load(mut stages: Vec<StageEntry>, inertia: f64) -> Result<Vec<StageEntry>> {
     if let Some(last) = stages.last_mut() {
         let [driver, driven] = last.stage.inertias();
         let efficiency = last.stage.efficiency();
@@ -113,7 +113,7 @@ pub(super) fn with_load(mut stages: Vec<Placed>, inertia: f64) -> Result<Vec<Pla
 }
 
 /// The stage of a table with `type = "ball-screw"`: 2π/lead (rad of the screw per m of the nut).
-pub(super) fn screw(section: &Section) -> Result<Placed> {
+pub(super) fn screw(section: &Section) -> Result<StageEntry> {
     let lead = section.si("lead")?;
     let left = section.word("hand")? == 1;
     let ratio = std::f64::consts::TAU / lead;
@@ -121,18 +121,18 @@ pub(super) fn screw(section: &Section) -> Result<Placed> {
 }
 
 /// The stage of a table with `type = "rack"`: 1/radius (rad of the pinion per m of the rack).
-pub(super) fn rack(section: &Section) -> Result<Placed> {
+pub(super) fn rack(section: &Section) -> Result<StageEntry> {
     let radius = section.si("radius")?;
     linear(section, 1.0 / radius)
 }
 
 /// A stage with the `ratio` (rad/m) from a rotating to a sliding part.
-fn linear(section: &Section, ratio: f64) -> Result<Placed> {
+fn linear(section: &Section, ratio: f64) -> Result<StageEntry> {
     let (inertia, mass) = (section.si("inertia")?, section.si("mass")?);
     let efficiency = efficiency(section, Losses::Allowed)?;
     Stage::new(ratio, [inertia, mass])
         .and_then(|stage| stage.with_efficiency(efficiency))
-        .map(|stage| Placed {
+        .map(|stage| StageEntry {
             stage,
             place: section.header(),
         })
@@ -154,7 +154,7 @@ fn efficiency(section: &Section, losses: Losses) -> Result<f64> {
 }
 
 /// One train of all stages.
-pub(super) fn train(stages: Vec<Placed>) -> Result<Train> {
+pub(super) fn train(stages: Vec<StageEntry>) -> Result<Train> {
     if let Some(surplus) = stages.get(MAX_STAGES) {
         let most = MAX_STAGES;
         return Err(

@@ -1,6 +1,6 @@
 //! `[tolerance]`: deviations of quantities from their values in the file.
 
-use crate::model::tolerance::{Shape, Tolerance};
+use crate::model::tolerance::{Distribution, Tolerance};
 use crate::text::problem::Result;
 use crate::text::section::Section;
 
@@ -19,8 +19,8 @@ pub(super) fn read(root: &Section) -> Result<Vec<Tolerance>> {
             let [normal, uniform] = ["normal", "uniform"].map(|key| table.get(key));
             table.finish()?;
             let (shape, item) = match (normal, uniform) {
-                (Some(item), None) => (Shape::Normal, item),
-                (None, Some(item)) => (Shape::Uniform, item),
+                (Some(item), None) => (Distribution::Normal, item),
+                (None, Some(item)) => (Distribution::Uniform, item),
                 _ => {
                     return Err(table
                         .problem(

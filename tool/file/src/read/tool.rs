@@ -11,7 +11,7 @@ use crate::text::problem::Result;
 use crate::text::section::Section;
 
 /// A tool slower than this (m or rad per rad or m of the drive link) does not move.
-const STANDS: f64 = 1e-9;
+const STANDSTILL: f64 = 1e-9;
 
 /// Number of positions at which the motion of the tool is checked.
 const POSITIONS: usize = 64;
@@ -100,8 +100,8 @@ fn moves(tool: &Tool, mechanism: &AnyMechanism) -> bool {
             return false;
         };
         frames.get(tool.link).is_some_and(|frame| match tool.place {
-            ToolPlace::Point(at) => frame.point(at).iter().any(|x| x.d1.abs() > STANDS),
-            ToolPlace::Turning => frame.psi.d1.abs() > STANDS,
+            ToolPlace::Point(at) => frame.point(at).iter().any(|x| x.d1.abs() > STANDSTILL),
+            ToolPlace::Turning => frame.psi.d1.abs() > STANDSTILL,
         })
     })
 }

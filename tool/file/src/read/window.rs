@@ -104,12 +104,12 @@ fn window(section: &Section, turns: u32) -> Result<Option<Window>> {
 }
 
 /// Share of a ramp by which the rounding of a window's ends may move it.
-const ROUNDED: f64 = 1e-6;
+const RAMP_ROUNDING: f64 = 1e-6;
 
 /// Checks that the ends have enough digits for the ramp: far from zero, a position is rounded.
 fn precise_enough(between: &Item, [from, to]: [&Value; 2], ramp: f64) -> Result<()> {
     let rounding = f64::EPSILON * from.si.abs().max(to.si.abs());
-    if rounding <= ROUNDED * ramp {
+    if rounding <= RAMP_ROUNDING * ramp {
         return Ok(());
     }
     Err(between

@@ -10,7 +10,7 @@ use std::sync::Arc;
 
 use ::csv::StringRecord;
 
-use super::csv::{Table, name_and_unit};
+use super::csv::{CsvTable, name_and_unit};
 use super::file::Files;
 use super::item::Item;
 use super::problem::{self, Problem};
@@ -27,14 +27,14 @@ const MAX_SIZE: u64 = 64 << 20;
 
 /// A column that a file can have.
 #[derive(Clone, Copy)]
-pub(crate) struct Known {
+pub(crate) struct ColumnSpec {
     /// Its possible names: the usual one first, the one of the machine file's `columns` last. Case does not matter.
     pub(crate) names: &'static [&'static str],
     /// The kind of quantity.
     pub(crate) kind: &'static Kind,
 }
 
-impl Known {
+impl ColumnSpec {
     /// Whether it has this name.
     pub(crate) fn is(&self, name: &str) -> bool {
         self.names.iter().any(|own| own.eq_ignore_ascii_case(name))
@@ -47,19 +47,19 @@ impl Known {
 }
 
 /// A column with these names and this kind of quantity.
-pub(crate) const fn known(names: &'static [&'static str], kind: &'static Kind) -> Known {
-    Known { names, kind }
+pub(crate) const fn known(names: &'static [&'static str], kind: &'static Kind) -> ColumnSpec {
+    ColumnSpec { names, kind }
 }
 
 /// A fault, and the file in which it is shown.
-pub(crate) enum Fault {
+pub(crate) enum CsvFault {
     /// In the CSV file.
     InFile(Problem),
     /// In the machine file.
     InMachine(Problem),
 }
 
-impl From<Problem> for Fault {
+impl From<Problem> for CsvFault {
     fn from(problem: Problem) -> Self {
         Self::InFile(problem)
     }
@@ -68,7 +68,7 @@ impl From<Problem> for Fault {
 /// The columns that a kind of file can have.
 pub(crate) struct Format<'f> {
     /// The columns.
-    pub(crate) known: &'f [Known],
+    pub(crate) known: &'f [ColumnSpec],
     /// Whether a column with this other name is ignored.
     pub(crate) ignored: fn(&str) -> bool,
     /// A header to suggest.
@@ -103,10 +103,10 @@ impl CsvFile {
     }
 
     /// The fault as a problem shown in its file.
-    pub(crate) fn shows(&self, fault: impl Into<Fault>) -> Problem {
+    pub(crate) fn shows(&self, fault: impl Into<CsvFault>) -> Problem {
         match fault.into() {
-            Fault::InFile(problem) => problem.in_file(&self.name, &self.text),
-            Fault::InMachine(problem) => problem,
+            CsvFault::InFile(problem) => problem.in_file(&self.name, &self.text),
+            CsvFault::InMachine(problem) => problem,
         }
     }
 }
@@ -189,12 +189,12 @@ impl Columns {
 }
 
 /// Reads the header and the rows of a file with this layout.
-pub(crate) fn read(text: &str, format: &Format, layout: &Layout) -> Result<Columns, Fault> {
+pub(crate) fn read(text: &str, format: &Format, layout: &Layout) -> Result<Columns, CsvFault> {
     let whole = text;
     let text = &*layout.without_skipped(text);
     let mut table = match &layout.titles {
-        Some((titles, _)) => Table::titled(text, titles),
-        None => Table::read(text)?,
+        Some((titles, _)) => CsvTable::titled(text, titles),
+        None => CsvTable::read(text)?,
     };
     let titles = table
         .header()
@@ -216,7 +216,7 @@ pub(crate) fn read(text: &str, format: &Format, layout: &Layout) -> Result<Colum
             titles.len(),
             table.row().len()
         );
-        return Err(Fault::InMachine(
+        return Err(CsvFault::InMachine(
             item.problem(&what, "titles")
                 .help("give one title for each column of the file"),
         ));
@@ -296,14 +296,14 @@ pub(crate) fn read(text: &str, format: &Format, layout: &Layout) -> Result<Colum
 pub(crate) fn has(
     text: &str,
     layout: &Layout,
-    known: &Known,
-    other: &Known,
-) -> Result<bool, Fault> {
+    known: &ColumnSpec,
+    other: &ColumnSpec,
+) -> Result<bool, CsvFault> {
     let text = &*layout.without_skipped(text);
     let titles: Vec<Title> = if let Some((titles, _)) = &layout.titles {
         titles.iter().map(|title| Title::of(title)).collect()
     } else {
-        let table = Table::read(text)?;
+        let table = CsvTable::read(text)?;
         let titles = table.header().iter();
         titles.map(|title| Title::of(unquoted(title))).collect()
     };

@@ -13,7 +13,7 @@ use crate::units::kind::Kind;
 
 /// A table, read row by row.
 #[derive(Debug)]
-pub struct Table<'t> {
+pub struct CsvTable<'t> {
     text: &'t str,
     separator: char,
     reader: Reader<&'t [u8]>,
@@ -23,7 +23,7 @@ pub struct Table<'t> {
     over: bool,
 }
 
-impl<'t> Table<'t> {
+impl<'t> CsvTable<'t> {
     /// A table with a header.
     ///
     /// # Errors

@@ -6,7 +6,7 @@ use std::ops::Range;
 use toml::Spanned;
 use toml::de::DeValue;
 
-use super::key::{Form, Kinds, Limit, OPEN};
+use super::key::{Kinds, OPEN, ValueForm, ValueRange};
 use super::problem::{Problem, Result, quoted};
 use super::section::Section;
 use crate::number::rounding::figure;
@@ -26,7 +26,7 @@ pub struct Item<'a> {
     key_span: Range<usize>,
     value: &'a Spanned<DeValue<'a>>,
     /// Its form, and the value that messages propose, if its key is described.
-    form: Option<Form>,
+    form: Option<ValueForm>,
     example: &'static str,
     /// Whether the coordinate of its quantities is a length.
     slides: bool,
@@ -68,7 +68,12 @@ impl<'a> Item<'a> {
     }
 
     /// The same with a description.
-    pub(crate) fn described(self, form: Option<Form>, example: &'static str, slides: bool) -> Self {
+    pub(crate) fn described(
+        self,
+        form: Option<ValueForm>,
+        example: &'static str,
+        slides: bool,
+    ) -> Self {
         Self {
             form,
             example,
@@ -163,14 +168,14 @@ impl<'a> Item<'a> {
     }
 
     /// The kinds of its quantities.
-    fn kinds(&self) -> (Kinds, Limit) {
+    fn kinds(&self) -> (Kinds, ValueRange) {
         let kinds = |form| match form {
-            Form::Quantity(kinds, limit) => Some((kinds, limit)),
-            Form::Pair(kinds) => Some((kinds, Limit::Any)),
+            ValueForm::Quantity(kinds, limit) => Some((kinds, limit)),
+            ValueForm::Pair(kinds) => Some((kinds, ValueRange::Any)),
             _ => None,
         };
         let found = self.form.and_then(|form| form.first(kinds));
-        found.unwrap_or(([&NO_KIND; 2], Limit::Any))
+        found.unwrap_or(([&NO_KIND; 2], ValueRange::Any))
     }
 
     /// The quantity that its description asks for, within its limits.
@@ -195,7 +200,7 @@ impl<'a> Item<'a> {
     /// The plain number that its description asks for.
     pub(crate) fn figure(&self) -> Result<f64> {
         let limits = |form| match form {
-            Form::Number(limits) => Some(limits),
+            ValueForm::Number(limits) => Some(limits),
             _ => None,
         };
         let limits = self.form.and_then(|form| form.first(limits));
@@ -204,7 +209,7 @@ impl<'a> Item<'a> {
 
     /// The whole number that its description asks for.
     pub(crate) fn whole(&self) -> Result<u32> {
-        let Some(Form::Count(limits)) = self.form else {
+        let Some(ValueForm::Count(limits)) = self.form else {
             return self.count(u32::MAX, "1");
         };
         self.count_within(limits, &self.example())
@@ -212,7 +217,7 @@ impl<'a> Item<'a> {
 
     /// The index of the word that its description knows.
     pub(crate) fn word(&self) -> Result<usize> {
-        let Some(Form::Words(words)) = self.form else {
+        let Some(ValueForm::Words(words)) = self.form else {
             return Ok(0);
         };
         self.choice(words)
@@ -367,7 +372,7 @@ impl<'a> Item<'a> {
             return Err(self.wrong_type("a list", &format!("{} = {example}", self.key)));
         };
         let list = |form| match form {
-            Form::List(element, counts) => Some((*element, counts)),
+            ValueForm::List(element, counts) => Some((*element, counts)),
             _ => None,
         };
         let described = self.form.and_then(|form| form.first(list));
@@ -427,11 +432,11 @@ impl<'a> Item<'a> {
             let example = format!("a table: {title}, or {} = {{ … }}", self.key);
             return Err(self.wrong_type("a table", &example));
         };
-        let keys = self.form.and_then(Form::table).unwrap_or(&OPEN);
+        let keys = self.form.and_then(ValueForm::table).unwrap_or(&OPEN);
         let section = Section::described(title, self.span(), table, (keys, self.slides));
         section.not_both(keys)?;
         Ok(match self.form {
-            Some(Form::Named(entry)) => section.of_entries(*entry),
+            Some(ValueForm::Named(entry)) => section.of_entries(*entry),
             _ => section,
         })
     }
@@ -479,16 +484,16 @@ impl Value {
     }
 
     /// Checks that the value is within limits.
-    pub(crate) fn check(&self, limit: Limit) -> Result<()> {
+    pub(crate) fn check(&self, limit: ValueRange) -> Result<()> {
         match limit {
-            Limit::Any => Ok(()),
-            Limit::Positive => self.check_positive(),
-            Limit::NotNegative => self.check_not_negative(),
-            Limit::UpTo(most) => self.check_positive().and_then(|()| self.check_most(most)),
-            Limit::Within(most) => self
+            ValueRange::Any => Ok(()),
+            ValueRange::Positive => self.check_positive(),
+            ValueRange::NotNegative => self.check_not_negative(),
+            ValueRange::UpTo(most) => self.check_positive().and_then(|()| self.check_most(most)),
+            ValueRange::Within(most) => self
                 .check_not_negative()
                 .and_then(|()| self.check_most(most)),
-            Limit::Between(least, most) => self.check_between([least, most]),
+            ValueRange::Between(least, most) => self.check_between([least, most]),
         }
     }
 

@@ -25,7 +25,7 @@ pub const EFFORT_RATES: Kinds = [&TORQUE_RATE, &FORCE_RATE];
 
 /// Limits of a quantity (SI).
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Limit {
+pub enum ValueRange {
     /// Any value.
     Any,
     /// Greater than zero.
@@ -42,9 +42,9 @@ pub enum Limit {
 
 /// The form of a key's value.
 #[derive(Clone, Copy, Debug)]
-pub enum Form {
+pub enum ValueForm {
     /// A quantity.
-    Quantity(Kinds, Limit),
+    Quantity(Kinds, ValueRange),
     /// Two quantities of one kind.
     Pair(Kinds),
     /// A plain number within limits.
@@ -62,35 +62,35 @@ pub enum Form {
     /// One of these words.
     Words(&'static [&'static str]),
     /// A table.
-    Table(&'static Table),
+    Table(&'static KeyTable),
     /// A list of tables, from the first number to the second; the cure if there are more.
-    Tables(&'static Table, [usize; 2], &'static str),
+    Tables(&'static KeyTable, [usize; 2], &'static str),
     /// A table of points, or of other values of this form, whose keys are names that the user chooses.
-    Named(&'static Form),
+    Named(&'static ValueForm),
     /// A list of values of this form, from the first number to the second.
-    List(&'static Form, [usize; 2]),
+    List(&'static ValueForm, [usize; 2]),
     /// A list of one value of each form.
-    Tuple(&'static [Form]),
+    Tuple(&'static [ValueForm]),
     /// A value of any of these forms.
-    Any(&'static [Form]),
+    Any(&'static [ValueForm]),
 }
 
 /// A quantity.
-pub const fn quantity(kind: &'static Kind) -> Form {
-    Form::Quantity([kind, kind], Limit::Any)
+pub const fn quantity(kind: &'static Kind) -> ValueForm {
+    ValueForm::Quantity([kind, kind], ValueRange::Any)
 }
 
 /// A quantity of the coordinate.
-pub const fn of_axis(kinds: Kinds) -> Form {
-    Form::Quantity(kinds, Limit::Any)
+pub const fn of_axis(kinds: Kinds) -> ValueForm {
+    ValueForm::Quantity(kinds, ValueRange::Any)
 }
 
 /// Two quantities.
-pub const fn pair(kind: &'static Kind) -> Form {
-    Form::Pair([kind, kind])
+pub const fn pair(kind: &'static Kind) -> ValueForm {
+    ValueForm::Pair([kind, kind])
 }
 
-impl Form {
+impl ValueForm {
     /// The value that messages propose, as a file gives it: `given`, or one of its kind.
     pub(crate) fn example(&self, given: &str, slides: bool) -> String {
         let side = usize::from(slides);
@@ -116,7 +116,7 @@ impl Form {
     }
 
     /// The keys of the table that it may be.
-    pub(crate) fn table(self) -> Option<&'static Table> {
+    pub(crate) fn table(self) -> Option<&'static KeyTable> {
         self.first(|form| match form {
             Self::Table(table) | Self::Tables(table, ..) => Some(table),
             _ => None,
@@ -125,7 +125,7 @@ impl Form {
 
     /// The same quantity within limits.
     #[must_use]
-    pub const fn limited(self, limit: Limit) -> Self {
+    pub const fn limited(self, limit: ValueRange) -> Self {
         match self {
             Self::Quantity(kinds, _) => Self::Quantity(kinds, limit),
             other => other,
@@ -135,13 +135,13 @@ impl Form {
     /// A quantity greater than zero.
     #[must_use]
     pub const fn positive(self) -> Self {
-        self.limited(Limit::Positive)
+        self.limited(ValueRange::Positive)
     }
 
     /// A quantity of zero or more.
     #[must_use]
     pub const fn not_negative(self) -> Self {
-        self.limited(Limit::NotNegative)
+        self.limited(ValueRange::NotNegative)
     }
 }
 
@@ -162,7 +162,7 @@ pub struct Key {
     /// Its name.
     pub name: &'static str,
     /// The form of its value.
-    pub form: Form,
+    pub form: ValueForm,
     /// Whether it is needed.
     pub need: Need,
     /// The value that messages propose, as a file gives it; if empty, that of its kind.
@@ -174,7 +174,7 @@ pub struct Key {
 }
 
 /// A required key.
-pub const fn key(name: &'static str, form: Form, help: &'static str) -> Key {
+pub const fn key(name: &'static str, form: ValueForm, help: &'static str) -> Key {
     Key {
         name,
         form,
@@ -186,7 +186,7 @@ pub const fn key(name: &'static str, form: Form, help: &'static str) -> Key {
 }
 
 /// A key that may be missing.
-pub const fn may(name: &'static str, form: Form, help: &'static str) -> Key {
+pub const fn may(name: &'static str, form: ValueForm, help: &'static str) -> Key {
     Key {
         need: Need::Optional,
         ..key(name, form, help)
@@ -227,7 +227,7 @@ impl Key {
 
 /// The keys of a table.
 #[derive(Debug)]
-pub struct Table {
+pub struct KeyTable {
     /// Its name in documents; without one its keys are listed with those of the table that it is in.
     pub name: &'static str,
     /// Its keys, in groups.
@@ -235,7 +235,7 @@ pub struct Table {
     /// The key whose word decides which other keys are used; empty without such a key.
     pub by: &'static str,
     /// Tables of further keys, by that word.
-    pub variants: &'static [&'static Table],
+    pub variants: &'static [&'static KeyTable],
     /// Keys that users look for here, and where they belong.
     pub elsewhere: &'static [(&'static str, &'static str)],
     /// Keys of which at most one is given, and what to do if more are.
@@ -246,9 +246,9 @@ pub struct Table {
 pub const KEEP_ONE: &str = "keep one of them";
 
 /// A table without descriptions: any key may be asked for.
-pub static OPEN: Table = Table::of("", &[]);
+pub static OPEN: KeyTable = KeyTable::of("", &[]);
 
-impl Table {
+impl KeyTable {
     /// A table of these keys.
     pub const fn of(name: &'static str, keys: &'static [&'static [Key]]) -> Self {
         Self {

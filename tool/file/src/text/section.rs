@@ -9,7 +9,7 @@ use toml::Spanned;
 use toml::de::DeTable;
 
 use super::item::{Item, Value};
-use super::key::{Form, Key, Need, OPEN, Table};
+use super::key::{Key, KeyTable, Need, OPEN, ValueForm};
 use super::problem::{Problem, Result};
 use crate::plain;
 use crate::units::{self, closest, meant};
@@ -29,11 +29,11 @@ pub struct Section<'a> {
     header: Range<usize>,
     table: &'a DeTable<'a>,
     /// The descriptions of its keys, and of those by the word that was chosen.
-    keys: &'static Table,
-    variant: Cell<Option<&'static Table>>,
+    keys: &'static KeyTable,
+    variant: Cell<Option<&'static KeyTable>>,
     word: Cell<Option<&'static str>>,
     /// The form of its entries, if the user chooses their names.
-    entry: Option<Form>,
+    entry: Option<ValueForm>,
     /// Whether the coordinate of its quantities is a length.
     slides: Cell<bool>,
     known: RefCell<Vec<&'static str>>,
@@ -50,7 +50,7 @@ impl<'a> Section<'a> {
         title: String,
         header: Range<usize>,
         table: &'a DeTable<'a>,
-        (keys, slides): (&'static Table, bool),
+        (keys, slides): (&'static KeyTable, bool),
     ) -> Self {
         Self {
             title,
@@ -66,7 +66,7 @@ impl<'a> Section<'a> {
     }
 
     /// The same; the user chooses the names of its entries, which hold this.
-    pub(crate) fn of_entries(self, entry: Form) -> Self {
+    pub(crate) fn of_entries(self, entry: ValueForm) -> Self {
         let entry = Some(entry);
         Self { entry, ..self }
     }
@@ -87,13 +87,13 @@ impl<'a> Section<'a> {
     }
 
     /// Adds the keys of a variant.
-    pub(crate) fn vary(&self, variant: &'static Table) -> Result<()> {
+    pub(crate) fn vary(&self, variant: &'static KeyTable) -> Result<()> {
         self.variant.set(Some(variant));
         self.not_both(variant)
     }
 
     /// Refuses keys that exclude one another.
-    pub(crate) fn not_both(&self, table: &Table) -> Result<()> {
+    pub(crate) fn not_both(&self, table: &KeyTable) -> Result<()> {
         for (keys, cure) in table.either {
             let mut given = keys
                 .iter()
@@ -118,7 +118,7 @@ impl<'a> Section<'a> {
 
     /// The descriptions of all keys, in their order.
     fn keys(&self) -> impl Iterator<Item = &'static Key> {
-        let further = self.variant.get().into_iter().flat_map(Table::keys);
+        let further = self.variant.get().into_iter().flat_map(KeyTable::keys);
         self.keys.keys().chain(further)
     }
 
@@ -357,8 +357,8 @@ impl<'a> Section<'a> {
             return self.missing(name, name);
         };
         let example = match key.form {
-            Form::Table(_) => format!("{}{}", self.child(name), key.example),
-            Form::Tables(..) => format!("{}{}", self.children(name), key.example),
+            ValueForm::Table(_) => format!("{}{}", self.child(name), key.example),
+            ValueForm::Tables(..) => format!("{}{}", self.children(name), key.example),
             form => format!("{name} = {}", form.example(key.example, self.slides.get())),
         };
         self.missing(name, &example)
@@ -382,7 +382,7 @@ impl<'a> Section<'a> {
     /// The quantity in SI; if not given, its default.
     pub(crate) fn si(&self, name: &'static str) -> Result<f64> {
         match self.description(name).map(|key| (key.form, key.need)) {
-            Some((Form::Quantity(kinds, _), Need::Default(default))) => {
+            Some((ValueForm::Quantity(kinds, _), Need::Default(default))) => {
                 let kind = kinds[usize::from(self.slides.get())];
                 Ok(self.maybe(name)?.unwrap_or_else(|| kind.value_of(default)))
             }
@@ -425,7 +425,7 @@ impl<'a> Section<'a> {
             (
                 None,
                 Some(Key {
-                    form: Form::Words(words),
+                    form: ValueForm::Words(words),
                     need: Need::Default(default),
                     ..
                 }),
@@ -464,7 +464,7 @@ impl<'a> Section<'a> {
     /// The tables of a list, in their number; none if the list may be missing.
     pub(crate) fn tables(&self, name: &'static str) -> Result<Vec<Self>> {
         let Some(Key {
-            form: Form::Tables(_, [least, most], cure),
+            form: ValueForm::Tables(_, [least, most], cure),
             need,
             ..
         }) = self.description(name)

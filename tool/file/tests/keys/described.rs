@@ -6,7 +6,7 @@ use std::path::PathBuf;
 
 use jred_file::keys::MACHINE;
 use jred_file::read;
-use jred_file::text::key::{Form, Table};
+use jred_file::text::key::{KeyTable, ValueForm};
 use serde_json::{Value, json};
 
 use super::validated::machines;
@@ -38,10 +38,13 @@ fn variants() -> Vec<(PathBuf, Value)> {
             .get_mut("rules")
             .filter(|rules| **rules == json!({}))
         {
-            let Some(Form::Table(table)) = MACHINE.key("rules").map(|key| key.form) else {
+            let Some(ValueForm::Table(table)) = MACHINE.key("rules").map(|key| key.form) else {
                 panic!("no table of rules");
             };
-            for key in table.keys().filter(|key| matches!(key.form, Form::Any(_))) {
+            for key in table
+                .keys()
+                .filter(|key| matches!(key.form, ValueForm::Any(_)))
+            {
                 rules[key.name] = json!({ "limit": 1 });
             }
         }
@@ -75,7 +78,7 @@ fn every_key_is_read() {
                     object.remove(*other);
                 }
                 table[key.name] = match key.form {
-                    Form::Flag => json!(7),
+                    ValueForm::Flag => json!(7),
                     _ => json!(true),
                 };
                 let text = toml::to_string(&changed).unwrap();
@@ -100,7 +103,7 @@ fn every_key_is_read() {
 
 /// Every described key of a machine file: "slider-crank.crank.mass".
 fn all_keys() -> Vec<String> {
-    fn walk(table: &'static Table, name: &str, found: &mut Vec<String>) {
+    fn walk(table: &'static KeyTable, name: &str, found: &mut Vec<String>) {
         for key in table.keys() {
             let name = format!("{name}.{}", key.name);
             for inner in tables_of(key.form)
@@ -127,7 +130,7 @@ fn all_keys() -> Vec<String> {
 #[test]
 fn the_types_of_mechanism_are_those_of_the_descriptions() {
     let described = MACHINE.key("mechanism").map(|key| key.form);
-    let Some(Form::Table(mechanism)) = described else {
+    let Some(ValueForm::Table(mechanism)) = described else {
         panic!("no table of mechanisms");
     };
     let names: Vec<_> = mechanism

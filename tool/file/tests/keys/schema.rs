@@ -5,7 +5,7 @@ use std::fs;
 use std::path::PathBuf;
 
 use jred_file::keys::MACHINE;
-use jred_file::text::key::{Form, Key, Kinds, Limit, Need, Table};
+use jred_file::text::key::{Key, KeyTable, Kinds, Need, ValueForm, ValueRange};
 use jred_file::units::kind::{Kind, SHARE};
 use serde_json::{Map, Value, json};
 
@@ -43,10 +43,10 @@ fn slug(kind: &Kind) -> String {
 
 impl Maker {
     /// A quantity; the schema cannot compare numbers with units, so of its limits it knows the sign.
-    fn quantity(&mut self, kinds: Kinds, limit: Limit) -> Value {
+    fn quantity(&mut self, kinds: Kinds, limit: ValueRange) -> Value {
         let unsigned = match limit {
-            Limit::Any => false,
-            Limit::Between(least, _) => least >= 0.0,
+            ValueRange::Any => false,
+            ValueRange::Between(least, _) => least >= 0.0,
             _ => true,
         };
         let mut kinds = kinds.to_vec();
@@ -73,14 +73,14 @@ impl Maker {
         reference
     }
 
-    fn form(&mut self, form: Form, words: &[&str]) -> Value {
+    fn form(&mut self, form: ValueForm, words: &[&str]) -> Value {
         match form {
-            Form::Quantity(kinds, limit) => self.quantity(kinds, limit),
-            Form::Pair(kinds) => {
-                let item = self.quantity(kinds, Limit::Any);
+            ValueForm::Quantity(kinds, limit) => self.quantity(kinds, limit),
+            ValueForm::Pair(kinds) => {
+                let item = self.quantity(kinds, ValueRange::Any);
                 json!({ "type": "array", "items": item, "minItems": 2, "maxItems": 2 })
             }
-            Form::Number([least, most]) => {
+            ValueForm::Number([least, most]) => {
                 let mut number = json!({ "type": "number" });
                 bound(
                     &mut number,
@@ -94,7 +94,7 @@ impl Maker {
                 );
                 number
             }
-            Form::Count([least, most]) => {
+            ValueForm::Count([least, most]) => {
                 let mut count = json!({ "type": "integer", "minimum": least });
                 bound(
                     &mut count,
@@ -103,32 +103,34 @@ impl Maker {
                 );
                 count
             }
-            Form::Text | Form::File | Form::Name(_) => json!({ "type": "string", "minLength": 1 }),
-            Form::Flag => json!({ "type": "boolean" }),
-            Form::Words(_) => json!({ "enum": words }),
-            Form::Table(table) => self.table(table),
-            Form::Tables(table, counts, _) => {
+            ValueForm::Text | ValueForm::File | ValueForm::Name(_) => {
+                json!({ "type": "string", "minLength": 1 })
+            }
+            ValueForm::Flag => json!({ "type": "boolean" }),
+            ValueForm::Words(_) => json!({ "enum": words }),
+            ValueForm::Table(table) => self.table(table),
+            ValueForm::Tables(table, counts, _) => {
                 let item = self.table(table);
                 Self::list(&item, counts)
             }
-            Form::Named(inner) => {
+            ValueForm::Named(inner) => {
                 let inner = self.form(*inner, &[]);
                 json!({ "type": "object", "additionalProperties": inner })
             }
-            Form::List(inner, counts) => {
+            ValueForm::List(inner, counts) => {
                 let item = self.form(*inner, &[]);
                 Self::list(&item, counts)
             }
-            Form::Tuple(forms) => {
+            ValueForm::Tuple(forms) => {
                 let items: Vec<_> = forms.iter().map(|form| self.form(*form, &[])).collect();
                 let count = items.len();
                 json!({ "type": "array", "prefixItems": items, "minItems": count, "maxItems": count })
             }
-            Form::Any(forms) => {
+            ValueForm::Any(forms) => {
                 let any: Vec<_> = forms
                     .iter()
                     .map(|form| match form {
-                        Form::Words(words) => self.form(*form, words),
+                        ValueForm::Words(words) => self.form(*form, words),
                         form => self.form(*form, &[]),
                     })
                     .collect();
@@ -149,7 +151,7 @@ impl Maker {
     }
 
     /// A table; one with a name is defined once.
-    fn table(&mut self, table: &'static Table) -> Value {
+    fn table(&mut self, table: &'static KeyTable) -> Value {
         let own: Vec<Key> = table.keys().copied().collect();
         if table.name.is_empty() {
             return self.object(&[table], &own, table.by);
@@ -167,7 +169,7 @@ impl Maker {
     }
 
     /// A table whose further keys depend on a word, or on whether a key is there.
-    fn one_of(&mut self, table: &'static Table, own: &[Key]) -> Value {
+    fn one_of(&mut self, table: &'static KeyTable, own: &[Key]) -> Value {
         let mut objects = Vec::new();
         let by_word = own.iter().any(|key| key.name == table.by);
         if !by_word {
@@ -189,7 +191,7 @@ impl Maker {
     }
 
     /// A table with these keys; the key `by` decides which are used.
-    fn object(&mut self, tables: &[&Table], keys: &[Key], by: &str) -> Value {
+    fn object(&mut self, tables: &[&KeyTable], keys: &[Key], by: &str) -> Value {
         let table = tables[0];
         let mut properties = Map::new();
         for key in keys {
@@ -221,7 +223,7 @@ impl Maker {
         object
     }
 
-    fn property(&mut self, table: &Table, key: &Key) -> Value {
+    fn property(&mut self, table: &KeyTable, key: &Key) -> Value {
         let mut value = self.form(key.form, &words_of(table, key));
         // Some editors read nothing beside a reference.
         if value.get("$ref").is_some() {
@@ -236,18 +238,20 @@ impl Maker {
 }
 
 /// A default as a file gives it.
-pub(super) fn default_of(form: Form, default: &str) -> Value {
+pub(super) fn default_of(form: ValueForm, default: &str) -> Value {
     match form {
-        Form::Quantity([kind, _], _) if default == "0" && kind.unit != SHARE.unit => {
+        ValueForm::Quantity([kind, _], _) if default == "0" && kind.unit != SHARE.unit => {
             json!(format!("0 {}", kind.unit))
         }
-        Form::Pair([kind, _]) => {
+        ValueForm::Pair([kind, _]) => {
             let zero = format!("0 {}", kind.unit);
             json!([zero, zero])
         }
-        Form::Any([first, ..]) => default_of(*first, default),
-        Form::Number(_) | Form::Count(_) | Form::Flag => serde_json::from_str(default).unwrap(),
-        Form::Quantity(..) if default == "0" => json!(0),
+        ValueForm::Any([first, ..]) => default_of(*first, default),
+        ValueForm::Number(_) | ValueForm::Count(_) | ValueForm::Flag => {
+            serde_json::from_str(default).unwrap()
+        }
+        ValueForm::Quantity(..) if default == "0" => json!(0),
         _ => json!(default),
     }
 }
@@ -257,7 +261,7 @@ fn choices(keys: &[Key], by: &str) -> Vec<Value> {
     let Some(chooser) = keys.iter().find(|key| key.name == by) else {
         return Vec::new();
     };
-    let Form::Words(words) = chooser.form else {
+    let ValueForm::Words(words) = chooser.form else {
         return Vec::new();
     };
     let mut groups: Vec<(Vec<&str>, Vec<&str>, Vec<&str>)> = Vec::new();

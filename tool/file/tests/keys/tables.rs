@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 use std::fs;
 use std::path::PathBuf;
 
-use jred_file::text::key::{Form, Key, Kinds, Limit, Need, Table};
+use jred_file::text::key::{Key, KeyTable, Kinds, Need, ValueForm, ValueRange};
 use jred_file::units::kind::{Kind, SHARE};
 
 use super::{blesses, named, root, words_of};
@@ -25,7 +25,7 @@ fn nouns([turns, slides]: Kinds, plural: &str) -> String {
     format!("{first}{plural} or {second}{plural}")
 }
 
-fn limit(kinds: Kinds, limit: Limit) -> String {
+fn limit(kinds: Kinds, limit: ValueRange) -> String {
     let shown = |si: f64| {
         if kinds[0].unit == SHARE.unit {
             format!("{} %", si * 100.0)
@@ -34,12 +34,12 @@ fn limit(kinds: Kinds, limit: Limit) -> String {
         }
     };
     match limit {
-        Limit::Any => String::new(),
-        Limit::Positive => " > 0".to_owned(),
-        Limit::NotNegative => " ≥ 0".to_owned(),
-        Limit::UpTo(most) => format!(" > 0, ≤ {}", shown(most)),
-        Limit::Within(most) => format!(" ≥ 0, ≤ {}", shown(most)),
-        Limit::Between(least, most) => format!(", {} to {}", shown(least), shown(most)),
+        ValueRange::Any => String::new(),
+        ValueRange::Positive => " > 0".to_owned(),
+        ValueRange::NotNegative => " ≥ 0".to_owned(),
+        ValueRange::UpTo(most) => format!(" > 0, ≤ {}", shown(most)),
+        ValueRange::Within(most) => format!(" ≥ 0, ≤ {}", shown(most)),
+        ValueRange::Between(least, most) => format!(", {} to {}", shown(least), shown(most)),
     }
 }
 
@@ -54,37 +54,37 @@ fn count([least, most]: [usize; 2]) -> String {
 }
 
 /// The form of a key's value, in words.
-fn value(form: Form, words: &[&str]) -> String {
+fn value(form: ValueForm, words: &[&str]) -> String {
     match form {
-        Form::Quantity(kinds, bound) => nouns(kinds, "") + &limit(kinds, bound),
-        Form::Pair(kinds) => format!("pair of {}", nouns(kinds, "s")),
-        Form::Number([least, most]) if least > 0.0 && least < 1e-4 => {
+        ValueForm::Quantity(kinds, bound) => nouns(kinds, "") + &limit(kinds, bound),
+        ValueForm::Pair(kinds) => format!("pair of {}", nouns(kinds, "s")),
+        ValueForm::Number([least, most]) if least > 0.0 && least < 1e-4 => {
             format!("number, {least:e} to {most:e}")
         }
-        Form::Number([least, most]) if least > -1e3 => format!("number, {least} to {most}"),
-        Form::Number(_) => "number".to_owned(),
-        Form::Count([_, u32::MAX]) => "whole number".to_owned(),
-        Form::Count([least, most]) => format!("whole number, {least} to {most}"),
-        Form::Text => "text".to_owned(),
-        Form::File => "CSV file".to_owned(),
-        Form::Name(what) => format!("name of {what}"),
-        Form::Flag => "`true`, `false`".to_owned(),
-        Form::Words(_) if words.len() > MANY => "word".to_owned(),
-        Form::Words(_) => {
+        ValueForm::Number([least, most]) if least > -1e3 => format!("number, {least} to {most}"),
+        ValueForm::Number(_) => "number".to_owned(),
+        ValueForm::Count([_, u32::MAX]) => "whole number".to_owned(),
+        ValueForm::Count([least, most]) => format!("whole number, {least} to {most}"),
+        ValueForm::Text => "text".to_owned(),
+        ValueForm::File => "CSV file".to_owned(),
+        ValueForm::Name(what) => format!("name of {what}"),
+        ValueForm::Flag => "`true`, `false`".to_owned(),
+        ValueForm::Words(_) if words.len() > MANY => "word".to_owned(),
+        ValueForm::Words(_) => {
             let quoted = words.iter().map(|word| format!("`\"{word}\"`"));
             quoted.collect::<Vec<_>>().join(", ")
         }
-        Form::Table(_) => "table".to_owned(),
-        Form::Tables(_, counts, _) => format!("list of {}tables", count(counts)),
-        Form::Named(inner) => format!("table of {}", many(*inner)),
-        Form::List(inner, counts) => format!("list of {}{}", count(counts), many(*inner)),
-        Form::Tuple(forms) => {
+        ValueForm::Table(_) => "table".to_owned(),
+        ValueForm::Tables(_, counts, _) => format!("list of {}tables", count(counts)),
+        ValueForm::Named(inner) => format!("table of {}", many(*inner)),
+        ValueForm::List(inner, counts) => format!("list of {}{}", count(counts), many(*inner)),
+        ValueForm::Tuple(forms) => {
             let parts = forms.iter().map(|form| value(*form, &[]));
             format!("`[{}]`", parts.collect::<Vec<_>>().join(", "))
         }
-        Form::Any(forms) => {
+        ValueForm::Any(forms) => {
             let parts = forms.iter().map(|form| match form {
-                Form::Words(words) => value(*form, words),
+                ValueForm::Words(words) => value(*form, words),
                 form => value(*form, &[]),
             });
             parts.collect::<Vec<_>>().join(" or ")
@@ -93,24 +93,24 @@ fn value(form: Form, words: &[&str]) -> String {
 }
 
 /// Several of them.
-fn many(form: Form) -> String {
+fn many(form: ValueForm) -> String {
     match form {
-        Form::Text => "texts".to_owned(),
-        Form::Name(what) => format!("names of {what}"),
-        Form::Count(_) => "whole numbers".to_owned(),
-        Form::Quantity(kinds, _) => nouns(kinds, "s"),
-        Form::Pair(kinds) => format!("pairs of {}", nouns(kinds, "s")),
-        Form::Any(forms) => {
+        ValueForm::Text => "texts".to_owned(),
+        ValueForm::Name(what) => format!("names of {what}"),
+        ValueForm::Count(_) => "whole numbers".to_owned(),
+        ValueForm::Quantity(kinds, _) => nouns(kinds, "s"),
+        ValueForm::Pair(kinds) => format!("pairs of {}", nouns(kinds, "s")),
+        ValueForm::Any(forms) => {
             let parts = forms.iter().map(|form| many(*form));
             parts.collect::<Vec<_>>().join(" or ")
         }
-        Form::Table(_) => "tables".to_owned(),
+        ValueForm::Table(_) => "tables".to_owned(),
         form => value(form, &[]),
     }
 }
 
 /// The second column of a row.
-pub(super) fn cell(table: &Table, key: &Key, only: &[&str]) -> String {
+pub(super) fn cell(table: &KeyTable, key: &Key, only: &[&str]) -> String {
     let mut cell = String::new();
     if !only.is_empty() {
         write!(cell, "{}: ", only.join(", ")).unwrap();
@@ -118,9 +118,9 @@ pub(super) fn cell(table: &Table, key: &Key, only: &[&str]) -> String {
     cell += &value(key.form, &words_of(table, key));
     if let Need::Default(default) = key.need {
         match key.form {
-            Form::Words(_) => write!(cell, " (`\"{default}\"`)").unwrap(),
-            Form::Flag | Form::Text => write!(cell, " (`{default}`)").unwrap(),
-            Form::Pair(_) => cell += " (0, 0)",
+            ValueForm::Words(_) => write!(cell, " (`\"{default}\"`)").unwrap(),
+            ValueForm::Flag | ValueForm::Text => write!(cell, " (`{default}`)").unwrap(),
+            ValueForm::Pair(_) => cell += " (0, 0)",
             _ => write!(cell, " ({default})").unwrap(),
         }
     }
@@ -164,7 +164,7 @@ impl<'n> Shown<'n> {
 
 /// Rows of keys with the same second column are one; `with` are the words with which the table is used.
 fn rows(
-    table: &'static Table,
+    table: &'static KeyTable,
     path: &str,
     with: &[&str],
     shown: Shown,
@@ -184,7 +184,9 @@ fn rows(
             _ => key.only,
         };
         let inner = match key.form {
-            Form::Table(inner) | Form::Tables(inner, ..) if inner.name.is_empty() => Some(inner),
+            ValueForm::Table(inner) | ValueForm::Tables(inner, ..) if inner.name.is_empty() => {
+                Some(inner)
+            }
             _ => None,
         };
         if inner.is_none() || !key.help.is_empty() {
@@ -207,7 +209,7 @@ fn rows(
 }
 
 /// The table of a page in `docs/` or, if `deep`, in a folder of it: there links lead up first.
-fn markdown(table: &'static Table, shown: Shown, deep: bool) -> String {
+fn markdown(table: &'static KeyTable, shown: Shown, deep: bool) -> String {
     let mut found = Vec::new();
     rows(table, "", &[], shown, &mut found);
     // The keys of every link come last.

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use jred_file::text::key::{Form, Key, Need};
+use jred_file::text::key::{Key, Need, ValueForm};
 use jred_file::units::kind::{
     ANGLE, ANGULAR_SPEED, FORCE, INERTIA, Kind, LENGTH, SHARE, TEMPERATURE, TORQUE, VISCOUS_MOMENT,
 };
@@ -138,10 +138,10 @@ fn a_wrong_type_is_a_violation() {
 fn a_wrong_unit_is_a_violation() {
     let count = refused(|object, key| {
         let wrong = match key.form {
-            Form::Quantity([kind, _], _) if is_share(kind) => json!("1 A"),
-            Form::Quantity(..) if key.name.len() % 2 == 0 => json!("30"),
-            Form::Quantity(..) => json!("1 A"),
-            Form::Pair(_) => json!(["0 A", "1 A"]),
+            ValueForm::Quantity([kind, _], _) if is_share(kind) => json!("1 A"),
+            ValueForm::Quantity(..) if key.name.len() % 2 == 0 => json!("30"),
+            ValueForm::Quantity(..) => json!("1 A"),
+            ValueForm::Pair(_) => json!(["0 A", "1 A"]),
             _ => return false,
         };
         object.insert(key.name.to_owned(), wrong);
@@ -279,7 +279,7 @@ fn examples_and_proposed_units_match_their_patterns() {
     let mut kinds: BTreeMap<&str, &Kind> = BTreeMap::new();
     for table in super::named() {
         for key in table.keys() {
-            if let Form::Quantity(pair, _) | Form::Pair(pair) = key.form {
+            if let ValueForm::Quantity(pair, _) | ValueForm::Pair(pair) = key.form {
                 kinds.extend(pair.map(|kind| (kind.name, kind)));
             }
             assert!(words_of(table, key).iter().all(|word| !word.contains(' ')));

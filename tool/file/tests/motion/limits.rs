@@ -1,10 +1,10 @@
 //! Moves as fast as limits allow.
 
-use jred_file::model::motion::{Limits, Phase, TooShort, change, fastest};
+use jred_file::model::motion::{MoveLimits, Phase, TooShort, change, fastest};
 
 use super::{motion, near, refused};
 
-const LIMITS: Limits = Limits {
+const LIMITS: MoveLimits = MoveLimits {
     speed: 2.0,
     acceleration: 5.0,
     deceleration: 5.0,
@@ -45,7 +45,7 @@ fn durations_in_closed_form() {
         near("short", duration(&phases), expected, 1e-14 * expected);
     }
     // The speed, but not the acceleration.
-    let gentle = Limits {
+    let gentle = MoveLimits {
         acceleration: 50.0,
         deceleration: 50.0,
         ..LIMITS
@@ -59,7 +59,7 @@ fn durations_in_closed_form() {
         1e-14,
     );
     // Without a limit of the jerk: three phases or two, each acceleration its own.
-    let sudden = Limits {
+    let sudden = MoveLimits {
         deceleration: 2.0,
         jerk: None,
         ..LIMITS
@@ -92,7 +92,7 @@ fn every_limit_is_kept_and_reached() {
     let (mut refused, mut counts) = (0, [0; 8]);
     for _ in 0..3000 {
         let speed = random(0.1, 3.0);
-        let limits = Limits {
+        let limits = MoveLimits {
             speed,
             acceleration: random(0.5, 20.0),
             deceleration: random(0.5, 20.0),

@@ -6,7 +6,7 @@ use std::fmt::Write as _;
 use jred::Domain;
 use jred::machine::{Jointed as _, Mechanism as _, Reducible as _};
 use jred_file::model::machine::MachineFile;
-use jred_file::model::motion::{Measure, Motion, Segment, ToolCoordinate};
+use jred_file::model::motion::{Measure, Motion, MotionSegment, ToolCoordinate};
 
 use super::near;
 use crate::reading::machines;
@@ -134,7 +134,7 @@ fn a_crank_rocker_follows_its_rocker() {
 /// Every link of every machine, in x, y, angle and along its path, and every guide: forwards through the mechanism it is what was asked for.
 #[test]
 fn every_mechanism_is_inverted() {
-    let law = Segment::law(1.0, 1.0, jred::machine::motion::Law::Cycloidal);
+    let law = MotionSegment::law(1.0, 1.0, jred::machine::motion::Law::Cycloidal);
     let mut counts = std::collections::BTreeMap::new();
     for (path, file) in machines() {
         let mechanism = file.machine.mechanism();
@@ -169,7 +169,7 @@ fn every_mechanism_is_inverted() {
                 if way.abs() < 1e-6 {
                     continue;
                 }
-                let segment = Segment {
+                let segment = MotionSegment {
                     distance: way,
                     ..law.clone()
                 };

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use jred_file::model::rule::{Rule, Sense};
 use jred_file::model::rules::Finding;
-use jred_file::model::rules::Verdict;
+use jred_file::model::rules::RuleVerdict;
 use jred_file::model::rules::{Limit, RuleSet};
 use jred_file::read as machine_file;
 
@@ -146,7 +146,7 @@ fn every_key_can_be_set() {
             Finding::new(-1.0, 1.0),
             Finding::UNKNOWN,
         ] {
-            assert_eq!(rules.verdict(rule, finding), Verdict::Off, "{key}");
+            assert_eq!(rules.verdict(rule, finding), RuleVerdict::Off, "{key}");
             assert_eq!(rules.use_of_limit(rule, finding), 0.0);
         }
     }
@@ -159,19 +159,27 @@ fn verdicts_turn_at_the_limit() {
     let lambda = |value: f64| rules.verdict(Rule::InertiaRatio, Finding::new(value, 1.0));
     assert_eq!(
         [5.0, 5.000_001, 10.0, 10.000_001].map(lambda),
-        [Verdict::Pass, Verdict::Warn, Verdict::Warn, Verdict::Fail]
+        [
+            RuleVerdict::Pass,
+            RuleVerdict::Warn,
+            RuleVerdict::Warn,
+            RuleVerdict::Fail
+        ]
     );
     let frequency = |value: f64| rules.verdict(Rule::NaturalFrequency, Finding::new(value, 2.0));
     assert_eq!(
         [19.999, 20.0].map(frequency),
-        [Verdict::Warn, Verdict::Pass]
+        [RuleVerdict::Warn, RuleVerdict::Pass]
     );
     for finding in [
         Finding::UNKNOWN,
         Finding::new(1.0, f64::NAN),
         Finding::new(f64::NAN, 1.0),
     ] {
-        assert_eq!(rules.verdict(Rule::RmsTorque, finding), Verdict::NotChecked);
+        assert_eq!(
+            rules.verdict(Rule::RmsTorque, finding),
+            RuleVerdict::NotChecked
+        );
     }
     // A warning alone is no limit of which a share could be used.
     assert_eq!(

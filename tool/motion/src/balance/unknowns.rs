@@ -1,8 +1,8 @@
 //! The unknowns, their bounds, and their conversion to bodies and springs.
 
 use jred::machine::Element;
-use jred_file::model::laden::Attached;
 use jred_file::model::machine::MachineFile;
+use jred_file::model::with_mass::AttachedMass;
 
 use super::barrier::{Bound, Problem};
 use super::rows::{Rows, product};
@@ -61,7 +61,7 @@ const ROUNDED: f64 = 1e-6;
 
 /// Bodies and springs, in the order of the request; `None`: no body or spring.
 pub(super) struct Made {
-    pub(super) masses: Vec<Option<Attached>>,
+    pub(super) masses: Vec<Option<AttachedMass>>,
     pub(super) springs: Vec<Option<Element>>,
 }
 
@@ -290,7 +290,7 @@ impl<'a> Unknowns<'a> {
 
 /// The body with these moments and this inertia. Mass, moments or inertia may have no effect: only the inertia acts on a link that turns about the
 /// origin of its frame, only the mass on one that slides. Then it is the lightest body with the other values.
-fn body(bound: &Counterweight, columns: &[Vec<f64>], p: &[f64]) -> Option<Attached> {
+fn body(bound: &Counterweight, columns: &[Vec<f64>], p: &[f64]) -> Option<AttachedMass> {
     let &[mass, along, across, inertia] = p else {
         return None;
     };
@@ -323,7 +323,7 @@ fn body(bound: &Counterweight, columns: &[Vec<f64>], p: &[f64]) -> Option<Attach
             at
         }
     };
-    Some(Attached {
+    Some(AttachedMass {
         link: bound.link,
         at: [coordinate(along), coordinate(across)],
         mass,

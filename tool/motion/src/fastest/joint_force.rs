@@ -18,7 +18,7 @@ use jred::error::Error;
 use jred::machine::MAX_JOINTS;
 
 use jred_file::model::machine::MachineFile;
-use jred_file::model::schedule::Now;
+use jred_file::model::schedule::ScheduleInstant;
 
 use super::NoMotion;
 use super::field::{Field, speed};
@@ -213,9 +213,9 @@ pub fn reached(
         }
         let heading = b.phi - a.phi;
         let stands = heading == 0.0;
-        let now = Now {
+        let now = ScheduleInstant {
             omega: Some(if stands { 0.0 } else { heading.signum() }),
-            ..Now::default()
+            ..ScheduleInstant::default()
         };
         for k in 0..=PARTS {
             let share = (f64::from(k) / f64::from(PARTS)).clamp(INSIDE, 1.0 - INSIDE);

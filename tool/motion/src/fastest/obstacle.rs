@@ -24,7 +24,7 @@ pub enum NoMotion {
     /// The mechanism cannot be placed somewhere.
     Machine(Error),
     /// The duty of a motion cannot be computed.
-    Duty(Box<duty::Fault>),
+    Duty(Box<duty::DutyError>),
     /// Start and end are equal, or not finite.
     NoWay,
     /// The motor's peak torque is missing; a linear motor has a force (N).
@@ -206,10 +206,10 @@ impl From<Error> for NoMotion {
     }
 }
 
-impl From<duty::Fault> for NoMotion {
-    fn from(fault: duty::Fault) -> Self {
+impl From<duty::DutyError> for NoMotion {
+    fn from(fault: duty::DutyError) -> Self {
         match fault {
-            duty::Fault::Machine(error) => Self::Machine(error),
+            duty::DutyError::Machine(error) => Self::Machine(error),
             fault => Self::Duty(Box::new(fault)),
         }
     }

@@ -8,11 +8,11 @@
 //! With such a cap the motion is the fastest one within constant limits. For the cubic mean or the mean speed another motion may be faster that uses
 //! torque and speed unevenly over the path.
 
-use jred_analysis::duty::{Duty, Fault, Sampling};
+use jred_analysis::duty::{Duty, DutyError, Sampling};
 use jred_file::model::machine::MachineFile;
 use jred_file::model::motion::Motion;
 use jred_file::model::rule::Rule;
-use jred_file::model::rules::Verdict;
+use jred_file::model::rules::RuleVerdict;
 use jred_sizing::catalogue::Drive;
 use jred_sizing::judge::Context;
 use jred_sizing::judge::Findings;
@@ -137,7 +137,7 @@ impl<'a> Judge<'a> {
         }
     }
 
-    fn with<T>(&self, trace: &Trace, of: impl FnOnce(&Context) -> T) -> Result<T, Fault> {
+    fn with<T>(&self, trace: &Trace, of: impl FnOnce(&Context) -> T) -> Result<T, DutyError> {
         // Like a profile that is read back.
         let cyclic = self.file.motion.as_ref().is_none_or(|own| own.cyclic);
         let motion = Motion::nodes(trace.nodes(), cyclic);
@@ -155,7 +155,7 @@ impl<'a> Judge<'a> {
     ///
     /// # Errors
     /// The duty cannot be computed.
-    pub fn findings(&self, trace: &Trace) -> Result<Findings, Fault> {
+    pub fn findings(&self, trace: &Trace) -> Result<Findings, DutyError> {
         self.with(trace, |context| context.findings(&self.file.rules))
     }
 
@@ -163,7 +163,7 @@ impl<'a> Judge<'a> {
     ///
     /// # Errors
     /// The duty cannot be computed.
-    pub fn checks(&self, trace: &Trace) -> Result<Vec<Check>, Fault> {
+    pub fn checks(&self, trace: &Trace) -> Result<Vec<Check>, DutyError> {
         self.with(trace, |context| context.checks(&self.file.rules))
     }
 
@@ -192,14 +192,14 @@ impl Judged {
     /// Rules of the search that are satisfied.
     pub fn kept(&self) -> impl Iterator<Item = &Check> {
         let sought = |check: &&Check| self.sought.contains(&check.id);
-        let held = |check: &&Check| check.verdict == Verdict::Pass;
+        let held = |check: &&Check| check.verdict == RuleVerdict::Pass;
         self.checks.iter().filter(sought).filter(held)
     }
 
     /// Violated rules, each a reason for `jred size` to refuse the motion.
     pub fn violated(&self) -> impl Iterator<Item = &Check> {
         let all = self.checks.iter();
-        all.filter(|check| check.verdict == Verdict::Fail)
+        all.filter(|check| check.verdict == RuleVerdict::Fail)
     }
 }
 

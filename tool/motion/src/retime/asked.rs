@@ -4,7 +4,7 @@ use jred::error::Error;
 use jred::machine::motion::{End, Law, Polynomial};
 use jred_analysis::duty::{self, Duty};
 use jred_file::model::machine::MachineFile;
-use jred_file::model::motion::{Motion, Phase, Segment};
+use jred_file::model::motion::{Motion, MotionSegment, Phase};
 use jred_file::number::quadrature::GAUSS_3;
 use jred_sizing::cycle::Cycle;
 
@@ -80,7 +80,7 @@ impl<'a> Asked<'a> {
         let mut moves = moves.iter();
         self.motion(|step, _| {
             let phases = moves.next().map(|gentle| gentle.phases.clone());
-            Segment::phases(step.to - step.from, phases.unwrap_or_default())
+            MotionSegment::phases(step.to - step.from, phases.unwrap_or_default())
         })
     }
 
@@ -148,21 +148,21 @@ impl<'a> Asked<'a> {
     /// The same parts with other moves.
     pub(super) fn motion(
         &self,
-        mut with: impl FnMut(&Move, &Passing) -> Segment,
+        mut with: impl FnMut(&Move, &Passing) -> MotionSegment,
     ) -> Result<Motion, Error> {
         let segment = |part: &Part| match part {
             Part::Move(step) => with(step, &Passing::default()),
             Part::Passing(step, ends) => with(step, ends),
-            Part::Kept(kept) => Segment::phases(kept.to - kept.from, kept.phases()),
-            Part::Dwell { duration, .. } => Segment::dwell(*duration),
+            Part::Kept(kept) => MotionSegment::phases(kept.to - kept.from, kept.phases()),
+            Part::Dwell { duration, .. } => MotionSegment::dwell(*duration),
         };
-        let segments: Vec<Segment> = self.parts.iter().map(segment).collect();
+        let segments: Vec<MotionSegment> = self.parts.iter().map(segment).collect();
         let start = self.parts.first().map_or(0.0, Part::from);
         let motion = Motion::segments(start, &segments, self.cyclic);
         motion.map_err(|(_, error)| error.into())
     }
 
-    pub(super) fn figures(&self, motion: &Motion) -> Result<Figures, duty::Fault> {
+    pub(super) fn figures(&self, motion: &Motion) -> Result<Figures, duty::DutyError> {
         let cycle = Cycle::new(&Duty::new(self.file, motion, self.request.sampling)?);
         Ok(self.request.figures(&cycle))
     }
@@ -205,14 +205,14 @@ impl<'a> Asked<'a> {
     }
 
     /// The laws; for a rotation without rest the classical motions. Between nonzero speeds no law exists; there it is the polynomial of fifth degree.
-    pub(super) fn beside(&self) -> Result<Vec<Row>, duty::Fault> {
+    pub(super) fn beside(&self) -> Result<Vec<Row>, duty::DutyError> {
         if self.endless {
             return self.classical();
         }
         let row = |name: &'static str, law: Law| {
             let motion = self.motion(|step, ends| {
                 if *ends == Passing::default() {
-                    Segment::law(step.to - step.from, step.duration, law)
+                    MotionSegment::law(step.to - step.from, step.duration, law)
                 } else {
                     between(step, ends)
                 }
@@ -231,7 +231,7 @@ impl<'a> Asked<'a> {
     }
 
     /// Constant speed, and constant kinetic energy: ω ∝ 1/√J.
-    fn classical(&self) -> Result<Vec<Row>, duty::Fault> {
+    fn classical(&self) -> Result<Vec<Row>, duty::DutyError> {
         let mut rows = Vec::new();
         for name in ["constant speed", EVEN_ENERGY] {
             let mut phases = Vec::new();
@@ -239,7 +239,7 @@ impl<'a> Asked<'a> {
                 phases = self.by_law(name, &step)?;
             }
             let motion =
-                self.motion(|step, _| Segment::phases(step.to - step.from, phases.clone()))?;
+                self.motion(|step, _| MotionSegment::phases(step.to - step.from, phases.clone()))?;
             rows.push(Row {
                 name,
                 figures: self.figures(&motion)?,
@@ -251,7 +251,7 @@ impl<'a> Asked<'a> {
 }
 
 /// The polynomial of fifth degree from one speed to another, with the accelerations of the kept parts.
-fn between(step: &Move, ends: &Passing) -> Segment {
+fn between(step: &Move, ends: &Passing) -> MotionSegment {
     let distance = step.to - step.from;
     let direction = distance.signum();
     let end = |k: usize| {
@@ -261,5 +261,5 @@ fn between(step: &Move, ends: &Passing) -> Segment {
         )
     };
     let course = Polynomial::between(distance, step.duration, end(0), end(1));
-    Segment::polynomial(distance, step.duration, course)
+    MotionSegment::polynomial(distance, step.duration, course)
 }

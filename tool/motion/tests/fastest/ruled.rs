@@ -7,7 +7,7 @@ use jred_analysis::duty::Duty;
 use jred_file::model::axis::Axis;
 use jred_file::model::machine::MachineFile;
 use jred_file::model::rule::Rule;
-use jred_file::model::rules::{Limit, Verdict};
+use jred_file::model::rules::{Limit, RuleVerdict};
 use jred_file::model::{drive_train, variator};
 use jred_motion::contact::broken;
 use jred_motion::fastest::cycle::{Cycle, cycle, endless};
@@ -128,7 +128,7 @@ fn a_gearbox_keeps_its_torques_at_the_rate_of_the_motion() {
         let (cycle, judged) = made(&file, &chain, drive, rms).unwrap();
         assert_eq!(judged.violated().count(), 0, "{:?}", judged.checks);
         for check in size(&path, &cycle, drive) {
-            assert_ne!(check.verdict, Verdict::Fail, "{}", check.sentence());
+            assert_ne!(check.verdict, RuleVerdict::Fail, "{}", check.sentence());
         }
         // Nearly all of T2N = 120 N m is used.
         let mean = judged
@@ -213,7 +213,7 @@ fn what_is_named_as_kept_is_kept() {
             let violated: Vec<Rule> = judged.violated().map(|check| check.id).collect();
             for check in size(&path, &cycle, drive) {
                 let says = format!("{} with {name}: {}", path.display(), check.sentence());
-                let fails = check.verdict == Verdict::Fail;
+                let fails = check.verdict == RuleVerdict::Fail;
                 assert!(!(fails && kept.contains(&check.id)), "{says}");
                 assert!(!fails || violated.contains(&check.id), "{says}");
             }

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use jred_file::model::motion::{Motion, Segment};
+use jred_file::model::motion::{Motion, MotionSegment};
 use jred_motion::retime::{Goal, retime};
 
 use super::{example, request, retimed};
@@ -114,7 +114,7 @@ fn a_turn_waits_wherever_it_begins() {
     for start in [0.0, 1.0, 2.5, 4.0] {
         let asked = Motion::segments(
             start,
-            &[Segment::constant_speed(TAU, period, TAU / period)],
+            &[MotionSegment::constant_speed(TAU, period, TAU / period)],
             true,
         );
         let found = retime(&file, &asked.unwrap(), &request(Goal::Rms, 0.0)).unwrap();

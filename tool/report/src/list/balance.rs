@@ -7,8 +7,8 @@ use crate::answer::Answer;
 use crate::answer::schema::Data;
 use jred::machine::Element;
 use jred_file::model::coordinate::Coordinate;
-use jred_file::model::laden::Attached;
 use jred_file::model::machine::MachineFile;
+use jred_file::model::with_mass::AttachedMass;
 use jred_file::number::rounding::{figure, percent, short};
 use jred_motion::balance::{Balanced, Figures, Goal, Request};
 
@@ -189,7 +189,7 @@ fn input_unit(file: &MachineFile) -> &'static str {
 }
 
 /// The mass as text of a machine file.
-fn mass(on: &str, found: &Attached) -> String {
+fn mass(on: &str, found: &AttachedMass) -> String {
     let [u, v] = found.at.map(|x| figure(x * 1e3));
     let inertia = if found.inertia > 0.0 {
         format!("inertia = \"{} kg m^2\"", figure(found.inertia))

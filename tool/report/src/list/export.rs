@@ -4,7 +4,7 @@ use crate::answer::Answer;
 use crate::answer::schema::Data;
 use crate::table::reading::Reading;
 use jred_export::data::{ExportData, FORM};
-use jred_export::{Answer as Found, Export};
+use jred_export::{Export, SearchResult};
 use jred_file::number::rounding::short;
 use jred_sizing::study::cell::Cell;
 
@@ -52,7 +52,7 @@ fn alternatives(export: &Export) -> Reading {
                 layout.name().to_owned(),
             ];
             match answer {
-                Found::Meets(c) | Found::Misses(c) => {
+                SearchResult::Meets(c) | SearchResult::Misses(c) => {
                     let cost = export.core().instructions(*number, *layout);
                     row.extend([
                         c.cells().to_string(),
@@ -63,7 +63,9 @@ fn alternatives(export: &Export) -> Reading {
                         short(c.ticks().torque),
                     ]);
                 }
-                Found::Refused(_) | Found::TooCoarse(..) | Found::TooLarge(_) => {
+                SearchResult::Refused(_)
+                | SearchResult::TooCoarse(..)
+                | SearchResult::TooLarge(_) => {
                     row.extend(std::iter::repeat_n(String::new(), 6));
                 }
             }

@@ -14,7 +14,7 @@ use crate::list::kept;
 use crate::table::output::Format;
 use jred::error::Error;
 use jred_file::model::machine::MachineFile;
-use jred_file::number::columns::{Column, Columns, Quantity};
+use jred_file::number::columns::{Column, ColumnQuantity, Columns};
 use jred_file::number::rounding::{percent, short};
 use jred_file::number::words::counted;
 use jred_file::units::Vocabulary;
@@ -79,11 +79,15 @@ impl FastestView<'_> {
         let words = self.words();
         let motor_effort = format!("motor {}", words.torque);
         let mut columns = Columns::new([
-            Column::new(Quantity::Time, "t", "s"),
+            Column::new(ColumnQuantity::Time, "t", "s"),
             coordinate.column(),
             speed,
             acceleration,
-            Column::new(Quantity::MotorEffort, &motor_effort, words.torque.unit),
+            Column::new(
+                ColumnQuantity::MotorEffort,
+                &motor_effort,
+                words.torque.unit,
+            ),
             Column::other("motor speed", words.speed_si),
         ]);
         let ways = BothWays::new(self.file, self.actuator);

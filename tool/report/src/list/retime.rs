@@ -12,7 +12,7 @@ use crate::list::kept::{self, KeptPart};
 use crate::table::reading::Reading;
 use jred_file::model::axis::Axis;
 use jred_file::model::machine::MachineFile;
-use jred_file::model::rules::Verdict;
+use jred_file::model::rules::RuleVerdict;
 use jred_file::number::rounding::{percent, short};
 use jred_file::units::Vocabulary;
 use jred_motion::contact::Broken;
@@ -209,7 +209,7 @@ fn describe(answer: &mut Answer, shown: &RetimeView, words: &Vocabulary) {
 /// The rules that the motion violates.
 fn violated<'a>(shown: &'a RetimeView) -> impl Iterator<Item = &'a Check> {
     let all = shown.checks.iter();
-    all.filter(|check| check.verdict == Verdict::Fail)
+    all.filter(|check| check.verdict == RuleVerdict::Fail)
 }
 
 /// `12 % less than`, or the other way round.

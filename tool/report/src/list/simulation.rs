@@ -6,7 +6,7 @@ mod sentences;
 use std::borrow::Cow;
 
 use crate::answer::Answer;
-use jred_analysis::simulate::{Simulated, Stop, Together};
+use jred_analysis::simulate::{CoupledMachines, SimulationResult, Stop};
 use jred_file::model::simulation::Simulation;
 use jred_motion::driven::Loads;
 
@@ -16,11 +16,11 @@ pub(crate) use data::SimulationData;
 #[derive(Clone, Copy, Debug)]
 pub struct SimulationView<'s> {
     /// The machines on the motor's shaft.
-    pub machines: &'s Together<'s>,
+    pub machines: &'s CoupledMachines<'s>,
     /// The request.
     pub simulation: &'s Simulation,
     /// The motion.
-    pub found: &'s Simulated,
+    pub found: &'s SimulationResult,
     /// Stops from instants over a cycle.
     pub stops: Option<&'s [Stop]>,
     /// The drive of the catalogue: its name, and its loads.

@@ -7,8 +7,8 @@ use std::borrow::Cow;
 use crate::answer::Answer;
 use crate::answer::schema::Data;
 use cycle::{describe, rpm};
-use jred_analysis::simulate::Together;
-use jred_analysis::steady::{Cycle, Flywheel, Place, Steady, Wheel};
+use jred_analysis::simulate::CoupledMachines;
+use jred_analysis::steady::{Cycle, Flywheel, ShaftFlywheel, Steady, Wheel};
 use jred_file::number::rounding::{percent, short};
 
 impl Data for Steady {
@@ -17,7 +17,7 @@ impl Data for Steady {
 }
 
 /// The flywheel and the cycle with it, if one was requested; then the cycle of the machine as it is.
-pub fn answer<'s>(machines: &Together, steady: &'s Steady) -> Answer<'s> {
+pub fn answer<'s>(machines: &CoupledMachines, steady: &'s Steady) -> Answer<'s> {
     let mut answer = Answer::new(format!("{}: steady cycle", machines.title()), steady);
     if let Some(last) = steady.last() {
         answer.course(Cow::Borrowed(&last.figures.course));
@@ -105,7 +105,7 @@ fn wheel(answer: &mut Answer, flywheel: &Flywheel, own: Option<&Cycle>) {
 }
 
 /// The name of the shaft.
-fn shaft(place: &Place, flywheel: &Flywheel) -> String {
+fn shaft(place: &ShaftFlywheel, flywheel: &Flywheel) -> String {
     match place.shaft {
         last if last + 1 == flywheel.places.len() => "drive link".to_owned(),
         0 => "motor shaft".to_owned(),

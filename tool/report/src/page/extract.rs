@@ -4,7 +4,7 @@ use jred::error::Error;
 
 use super::mechanism::{POINTS, Source};
 use jred_analysis::reduce::{Request, Sets, largest};
-use jred_file::number::columns::{Column, Columns, Quantity};
+use jred_file::number::columns::{Column, ColumnQuantity, Columns};
 use jred_file::number::rounding::{rounded, short};
 
 /// Rows of each table.
@@ -42,7 +42,11 @@ pub(super) fn largest_forces(source: &Source) -> Result<Vec<[String; 3]>, Error>
 /// Extracts of tables; the command line prints the whole ones.
 pub(super) fn tables(source: &Source) -> Result<Vec<Table>, Error> {
     let table = |heading, columns: &Columns, wanted: &dyn Fn(&Column) -> bool| {
-        let along = [Quantity::Time, Quantity::Position, Quantity::DriveSpeed];
+        let along = [
+            ColumnQuantity::Time,
+            ColumnQuantity::Position,
+            ColumnQuantity::DriveSpeed,
+        ];
         let heads = columns.heads().iter().enumerate();
         let kept: Vec<(usize, &Column)> = heads
             .filter(|(k, head)| *k < 2 && along.contains(&head.quantity) || wanted(head))
@@ -74,9 +78,9 @@ pub(super) fn tables(source: &Source) -> Result<Vec<Table>, Error> {
         &source.columns(curves, ROWS)?,
         &|head| {
             let wanted = [
-                Quantity::ReducedInertia,
-                Quantity::InertiaSlope,
-                Quantity::DriveEffort,
+                ColumnQuantity::ReducedInertia,
+                ColumnQuantity::InertiaSlope,
+                ColumnQuantity::DriveEffort,
             ];
             wanted.contains(&head.quantity)
         },
@@ -87,9 +91,9 @@ pub(super) fn tables(source: &Source) -> Result<Vec<Table>, Error> {
             &source.columns(points, ROWS)?,
             &|head| {
                 let wanted = [
-                    Quantity::Coordinate,
-                    Quantity::Speed,
-                    Quantity::Acceleration,
+                    ColumnQuantity::Coordinate,
+                    ColumnQuantity::Speed,
+                    ColumnQuantity::Acceleration,
                 ];
                 wanted.contains(&head.quantity) && named.iter().any(|p| p.name == head.part)
             },

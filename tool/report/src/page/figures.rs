@@ -8,7 +8,7 @@ use super::section::{Figure, Section, over};
 use crate::plot::{Axes, Axis, Series, Style};
 use jred_file::model::coordinate::{Coordinate, whole_range};
 use jred_file::model::machine::MachineFile;
-use jred_file::number::columns::{Column, Columns, Quantity};
+use jred_file::number::columns::{Column, ColumnQuantity, Columns};
 
 /// Intervals of the figures over the range.
 const POSITIONS: usize = 360;
@@ -117,17 +117,18 @@ pub(super) fn reduced_torque(file: &MachineFile, speed: f64) -> Result<Chart, Er
 
 /// The sections of a simulation: its columns over the time.
 pub(super) fn simulation(run: &Columns) -> Vec<Section> {
-    let over_time = (Quantity::Time, Axis::new("time [s]"));
-    let own = |quantity: Quantity| {
+    let over_time = (ColumnQuantity::Time, Axis::new("time [s]"));
+    let own = |quantity: ColumnQuantity| {
         let label = run.of(quantity).next().map(|(_, head)| label(head));
         over(run, over_time, (&label.unwrap_or_default(), quantity))
     };
-    let figure = |(quantity, caption): (Quantity, &str)| Some(Figure::new(own(quantity)?, caption));
-    let figures = |of: &[(Quantity, &str)]| of.iter().copied().filter_map(figure).collect();
+    let figure =
+        |(quantity, caption): (ColumnQuantity, &str)| Some(Figure::new(own(quantity)?, caption));
+    let figures = |of: &[(ColumnQuantity, &str)]| of.iter().copied().filter_map(figure).collect();
     let energies = [
-        (Quantity::Energy, "energy [J]", "Energies and works."),
+        (ColumnQuantity::Energy, "energy [J]", "Energies and works."),
         (
-            Quantity::EnergyBalance,
+            ColumnQuantity::EnergyBalance,
             "energy [J]",
             "Energy balance: zero except for the integration error.",
         ),
@@ -136,22 +137,22 @@ pub(super) fn simulation(run: &Columns) -> Vec<Section> {
         Some(Figure::new(over(run, over_time, (y, quantity))?, caption))
     });
     let motion = [
-        (Quantity::Position, "Position."),
-        (Quantity::DriveSpeed, "Speed."),
-        (Quantity::DriveAcceleration, "Acceleration."),
-        (Quantity::FollowingError, "Reference less position."),
+        (ColumnQuantity::Position, "Position."),
+        (ColumnQuantity::DriveSpeed, "Speed."),
+        (ColumnQuantity::DriveAcceleration, "Acceleration."),
+        (ColumnQuantity::FollowingError, "Reference less position."),
     ];
     let motor = [
         (
-            Quantity::MotorEffort,
+            ColumnQuantity::MotorEffort,
             "What the motor gives, and the brake after it.",
         ),
-        (Quantity::MotorSpeed, "Speed of the motor."),
+        (ColumnQuantity::MotorSpeed, "Speed of the motor."),
         (
-            Quantity::GearboxTorque,
+            ColumnQuantity::GearboxTorque,
             "Torque at the output of the gearbox.",
         ),
-        (Quantity::Temperature, "Temperature of the motor."),
+        (ColumnQuantity::Temperature, "Temperature of the motor."),
     ];
     let sections = [
         Section::new("Motion", figures(&motion)),
@@ -173,10 +174,14 @@ fn label(head: &Column) -> String {
 }
 
 /// The abscissa and its axis.
-pub(super) type Along<'a> = (Quantity, Axis<'a>);
+pub(super) type Along<'a> = (ColumnQuantity, Axis<'a>);
 
 /// Figures of those of the quantities that exist, each with its label and caption.
-pub(super) fn among(columns: &Columns, along: Along, of: &[(&str, Quantity, &str)]) -> Vec<Figure> {
+pub(super) fn among(
+    columns: &Columns,
+    along: Along,
+    of: &[(&str, ColumnQuantity, &str)],
+) -> Vec<Figure> {
     let figures = of.iter().filter_map(|(y, quantity, caption)| {
         Some(Figure::new(over(columns, along, (y, *quantity))?, *caption))
     });
@@ -184,13 +189,13 @@ pub(super) fn among(columns: &Columns, along: Along, of: &[(&str, Quantity, &str
 }
 
 fn efforts(columns: &Columns, along: Along) -> Vec<Figure> {
-    let Some((_, head)) = columns.of(Quantity::EffortTerm).next() else {
+    let Some((_, head)) = columns.of(ColumnQuantity::EffortTerm).next() else {
         return Vec::new();
     };
     let y = format!("drive {}", unit(head));
     let caption = "What the drive link must be given: for the acceleration, for the change of the inertia (velocity), for weight and springs \
                    (potential), process loads, viscous and dry friction. The drive train is included, its losses are not.";
-    among(columns, along, &[(&y, Quantity::EffortTerm, caption)])
+    among(columns, along, &[(&y, ColumnQuantity::EffortTerm, caption)])
 }
 
 /// Torque or force, with its unit.
@@ -207,22 +212,22 @@ pub(super) fn motions(columns: &Columns, along: Along) -> Vec<Figure> {
     let of = [
         (
             "speed [m/s]",
-            Quantity::Speed,
+            ColumnQuantity::Speed,
             "Speed of every point (magnitude).",
         ),
         (
             "acceleration [m/s²]",
-            Quantity::Acceleration,
+            ColumnQuantity::Acceleration,
             "Acceleration of every point (magnitude).",
         ),
         (
             "angular speed [rad/s]",
-            Quantity::AngularSpeed,
+            ColumnQuantity::AngularSpeed,
             "Angular speed of every link.",
         ),
         (
             "angular acceleration [rad/s²]",
-            Quantity::AngularAcceleration,
+            ColumnQuantity::AngularAcceleration,
             "Angular acceleration of every link.",
         ),
     ];
@@ -231,25 +236,25 @@ pub(super) fn motions(columns: &Columns, along: Along) -> Vec<Figure> {
 
 /// Drive, joints, shaking force.
 pub(super) fn forces(columns: &Columns, along: Along) -> Vec<Figure> {
-    if columns.of(Quantity::Force).next().is_none() {
+    if columns.of(ColumnQuantity::Force).next().is_none() {
         return Vec::new();
     }
-    let drive = columns.of(Quantity::DriveEffort).next();
+    let drive = columns.of(ColumnQuantity::DriveEffort).next();
     let drive = drive.map_or("torque [N·m]", |(_, head)| unit(head));
     let of = [
         (
             &*format!("drive {drive}"),
-            Quantity::DriveEffort,
+            ColumnQuantity::DriveEffort,
             "Required drive torque or force at the drive link by d'Alembert's principle, drive train included.",
         ),
         (
             "force [N]",
-            Quantity::Force,
+            ColumnQuantity::Force,
             "Magnitude of the force in every joint, and of the shaking force of all links on the frame.",
         ),
         (
             "moment [N·m]",
-            Quantity::Moment,
+            ColumnQuantity::Moment,
             "Moments in guides and transmissions, and the shaking moment about the origin.",
         ),
     ];

@@ -14,7 +14,7 @@ use jred_analysis::inspect::Findings;
 use jred_analysis::reduce::{Over, Request, Sets, reduce};
 use jred_file::model::coordinate::Coordinate;
 use jred_file::model::machine::MachineFile;
-use jred_file::number::columns::{Columns, Quantity};
+use jred_file::number::columns::{ColumnQuantity, Columns};
 use jred_file::number::rounding::short;
 
 /// Points of each curve.
@@ -63,10 +63,10 @@ impl Source<'_> {
     }
 
     /// The abscissa and its axis.
-    const fn axis(&self) -> (Quantity, Axis<'static>) {
+    const fn axis(&self) -> (ColumnQuantity, Axis<'static>) {
         match self.over {
-            Over::Time => (Quantity::Time, Axis::new("time [s]")),
-            Over::Angle => (Quantity::Position, Axis::of(self.coordinate)),
+            Over::Time => (ColumnQuantity::Time, Axis::new("time [s]")),
+            Over::Angle => (ColumnQuantity::Position, Axis::of(self.coordinate)),
         }
     }
 }
@@ -187,17 +187,17 @@ fn transfers(source: &Source, points: &Columns) -> Vec<Figure> {
     let of = [
         (
             &*format!("x′ [m/{per}]"),
-            Quantity::XSlope,
+            ColumnQuantity::XSlope,
             "Velocity transfer functions of every point, x; multiplied by the speed of the drive link they give the velocity.",
         ),
         (
             &*format!("y′ [m/{per}]"),
-            Quantity::YSlope,
+            ColumnQuantity::YSlope,
             "Velocity transfer functions of every point, y.",
         ),
         (
             &*format!("ψ′ [rad/{per}]"),
-            Quantity::AngleSlope,
+            ColumnQuantity::AngleSlope,
             "Velocity transfer functions of every link's angle.",
         ),
     ];

@@ -2,13 +2,13 @@
 
 use jred::error::Error;
 use jred::machine::motion::State;
-use jred_analysis::simulate::Together;
+use jred_analysis::simulate::CoupledMachines;
 use jred_analysis::steady::Steady;
 use jred_file::model::axis::Axis as Place;
 use jred_file::model::coordinate::Coordinate;
 use jred_file::model::machine::MachineFile;
 use jred_file::model::motion::Motion;
-use jred_file::number::columns::Quantity;
+use jred_file::number::columns::ColumnQuantity;
 use jred_file::number::rounding::short;
 use jred_motion::fastest::Binding;
 use jred_motion::fastest::cycle::Made;
@@ -333,7 +333,7 @@ pub fn retime_page(shown: &list::retime::RetimeView, own: &Motion) -> Result<Str
 }
 
 /// The page about the steady cycle; `steady` contains the positions to draw.
-pub fn steady_page(machines: &Together, steady: &Steady) -> String {
+pub fn steady_page(machines: &CoupledMachines, steady: &Steady) -> String {
     let file = machines.first;
     let own = steady.cycle.as_ref();
     let wheel = steady.flywheel.as_ref().filter(|wheel| wheel.inertia > 0.0);
@@ -350,18 +350,18 @@ pub fn steady_page(machines: &Together, steady: &Steady) -> String {
         runs.push(("with the flywheel", &wheel.cycle.figures.course));
     }
     let coordinate = file.machine.mechanism().coordinate();
-    let along = (Quantity::Position, Axis::of(coordinate));
-    let section = |heading: &str, y: &str, quantity: Quantity| {
+    let along = (ColumnQuantity::Position, Axis::of(coordinate));
+    let section = |heading: &str, y: &str, quantity: ColumnQuantity| {
         Section::of(heading, plot(&runs, along, (y, quantity)))
     };
     let speed = format!("speed [{}]", coordinate.speed_unit());
     let mut sections = vec![
-        section("Speed over the cycle", &speed, Quantity::DriveSpeed),
-        section("Motor torque", "torque [N·m]", Quantity::MotorEffort),
+        section("Speed over the cycle", &speed, ColumnQuantity::DriveSpeed),
+        section("Motor torque", "torque [N·m]", ColumnQuantity::MotorEffort),
     ];
     let energies = runs.iter().map(|(name, course)| {
         let heading = ["Energies", name].join(if name.is_empty() { "" } else { " " });
-        let energies = ("energy [J]", Quantity::Energy);
+        let energies = ("energy [J]", ColumnQuantity::Energy);
         Section::of(&heading, plot(&[("", *course)], along, energies))
     });
     sections.extend(energies);

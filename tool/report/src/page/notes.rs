@@ -1,7 +1,7 @@
 //! Texts of the report: result, self-check, assumptions, sources.
 
 use jred_analysis::duty::Duty;
-use jred_file::model::rules::Verdict;
+use jred_file::model::rules::RuleVerdict;
 use jred_file::number::rounding::{cleared, rounded, shown};
 use jred_sizing::judge::Judged;
 use jred_sizing::select::size::Selection;
@@ -30,7 +30,7 @@ pub(super) fn answer(best: &Judged, selection: &Selection) -> String {
     });
     let found = !selection.fit.is_empty();
     if found {
-        let named = |verdict: Verdict| {
+        let named = |verdict: RuleVerdict| {
             let checks = best.checks.iter().filter(|c| c.verdict == verdict);
             let names: Vec<&str> = checks.map(|c| c.rule).collect();
             names.join(", ")
@@ -42,8 +42,8 @@ pub(super) fn answer(best: &Judged, selection: &Selection) -> String {
             ),
         };
         for (what, names) in [
-            ("Warning", named(Verdict::Warn)),
-            ("Not checked, data missing", named(Verdict::NotChecked)),
+            ("Warning", named(RuleVerdict::Warn)),
+            ("Not checked, data missing", named(RuleVerdict::NotChecked)),
         ] {
             if !names.is_empty() {
                 answer = format!("{answer}<br>{what}: {names}.");

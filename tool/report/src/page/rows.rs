@@ -3,7 +3,7 @@
 use jred_analysis::duty::Duty;
 use jred_file::model::rule::Rule;
 use jred_file::model::rules::RuleSet;
-use jred_file::model::rules::Verdict;
+use jred_file::model::rules::RuleVerdict;
 use jred_file::number::figures::Figures;
 use jred_file::number::rounding::{percent, rounded, short, shown, significant};
 use jred_file::units::Vocabulary;
@@ -30,9 +30,9 @@ pub(super) struct CheckRow {
 impl CheckRow {
     pub(super) fn of(check: &Check) -> Self {
         let class = match check.verdict {
-            Verdict::Pass | Verdict::Off => "ok",
-            Verdict::Warn | Verdict::NotChecked => "warn",
-            Verdict::Fail => "bad",
+            RuleVerdict::Pass | RuleVerdict::Off => "ok",
+            RuleVerdict::Warn | RuleVerdict::NotChecked => "warn",
+            RuleVerdict::Fail => "bad",
         };
         let used = check.use_of_limit();
         Self {
@@ -77,12 +77,12 @@ pub(super) struct FitRow {
 impl FitRow {
     pub(super) fn of(rank: usize, judged: &Judged) -> Self {
         let drive = &judged.drive;
-        let named = |verdict: Verdict| -> Vec<&str> {
+        let named = |verdict: RuleVerdict| -> Vec<&str> {
             let checks = judged.checks.iter().filter(|c| c.verdict == verdict);
             checks.map(|c| c.rule).collect()
         };
         let mut remarks = Vec::new();
-        for verdict in [Verdict::Warn, Verdict::NotChecked] {
+        for verdict in [RuleVerdict::Warn, RuleVerdict::NotChecked] {
             let rules = named(verdict);
             if !rules.is_empty() {
                 remarks.push(format!("{}: {}", verdict.word(), rules.join(", ")));

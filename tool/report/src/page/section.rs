@@ -5,7 +5,7 @@ use askama::Template;
 use crate::answer::{Answer, Block};
 use crate::plot::{Axes, Axis, lines};
 use jred_file::model::machine::MachineFile;
-use jred_file::number::columns::{Column, Columns, Quantity};
+use jred_file::number::columns::{Column, ColumnQuantity, Columns};
 
 use super::figures::line;
 
@@ -91,8 +91,8 @@ type Curve = (String, Vec<(f64, f64)>);
 /// The columns of a quantity over another, each under a name.
 fn curves(
     columns: &Columns,
-    along: Quantity,
-    quantity: Quantity,
+    along: ColumnQuantity,
+    quantity: ColumnQuantity,
     name: impl Fn(&Column) -> String,
 ) -> Vec<Curve> {
     let Some((x, _)) = columns.of(along).next() else {
@@ -118,8 +118,8 @@ fn drawn(curves: &[Curve], x: Axis, y: &str) -> String {
 /// The columns of a quantity over another, of several courses that each have a name.
 pub(super) fn plot(
     runs: &[(&str, &Columns)],
-    (along, axis): (Quantity, Axis),
-    (y, quantity): (&str, Quantity),
+    (along, axis): (ColumnQuantity, Axis),
+    (y, quantity): (&str, ColumnQuantity),
 ) -> String {
     let all = runs.iter().flat_map(|(name, run)| {
         let alone = run.of(quantity).count() == 1 && !name.is_empty();
@@ -138,8 +138,8 @@ pub(super) fn plot(
 /// The columns of a quantity over another that are not zero everywhere, each named after its part; `None` without such columns.
 pub(super) fn over(
     columns: &Columns,
-    (along, axis): (Quantity, Axis),
-    (y, quantity): (&str, Quantity),
+    (along, axis): (ColumnQuantity, Axis),
+    (y, quantity): (&str, ColumnQuantity),
 ) -> Option<String> {
     let mut all = curves(columns, along, quantity, |head| {
         let named = if head.part.is_empty() {

@@ -4,7 +4,7 @@ use comfy_table::{CellAlignment, ContentArrangement, LineStyle, TableStyle};
 use serde_json::{Map, Value, json};
 
 use super::json::split_at_entry;
-use jred_file::number::columns::{Columns, Quantity};
+use jred_file::number::columns::{ColumnQuantity, Columns};
 use jred_file::number::csv;
 use jred_file::number::rounding::rounded;
 
@@ -107,7 +107,7 @@ fn table(columns: &Columns) -> impl Iterator<Item = String> {
             let alike = alike.filter(|(other, _)| base_unit(&other.unit) == base_unit(&head.unit));
             let all = alike.map(|(_, most)| *most).fold(0.0, f64::max);
             // An integration error is small, and is the requested value.
-            if head.quantity == Quantity::EnergyBalance {
+            if head.quantity == ColumnQuantity::EnergyBalance {
                 return 1e-12 * own;
             }
             (1e-12 * own).max(1e-15 * all)

@@ -4,7 +4,7 @@
 use std::ops::Range;
 
 use jred_file::plain;
-use jred_file::text::csv::{self, Table};
+use jred_file::text::csv::{self, CsvTable};
 use jred_file::text::problem::Problem;
 
 use super::fault::{Remarks, Text};
@@ -27,7 +27,7 @@ pub(super) fn is_header(text: &str) -> bool {
 /// The rows of a file with their titles.
 struct Sheet<'t> {
     name: &'t str,
-    csv: Table<'t>,
+    csv: CsvTable<'t>,
 }
 
 /// Plausible figures of a drive (SI); others are mistakes.
@@ -135,7 +135,7 @@ fn each<T>(
 ) -> Result<usize, Problem> {
     let mut sheet = Sheet {
         name: &text.name,
-        csv: Table::read(&text.text)?,
+        csv: CsvTable::read(&text.text)?,
     };
     let mut count = 0;
     while let Some(row) = sheet.csv.advance() {
@@ -271,7 +271,7 @@ fn gearbox(sheet: &Sheet, remarks: &mut Remarks) -> Result<Gearbox, Problem> {
 
 /// A compatibility file: no header; motor key, then gearbox keys.
 pub(super) fn listings(text: &Text, mut take: impl FnMut(Result<Listing, Problem>)) {
-    let mut table = Table::without_header(&text.text);
+    let mut table = CsvTable::without_header(&text.text);
     while let Some(row) = table.advance() {
         take(row.map(|()| {
             let at = table.place(0);

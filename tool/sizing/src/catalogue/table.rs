@@ -16,7 +16,7 @@ pub(super) struct Table<'t> {
     kind: Kind,
     columns: [Option<(usize, Unit)>; Column::COUNT],
     currency: String,
-    csv: csv::Table<'t>,
+    csv: csv::CsvTable<'t>,
 }
 
 impl<'t> Table<'t> {
@@ -26,7 +26,7 @@ impl<'t> Table<'t> {
             kind,
             columns: [const { None }; Column::COUNT],
             currency: String::new(),
-            csv: csv::Table::read(text)?,
+            csv: csv::CsvTable::read(text)?,
         };
         let titles: Vec<String> = table.csv.header().iter().map(ToOwned::to_owned).collect();
         if titles.iter().all(String::is_empty) {

@@ -14,11 +14,11 @@ use jred::error::Error;
 use jred::machine::{Machine, TorqueTerms};
 use jred::mechanism::TrainOutput;
 
-use jred_analysis::duty::mechanics::{Held, Rest, constant_loads};
+use jred_analysis::duty::mechanics::{HoldingTorques, Rest, constant_loads};
 use jred_analysis::duty::{Duty, Instant, Smooth};
 use jred_file::model::machine::MachineFile;
 use jred_file::model::mechanism::AnyMechanism;
-use jred_file::model::schedule::Now;
+use jred_file::model::schedule::ScheduleInstant;
 
 /// Factors on parts of the machine and its motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -74,7 +74,7 @@ impl<'a> Altered<'a> {
         let laden = (file.schedule.machines().map(bare)).collect::<Result<Vec<_>, Error>>()?;
         let weights = (duty.instants.iter())
             .map(|i| {
-                let now = Now::of(i.t, i.omega);
+                let now = ScheduleInstant::of(i.t, i.omega);
                 if file.schedule.flows() {
                     return weight(&bare(&*file.machine_at(&now, i.phi)?)?, i.phi);
                 }
@@ -135,7 +135,7 @@ impl<'a> Altered<'a> {
             })
             .unzip();
         let duration = self.duty.duration * by.time;
-        let held = Held {
+        let held = HoldingTorques {
             instants: &instants,
             constant: &constant,
             duration,

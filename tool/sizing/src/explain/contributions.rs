@@ -8,7 +8,7 @@ use crate::cycle::form::loads;
 use jred_analysis::duty::{Duty, Instant};
 use jred_file::model::machine::MachineFile;
 use jred_file::model::motion::Motion;
-use jred_file::model::schedule::Now;
+use jred_file::model::schedule::ScheduleInstant;
 use jred_file::units::Vocabulary;
 
 /// Torque at the motor of one part through one effect, at every instant.
@@ -131,9 +131,9 @@ impl Contributions {
             let starts = instant.omega == 0.0 && instant.direction != 0.0;
             // At the pace of the file, so that its carriages are in step.
             let now = if starts {
-                Now::starting(t, instant.direction)
+                ScheduleInstant::starting(t, instant.direction)
             } else {
-                Now::of(t, instant.omega / share)
+                ScheduleInstant::of(t, instant.omega / share)
             };
             machine(&mut contributions, file, drive, (instant, &now, share))?;
             drive_parts(&mut contributions, file, drive, instant);
@@ -168,7 +168,7 @@ fn machine(
     contributions: &mut Contributions,
     file: &MachineFile,
     drive: &Drive,
-    (instant, now, pace): (&Instant, &Now, f64),
+    (instant, now, pace): (&Instant, &ScheduleInstant, f64),
 ) -> Result<(), Error> {
     let machine = file.machine_at(now, instant.phi)?;
     let mechanism = machine.mechanism();

@@ -26,7 +26,7 @@ use crate::select::size::{Candidate, Selection};
 use jred_analysis::duty::Duty;
 use jred_file::model::rule::Rule;
 use jred_file::model::rules::RuleSet;
-use jred_file::model::rules::Verdict;
+use jred_file::model::rules::RuleVerdict;
 use jred_file::model::site::Site;
 use jred_file::units::Vocabulary;
 
@@ -259,7 +259,7 @@ fn misses(context: &Context, rules: &RuleSet) -> Vec<Miss> {
     let (findings, _) = context.ranked(rules);
     let broken = findings
         .iter()
-        .filter(|(rule, finding)| rules.verdict(*rule, *finding) == Verdict::Fail);
+        .filter(|(rule, finding)| rules.verdict(*rule, *finding) == RuleVerdict::Fail);
     let mut misses: Vec<Miss> = broken
         .filter_map(|(rule, finding)| {
             let limit = rules.limit(rule).fail?;

@@ -6,7 +6,7 @@ use super::remedy::{Edge, Lever, Remedy};
 use crate::judge::{Context, Findings};
 use jred_file::model::rule::Rule;
 use jred_file::model::rules::RuleSet;
-use jred_file::model::rules::Verdict;
+use jred_file::model::rules::RuleVerdict;
 use jred_file::number::numerics::golden_section;
 
 /// Steps of the search by the golden section.
@@ -56,7 +56,7 @@ impl State {
                 continue;
             }
             let used = rules.use_of_limit(rule, finding);
-            let fails = rules.verdict(rule, finding) == Verdict::Fail;
+            let fails = rules.verdict(rule, finding) == RuleVerdict::Fail;
             if fails && used.is_infinite() {
                 state.beyond = true;
                 state.rule = state.rule.or(Some(rule));

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use super::motor::{braked, falls, locks};
 use super::{Context, Record, Words};
 use crate::catalogue::Brake;
-use jred_analysis::duty::mechanics::{Closing, Stopped};
+use jred_analysis::duty::mechanics::{BrakeStop, MotorBrake};
 use jred_file::model::rule::Rule;
 use jred_file::model::rules::Finding;
 use jred_file::number::rounding::short;
@@ -27,8 +27,8 @@ pub(super) fn measure(context: &Context, findings: &mut impl Record) {
 }
 
 /// The worst stop by the brake alone; `None` if its closing time is not given.
-fn stop(context: &Context, brake: &Brake) -> Option<Stopped> {
-    let closing = Closing::new(
+fn stop(context: &Context, brake: &Brake) -> Option<BrakeStop> {
+    let closing = MotorBrake::new(
         [
             brake.dynamic_torque.unwrap_or(brake.torque),
             brake.closing_time?,
@@ -102,7 +102,7 @@ fn of_work(context: &Context, finding: Finding, words: &Vocabulary) -> Words {
 }
 
 /// Distance that the machine continues to run when the supply fails.
-fn run_on(context: &Context, stop: &Stopped) -> String {
+fn run_on(context: &Context, stop: &BrakeStop) -> String {
     let mechanics = context.cycle.mechanics();
     let (slides, slope, of) = match (mechanics.tool_slope, &context.site.tool) {
         (Some(slope), Some(tool)) => (

@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use crate::judge::Words;
 use jred_file::model::rule::{Rule, Sense};
-use jred_file::model::rules::{Finding, RuleSet, Verdict};
+use jred_file::model::rules::{Finding, RuleSet, RuleVerdict};
 use jred_file::number::rounding::{cleared, short, told_apart};
 
 /// A rule with its value, limit and verdict.
@@ -26,7 +26,7 @@ pub struct Check {
     /// Margin as a share of the limit; `None` without a limit, or for a yes-or-no rule.
     pub margin: Option<f64>,
     /// Verdict.
-    pub verdict: Verdict,
+    pub verdict: RuleVerdict,
     /// How the limit is computed, or the missing data.
     pub note: String,
     /// Source of the limit.
@@ -70,7 +70,7 @@ impl Check {
                 format!("{share} {shown} {unit}, the {rating}")
             }
         };
-        if verdict == Verdict::Warn
+        if verdict == RuleVerdict::Warn
             && let Some(warn) = limit.warn.filter(|_| limit.fail.is_some())
         {
             let beyond = match rule.sense() {
@@ -93,7 +93,7 @@ impl Check {
             unit,
             used,
             margin: margin.then_some(match verdict {
-                Verdict::Fail => 1.0 - used,
+                RuleVerdict::Fail => 1.0 - used,
                 _ => cleared(1.0 - used, 1.0),
             }),
             verdict,
@@ -119,7 +119,7 @@ impl Check {
     /// Figure and limit with four digits; with more digits where those would not show that the limit is exceeded.
     fn figures(&self) -> Option<[String; 2]> {
         let pair = [self.value?, self.limit?];
-        Some(if self.verdict == Verdict::Fail {
+        Some(if self.verdict == RuleVerdict::Fail {
             told_apart(pair)
         } else {
             pair.map(short)
@@ -130,7 +130,7 @@ impl Check {
     pub fn used(&self) -> String {
         match self.use_of_limit() * 100.0 {
             _ if self.limit.is_none() || self.id.is_yes_or_no() => String::new(),
-            percent if self.verdict == Verdict::Fail && percent > 100.0 && percent < 100.5 => {
+            percent if self.verdict == RuleVerdict::Fail && percent > 100.0 && percent < 100.5 => {
                 "> 100 %".to_owned()
             }
             percent if percent <= 1000.0 => format!("{percent:.0} %"),

@@ -5,7 +5,7 @@ use crate::catalogue::{Drive, Resistor};
 use crate::cycle::form::MotorDuty;
 use crate::judge::check::Check;
 use jred_file::model::rule::Rule;
-use jred_file::model::rules::{RuleSet, Verdict};
+use jred_file::model::rules::{RuleSet, RuleVerdict};
 
 /// A drive with the verdict of every rule.
 #[derive(Clone, Debug)]
@@ -38,27 +38,29 @@ impl<'c> Judged<'c> {
     }
 
     /// The worst verdict.
-    pub fn verdict(&self) -> Verdict {
+    pub fn verdict(&self) -> RuleVerdict {
         let worst = self.checks.iter().map(|c| c.verdict).max();
-        worst.unwrap_or(Verdict::Pass)
+        worst.unwrap_or(RuleVerdict::Pass)
     }
 
     /// Whether no rule is violated.
     pub fn holds(&self) -> bool {
-        self.verdict() != Verdict::Fail
+        self.verdict() != RuleVerdict::Fail
     }
 
     /// One sentence for each violated rule.
     pub fn reasons(&self) -> String {
-        self.sentences(Verdict::Fail).collect::<Vec<_>>().join("; ")
+        self.sentences(RuleVerdict::Fail)
+            .collect::<Vec<_>>()
+            .join("; ")
     }
 
     /// One sentence for each rule that warns, and each assumption.
     pub fn warnings(&self) -> impl Iterator<Item = String> {
-        (self.sentences(Verdict::Warn)).chain(self.assumptions.iter().cloned())
+        (self.sentences(RuleVerdict::Warn)).chain(self.assumptions.iter().cloned())
     }
 
-    fn sentences(&self, verdict: Verdict) -> impl Iterator<Item = String> {
+    fn sentences(&self, verdict: RuleVerdict) -> impl Iterator<Item = String> {
         let checks = self.checks.iter();
         checks
             .filter(move |c| c.verdict == verdict)

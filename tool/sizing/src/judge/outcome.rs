@@ -4,13 +4,13 @@ use super::{Findings, Record, RuleBits};
 use jred_file::model::rule::Rule;
 use jred_file::model::rules::Finding;
 use jred_file::model::rules::RuleSet;
-use jred_file::model::rules::Verdict;
+use jred_file::model::rules::RuleVerdict;
 
 /// Result of a drive in numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Outcome {
     /// The worst verdict.
-    pub verdict: Verdict,
+    pub verdict: RuleVerdict,
     /// The largest finite share of a limit that is used. Where a limit is zero (no torque beyond the maximum speed), the rule for the speed gives the
     /// excess.
     pub worst_use: f64,
@@ -31,7 +31,7 @@ pub struct Outcome {
 impl Outcome {
     /// Outcome without findings.
     pub const NOTHING: Self = Self {
-        verdict: Verdict::Pass,
+        verdict: RuleVerdict::Pass,
         worst_use: 0.0,
         worst_rule: None,
         warnings: 0,
@@ -52,7 +52,7 @@ impl Outcome {
 
     /// Whether a rule is violated.
     pub const fn fails(&self) -> bool {
-        matches!(self.verdict, Verdict::Fail)
+        matches!(self.verdict, RuleVerdict::Fail)
     }
 
     fn uses(&mut self, rule: Rule, used: f64) {
@@ -82,16 +82,16 @@ impl Record for Tally<'_> {
     fn set(&mut self, rule: Rule, finding: Finding) {
         let outcome = &mut self.outcome;
         let verdict = self.rules.verdict(rule, finding);
-        if verdict == Verdict::Off {
+        if verdict == RuleVerdict::Off {
             return;
         }
         outcome.verdict = outcome.verdict.max(verdict);
-        outcome.warnings += u8::from(verdict == Verdict::Warn);
-        if verdict == Verdict::NotChecked {
+        outcome.warnings += u8::from(verdict == RuleVerdict::Warn);
+        if verdict == RuleVerdict::NotChecked {
             outcome.not_checked.add(rule);
             outcome.voltage_unknown |= rule.is_of_voltage() && finding.rating.is_nan();
         }
-        let fails = verdict == Verdict::Fail;
+        let fails = verdict == RuleVerdict::Fail;
         if fails {
             outcome.violated.add(rule);
         }

@@ -4,7 +4,7 @@ use super::{Context, Record, Words};
 use crate::catalogue::Basis;
 use crate::motor::envelope::Prepared;
 use jred_file::model::rule::Rule;
-use jred_file::model::rules::{Finding, RuleSet, Verdict};
+use jred_file::model::rules::{Finding, RuleSet, RuleVerdict};
 use jred_file::number::rounding::short;
 
 /// Both rules; they do not need cycle and gearbox.
@@ -38,7 +38,7 @@ pub(super) fn words(context: &Context, rules: &RuleSet, rule: Rule, finding: Fin
     let mut place = String::new();
     if finding.is_known() {
         let supply = supply(context, finding.value);
-        place = if rules.verdict(rule, finding) == Verdict::Fail {
+        place = if rules.verdict(rule, finding) == RuleVerdict::Fail {
             format!(
                 "{supply}; \"{key}\" is not made for that: take one that is, or lower the supply, for example with a transformer"
             )

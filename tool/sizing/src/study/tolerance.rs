@@ -28,7 +28,7 @@ use crate::study::header::{Header, digest};
 use crate::study::task::Task;
 use jred_file::model::rule::Rule;
 use jred_file::model::rules::Limit;
-use jred_file::model::tolerance::{Shape, Tolerance};
+use jred_file::model::tolerance::{Distribution, Tolerance};
 
 /// One quantity that scatters.
 #[derive(Clone, Debug)]
@@ -44,7 +44,7 @@ pub struct Scatter {
     /// Half the width, or the standard deviation, in the unit.
     pub amount: f64,
     /// Distribution.
-    pub shape: Shape,
+    pub shape: Distribution,
 }
 
 impl Scatter {
@@ -128,8 +128,8 @@ impl Scatter {
     /// Draws a value.
     fn draw(&self, rng: &mut ChaCha8Rng) -> f64 {
         let deviation: f64 = match self.shape {
-            Shape::Uniform => 2.0 * rng.random::<f64>() - 1.0,
-            Shape::Normal => StandardNormal.sample(rng),
+            Distribution::Uniform => 2.0 * rng.random::<f64>() - 1.0,
+            Distribution::Normal => StandardNormal.sample(rng),
         };
         self.nominal + self.amount * deviation
     }

@@ -6,7 +6,7 @@ use jred_analysis::checked;
 use jred_analysis::duty::Duty;
 use jred_file::model::rule::Rule;
 use jred_file::model::rules::RuleSet;
-use jred_file::model::rules::Verdict;
+use jred_file::model::rules::RuleVerdict;
 use jred_file::model::site::Site;
 use jred_file::model::supply::{BrakeResistor, Supply};
 use jred_sizing::bus;
@@ -144,18 +144,21 @@ fn a_resistor_too_small_for_the_amplifier() {
     let low = resistance(Some(30.0), None);
     assert_eq!(
         (low.verdict, low.value, low.limit, low.unit),
-        (Verdict::Fail, Some(20.0), Some(30.0), "Ohm")
+        (RuleVerdict::Fail, Some(20.0), Some(30.0), "Ohm")
     );
     assert!(
         low.note.contains("minimum resistance of the chopper"),
         "{}",
         low.note
     );
-    assert_eq!(resistance(Some(20.0), None).verdict, Verdict::Pass);
+    assert_eq!(resistance(Some(20.0), None).verdict, RuleVerdict::Pass);
     // The machine file takes precedence.
-    assert_eq!(resistance(Some(30.0), Some(15.0)).verdict, Verdict::Pass);
+    assert_eq!(
+        resistance(Some(30.0), Some(15.0)).verdict,
+        RuleVerdict::Pass
+    );
     let unknown = resistance(None, None);
-    assert_eq!(unknown.verdict, Verdict::NotChecked);
+    assert_eq!(unknown.verdict, RuleVerdict::NotChecked);
     assert!(unknown.note.contains("no data"), "{}", unknown.note);
 }
 

@@ -7,7 +7,7 @@ use jred_analysis::duty::Duty;
 use jred_file::model::rule::Rule;
 use jred_file::model::rules::Finding;
 use jred_file::model::rules::RuleSet;
-use jred_file::model::rules::Verdict;
+use jred_file::model::rules::RuleVerdict;
 use jred_file::model::site::Site;
 use jred_sizing::catalogue::Catalogue;
 use jred_sizing::cycle::Cycle;
@@ -109,7 +109,7 @@ impl Ready {
             None,
         );
         let mut outcome = Outcome::of(&self.rules, &findings);
-        if outcome.verdict == Verdict::Fail {
+        if outcome.verdict == RuleVerdict::Fail {
             // Rules over time are not judged for a refused drive.
             outcome.not_checked = candidate.outcome.not_checked;
         }
@@ -129,7 +129,7 @@ fn every_verdict_is_that_of_plain_loops() {
         let found = candidate.outcome;
         let name = candidate.drive.name();
         assert_eq!(found.verdict, expected.verdict, "{name}");
-        if found.verdict == Verdict::Fail && found.worst_use < expected.worst_use {
+        if found.verdict == RuleVerdict::Fail && found.worst_use < expected.worst_use {
             // Rules over time were not evaluated.
             continue;
         }

@@ -6,7 +6,7 @@ use std::cmp::Ordering;
 use jred_analysis::checked;
 use jred_analysis::duty::Duty;
 use jred_file::model::rule::Rule;
-use jred_file::model::rules::Verdict;
+use jred_file::model::rules::RuleVerdict;
 use jred_file::model::rules::{Limit, RuleSet};
 use jred_file::model::site::Site;
 use jred_file::model::supply::BrakeResistor;
@@ -32,7 +32,7 @@ fn plainly(
     let mut lists = [Vec::new(), Vec::new()];
     for (id, drive) in catalogue.drives() {
         let outcome = Context::new(cycle, site, drive, &motors[id.motor()]).outcome(rules);
-        lists[usize::from(outcome.verdict == Verdict::Fail)].push((drive, outcome));
+        lists[usize::from(outcome.verdict == RuleVerdict::Fail)].push((drive, outcome));
     }
     let [fit, refused] = &mut lists;
     fit.sort_by(|(a, x), (b, y)| {

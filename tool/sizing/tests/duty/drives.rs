@@ -3,7 +3,7 @@
 use jred_analysis::duty::Duty;
 use jred_file::model::rule::Rule;
 use jred_file::model::rules::RuleSet;
-use jred_file::model::rules::Verdict;
+use jred_file::model::rules::RuleVerdict;
 use jred_file::model::site::Site;
 use jred_sizing::catalogue::Drive;
 use jred_sizing::catalogue::{Catalogue, Gearbox, Motor};
@@ -265,7 +265,10 @@ fn ranking() {
     assert_eq!(names.len(), fit.len() + refused.len());
     for candidate in refused {
         let judged = selection.judged(candidate);
-        let broken = judged.checks.iter().filter(|c| c.verdict == Verdict::Fail);
+        let broken = judged
+            .checks
+            .iter()
+            .filter(|c| c.verdict == RuleVerdict::Fail);
         let broken: Vec<_> = broken.collect();
         assert!(!broken.is_empty());
         for check in broken {
@@ -283,7 +286,7 @@ fn ranking() {
         for check in &judged.checks {
             let held = check.margin().is_none_or(|margin| margin >= 0.0);
             assert!(
-                held || check.verdict == Verdict::Warn,
+                held || check.verdict == RuleVerdict::Warn,
                 "{}",
                 check.sentence()
             );

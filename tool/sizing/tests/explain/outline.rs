@@ -8,7 +8,7 @@ use jred_analysis::checked;
 use jred_analysis::duty::Duty;
 use jred_file::model::machine::MachineFile;
 use jred_file::model::rule::Rule;
-use jred_file::model::rules::{InertiaOf, Limit, RuleSet, Verdict};
+use jred_file::model::rules::{InertiaOf, Limit, RuleSet, RuleVerdict};
 use jred_sizing::catalogue::{Amplifier, Drive, Gearbox, Motor, Winding};
 use jred_sizing::cycle::Cycle;
 use jred_sizing::explain::{Alteration, Altered};
@@ -182,8 +182,8 @@ fn what_an_outline_violates_is_violated() {
             );
             lower.set(lower.get() + usize::from(less < 0.999_999 * more));
             let [less, more] = [found, whole].map(|found| rules.verdict(rule, found));
-            let failed = less == Verdict::Fail;
-            prop_assert!(!failed || more == Verdict::Fail, "{:?}", rule);
+            let failed = less == RuleVerdict::Fail;
+            prop_assert!(!failed || more == RuleVerdict::Fail, "{:?}", rule);
             fails.set(fails.get() + usize::from(failed));
             seen.borrow_mut().insert(rule.key());
         }

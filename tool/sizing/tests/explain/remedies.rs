@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use jred_analysis::duty::Duty;
 use jred_file::model::rule::Rule;
-use jred_file::model::rules::Verdict;
+use jred_file::model::rules::RuleVerdict;
 use jred_file::model::rules::{Limit, RuleSet};
 use jred_sizing::catalogue::Catalogue;
 use jred_sizing::catalogue::Drive;
@@ -290,7 +290,7 @@ fn a_change_written_into_the_machine_file_does_what_was_said() {
                 let findings = context.findings(&file.rules);
                 let broken: Vec<Rule> = findings
                     .iter()
-                    .filter(|(rule, f)| file.rules.verdict(*rule, *f) == Verdict::Fail)
+                    .filter(|(rule, f)| file.rules.verdict(*rule, *f) == RuleVerdict::Fail)
                     .map(|(rule, _)| rule)
                     .collect();
                 let what = format!("{}, {:?} {value}", remedies.drive, remedy.lever);

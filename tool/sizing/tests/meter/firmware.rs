@@ -6,7 +6,7 @@ use jred::mechanism::TrainOutput;
 use jred_analysis::checked;
 use jred_file::model::machine::MachineFile;
 use jred_file::model::rule::Rule;
-use jred_file::model::rules::Verdict as Sized;
+use jred_file::model::rules::RuleVerdict as Sized;
 use jred_sizing::cycle::form::Coefficients;
 use jred_sizing::judge::check::Check;
 

@@ -1,7 +1,7 @@
 //! Play at the tool: the tool moved through the play by hand.
 
 use jred_file::model::rule::Rule;
-use jred_file::model::rules::Verdict;
+use jred_file::model::rules::RuleVerdict;
 
 use super::{Stand, near, press_text};
 
@@ -40,7 +40,7 @@ fn the_ram_has_play() {
         let check = stand.check(true, &stand.file.rules, Rule::Backlash);
         near("in mm", check.value.unwrap(), 1e3 * most, 1e-5);
         assert_eq!((check.unit, check.limit), ("mm", Some(0.05)));
-        assert_eq!(check.verdict == Verdict::Fail, most > 5e-5);
+        assert_eq!(check.verdict == RuleVerdict::Fail, most > 5e-5);
         let assumed = "; backlash of the drive train not given; using none";
         assert_eq!(check.note.contains(assumed), own == 0.0, "{}", check.note);
         // Without a gearbox only the drive train's own.
@@ -53,7 +53,7 @@ fn the_ram_has_play() {
         stand.gearbox.backlash = None;
         assert_eq!(
             stand.check(true, &stand.file.rules, Rule::Backlash).verdict,
-            Verdict::NotChecked
+            RuleVerdict::NotChecked
         );
     }
     // Without a tool the rule does not apply.

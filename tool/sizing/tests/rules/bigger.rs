@@ -1,7 +1,7 @@
 //! A stronger motor with the same rotor is never judged worse by a rule about torque.
 
 use jred_file::model::rule::Rule;
-use jred_file::model::rules::Verdict;
+use jred_file::model::rules::RuleVerdict;
 use jred_sizing::catalogue::{Catalogue, Motor, Winding};
 
 use super::Stand;
@@ -27,7 +27,7 @@ fn stronger(motor: &Motor, times: f64) -> Motor {
 }
 
 /// Verdict and used share of each rule that applies.
-fn judged(stand: &Stand, geared: bool) -> Vec<(Rule, Verdict, f64)> {
+fn judged(stand: &Stand, geared: bool) -> Vec<(Rule, RuleVerdict, f64)> {
     let found = TORQUE_RULES.into_iter().filter_map(|rule| {
         let finding = stand.finding(geared, &stand.file.rules, rule)?;
         let verdict = stand.check(geared, &stand.file.rules, rule).verdict;

@@ -1,7 +1,7 @@
 //! The holding brake: its factor, and the stop that it makes alone.
 
 use jred_file::model::rule::Rule;
-use jred_file::model::rules::{RuleSet, Verdict};
+use jred_file::model::rules::{RuleSet, RuleVerdict};
 use jred_sizing::catalogue::Brake;
 
 use super::{Stand, near};
@@ -116,7 +116,7 @@ fn a_brake_below_the_weight_takes_work_without_end() {
         ..BRAKE
     };
     let check = lift(weak).check(true, &RuleSet::default(), Rule::BrakeWork);
-    assert_eq!(check.verdict, Verdict::Fail);
+    assert_eq!(check.verdict, RuleVerdict::Fail);
     assert!(check.note.contains("without end"), "{}", check.note);
 }
 
@@ -124,7 +124,7 @@ fn a_brake_below_the_weight_takes_work_without_end() {
 #[test]
 fn a_brake_holds_with_a_factor() {
     let weight = 60.0 * 9.81 * RADIUS / RATIO;
-    for (factor, verdict) in [(1.51, Verdict::Pass), (1.49, Verdict::Fail)] {
+    for (factor, verdict) in [(1.51, RuleVerdict::Pass), (1.49, RuleVerdict::Fail)] {
         let brake = Brake {
             torque: factor * weight,
             ..BRAKE
@@ -148,7 +148,7 @@ fn missing_figures_of_a_brake_are_named() {
             ..BRAKE
         };
         let check = lift(brake).check(true, &rules, Rule::BrakeWork);
-        assert_eq!(check.verdict, Verdict::NotChecked);
+        assert_eq!(check.verdict, RuleVerdict::NotChecked);
         assert!(check.note.contains(column), "{}", check.note);
     }
     let flat = LIFT.replace("90 deg", "0 deg");

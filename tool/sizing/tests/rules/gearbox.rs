@@ -1,7 +1,7 @@
 //! T2B with shock factors, the mean torque, the speeds.
 
 use jred_file::model::rule::Rule;
-use jred_file::model::rules::Verdict;
+use jred_file::model::rules::RuleVerdict;
 use jred_file::units::RPM;
 
 use super::{Stand, budget, edited, near, press_text};
@@ -15,7 +15,7 @@ fn shock_factors() {
     let warned = stand.check(true, &stand.file.rules, Rule::GearboxCycles);
     assert_eq!(
         (warned.value, warned.limit, warned.verdict),
-        (Some(7200.0), Some(1000.0), Verdict::Warn)
+        (Some(7200.0), Some(1000.0), RuleVerdict::Warn)
     );
     for (points, factor, most) in [
         (vec![], 1.0, 1000.0),
@@ -115,7 +115,7 @@ fn missing_figures_are_named() {
         (Rule::NaturalFrequency, "torsional stiffness of the gearbox"),
     ] {
         let check = stand.check(true, &stand.file.rules, rule);
-        assert_eq!(check.verdict, Verdict::NotChecked);
+        assert_eq!(check.verdict, RuleVerdict::NotChecked);
         assert_eq!((check.limit, check.margin), (None, None));
         assert!(check.note.contains(words), "{}", check.note);
     }

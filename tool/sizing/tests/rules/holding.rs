@@ -2,7 +2,7 @@
 
 use jred_file::model::operation::Operation;
 use jred_file::model::rule::Rule;
-use jred_file::model::rules::{RuleSet, Verdict};
+use jred_file::model::rules::{RuleSet, RuleVerdict};
 use jred_sizing::catalogue::Drive;
 use jred_sizing::cycle::form::Coefficients;
 use proptest::prelude::*;
@@ -96,7 +96,7 @@ fn what_falls_without_a_brake_is_said() {
     let warning = stand.warnings(true).remove(0);
     // 120 N m over 3 and 5, times the rule's factor of 1.5; a brake of that torque satisfies the rule.
     assert!(warning.contains("at least 12 N m"), "{warning}");
-    for (torque, verdict) in [(12.0, Verdict::Pass), (11.99, Verdict::Fail)] {
+    for (torque, verdict) in [(12.0, RuleVerdict::Pass), (11.99, RuleVerdict::Fail)] {
         stand.brake(torque);
         assert_eq!(
             stand.check(true, &rules, Rule::BrakeTorque).verdict,
@@ -105,7 +105,7 @@ fn what_falls_without_a_brake_is_said() {
     }
     stand.motor.brake = None;
     let check = stand.check(true, &rules, Rule::BrakeTorque);
-    assert_eq!(check.verdict, Verdict::NotChecked);
+    assert_eq!(check.verdict, RuleVerdict::NotChecked);
     assert!(check.note.contains("holding brake"), "{}", check.note);
     stand.gearbox.back_efficiency = 0.0;
     assert!(stand.finding(true, &rules, Rule::BrakeTorque).is_none());

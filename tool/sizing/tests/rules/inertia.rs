@@ -1,7 +1,7 @@
 //! The inertia ratio: the judged figure of the curve λ(φ), and limits by moves per minute.
 
 use jred_file::model::rule::Rule;
-use jred_file::model::rules::Verdict;
+use jred_file::model::rules::RuleVerdict;
 
 use super::{Stand, budget, edited, near, press_text};
 
@@ -91,7 +91,7 @@ fn limits_by_moves_per_minute() {
             check.note
         );
         if limit.is_none() {
-            assert_eq!(check.verdict, Verdict::NotChecked);
+            assert_eq!(check.verdict, RuleVerdict::NotChecked);
         }
     }
 }

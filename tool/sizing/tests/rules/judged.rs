@@ -1,6 +1,6 @@
 //! A judged drive: assumptions, use of limits, and the keys of missing data.
 
-use jred_file::model::rules::{Limit, Verdict};
+use jred_file::model::rules::{Limit, RuleVerdict};
 use jred_sizing::catalogue::Amplifier;
 use jred_sizing::judge::{Judged, Outcome, cure};
 
@@ -51,7 +51,7 @@ fn a_judged_drive_in_figures() {
         let used = (judged.used(Rule::Speed), judged.used(Rule::BusVoltage));
         assert_eq!(
             judged.holds(),
-            judged.checks.iter().all(|c| c.verdict != Verdict::Fail)
+            judged.checks.iter().all(|c| c.verdict != RuleVerdict::Fail)
         );
         near(
             "power",
@@ -144,7 +144,9 @@ fn rules_that_are_not_checked_are_counted() {
         let context = Context::new(&stand.cycle, &stand.file.site, stand.drive(true), &prepared);
         let found = Outcome::of(&rules, &context.findings(&rules)).not_checked;
         let checks = context.checks(&rules);
-        let unknown = checks.iter().filter(|c| c.verdict == Verdict::NotChecked);
+        let unknown = checks
+            .iter()
+            .filter(|c| c.verdict == RuleVerdict::NotChecked);
         assert_eq!(found.count(), unknown.count());
         assert_eq!(found.count(), found.iter().count());
         open.push(found.count());

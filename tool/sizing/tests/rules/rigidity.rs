@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use jred_file::model::rule::Rule;
-use jred_file::model::rules::Verdict;
+use jred_file::model::rules::RuleVerdict;
 
 use super::{Stand, budget, near, press_text};
 
@@ -130,9 +130,9 @@ fn ten_times_the_drive_frequency() {
         near("lowest", found.value, lowest(stiffness, &stand), 1e-12);
         let check = stand.check(true, &stand.file.rules, Rule::NaturalFrequency);
         let expected = if factor < 10.0 {
-            Verdict::Warn
+            RuleVerdict::Warn
         } else {
-            Verdict::Pass
+            RuleVerdict::Pass
         };
         assert_eq!(check.verdict, expected, "{}", check.sentence());
         near("limit", check.limit.unwrap(), 10.0 * drive, 1e-12);
@@ -142,7 +142,7 @@ fn ten_times_the_drive_frequency() {
             press_text()
         ));
         let check = stand.check(true, &strict.rules, Rule::NaturalFrequency);
-        assert_eq!(check.verdict == Verdict::Fail, factor < 10.0);
+        assert_eq!(check.verdict == RuleVerdict::Fail, factor < 10.0);
     }
 }
 
@@ -151,7 +151,7 @@ fn nothing_known_is_not_checked() {
     let stand = Stand::press();
     for geared in [false, true] {
         let check = stand.check(geared, &stand.file.rules, Rule::NaturalFrequency);
-        assert_eq!(check.verdict, Verdict::NotChecked);
+        assert_eq!(check.verdict, RuleVerdict::NotChecked);
         assert!(check.note.contains("stiffness"), "{}", check.note);
     }
     // Coupled directly: only the shaft.

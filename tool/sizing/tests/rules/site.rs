@@ -1,7 +1,7 @@
 //! Temperature and altitude: S1 torque and currents by formulas of the makers, and their ranges.
 
 use jred_file::model::rule::Rule;
-use jred_file::model::rules::{RuleSet, Verdict};
+use jred_file::model::rules::{RuleSet, RuleVerdict};
 use jred_file::model::surroundings::Surroundings;
 use jred_sizing::catalogue::{Amplifier, Derating, Motor, Thermal};
 
@@ -149,7 +149,7 @@ fn a_site_beyond_all_rules_is_violated() {
     let rules = RuleSet::default();
     let hot = press("ambient = \"299 degC\"");
     let check = hot.check(true, &rules, Rule::AmbientTemperature);
-    assert_eq!(check.verdict, Verdict::Fail);
+    assert_eq!(check.verdict, RuleVerdict::Fail);
     assert!(check.note.contains("IEC 60034-1"), "{}", check.note);
     let cool = press("ambient = \"40 degC\"\naltitude = \"1000 m\"");
     for rule in [
@@ -162,10 +162,13 @@ fn a_site_beyond_all_rules_is_violated() {
     let mut high = press("altitude = \"2500 m\"");
     assert_eq!(
         high.check(true, &rules, Rule::Altitude).verdict,
-        Verdict::Pass
+        RuleVerdict::Pass
     );
     high.motor.derating.altitude = vec![[1000.0, 1.0], [2000.0, 0.9]];
     let check = high.check(true, &rules, Rule::Altitude);
-    assert_eq!((check.verdict, check.limit), (Verdict::Fail, Some(2000.0)));
+    assert_eq!(
+        (check.verdict, check.limit),
+        (RuleVerdict::Fail, Some(2000.0))
+    );
     assert!(check.note.contains("altitude_derating"), "{}", check.note);
 }

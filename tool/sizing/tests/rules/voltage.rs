@@ -3,7 +3,7 @@
 use std::f64::consts::SQRT_2;
 
 use super::{Context, Finding, Rule, RuleSet, Stand, budget, near, press_text, read};
-use jred_file::model::rules::Verdict;
+use jred_file::model::rules::RuleVerdict;
 use jred_file::model::site::Site;
 use jred_sizing::bus::supply::BusData;
 use jred_sizing::catalogue::{Amplifier, Basis, Catalogue, Drive, Motor};
@@ -105,14 +105,14 @@ fn a_motor_for_another_voltage_is_refused() {
             .verdict
     };
     for (mains, class, expected) in [
-        (400.0, 200.0, Verdict::Fail),
-        (277.0, 200.0, Verdict::Fail),
-        (240.0, 200.0, Verdict::Pass),
-        (230.0, 200.0, Verdict::Pass),
-        (200.0, 400.0, Verdict::Pass),
-        (480.0, 400.0, Verdict::Pass),
-        (500.0, 400.0, Verdict::Fail),
-        (200.0, 100.0, Verdict::Fail),
+        (400.0, 200.0, RuleVerdict::Fail),
+        (277.0, 200.0, RuleVerdict::Fail),
+        (240.0, 200.0, RuleVerdict::Pass),
+        (230.0, 200.0, RuleVerdict::Pass),
+        (200.0, 400.0, RuleVerdict::Pass),
+        (480.0, 400.0, RuleVerdict::Pass),
+        (500.0, 400.0, RuleVerdict::Fail),
+        (200.0, 100.0, RuleVerdict::Fail),
     ] {
         let mut stand = press_at(&format!("mains_voltage = \"{mains} V\""));
         stand.motor.mains_voltage = Some(class);
@@ -132,17 +132,17 @@ fn a_motor_for_another_voltage_is_refused() {
     // Figures at 48 V, on 400 V mains and on 60 V.
     let mut stand = press_at("mains_voltage = \"400 V\"");
     stand.motor.bus_voltage = Some(48.0);
-    assert_eq!(verdict(&stand), Verdict::Fail);
+    assert_eq!(verdict(&stand), RuleVerdict::Fail);
     assert_eq!(stand.found(true, Rule::MotorVoltage).rating, 60.0);
     let mut low = press_at("bus_voltage = \"60 V\"");
     low.motor.bus_voltage = Some(48.0);
-    assert_eq!(verdict(&low), Verdict::Pass);
+    assert_eq!(verdict(&low), RuleVerdict::Pass);
     // A bus voltage is used as given, without the tolerance of mains.
     let mut bus = press_at("bus_voltage = \"650 V\"");
     bus.motor.max_bus_voltage = Some(650.0);
-    assert_eq!(verdict(&bus), Verdict::Pass);
+    assert_eq!(verdict(&bus), RuleVerdict::Pass);
     bus.motor.max_bus_voltage = Some(649.0);
-    assert_eq!(verdict(&bus), Verdict::Fail);
+    assert_eq!(verdict(&bus), RuleVerdict::Fail);
 }
 
 #[test]
@@ -165,7 +165,7 @@ fn what_is_said_about_it() {
     }
     stand.motor.mains_voltage = None;
     let check = stand.check(true, &stand.file.rules, Rule::MotorVoltage);
-    assert_eq!(check.verdict, Verdict::NotChecked);
+    assert_eq!(check.verdict, RuleVerdict::NotChecked);
     assert!(
         check
             .note
@@ -176,7 +176,7 @@ fn what_is_said_about_it() {
     let mut nowhere = Stand::press();
     nowhere.motor.mains_voltage = Some(200.0);
     let check = nowhere.check(true, &nowhere.file.rules, Rule::MotorVoltage);
-    assert_eq!(check.verdict, Verdict::NotChecked);
+    assert_eq!(check.verdict, RuleVerdict::NotChecked);
     assert!(check.note.contains("[supply]"), "{}", check.note);
 }
 
@@ -191,12 +191,12 @@ fn a_rule_set_changes_the_limit() {
             .verdict
     };
     // 400/240 = 1.667.
-    assert_eq!(verdict(&stand), Verdict::Pass);
+    assert_eq!(verdict(&stand), RuleVerdict::Pass);
     stand.file = read(&format!(
         "{}\n[rules]\nmotor_voltage = \"off\"\n",
         press_text()
     ));
-    assert_eq!(verdict(&stand), Verdict::Off);
+    assert_eq!(verdict(&stand), RuleVerdict::Off);
 }
 
 fn findings(stand: &Stand, amplifier: &Amplifier) -> [Option<Finding>; 2] {
@@ -218,9 +218,9 @@ fn an_amplifier_for_another_voltage_is_refused() {
     let mut stand = press_at("mains_voltage = \"400 V\"");
     stand.motor.mains_voltage = Some(400.0);
     for (mains, expected) in [
-        (230.0, Verdict::Fail),
-        (400.0, Verdict::Pass),
-        (480.0, Verdict::Pass),
+        (230.0, RuleVerdict::Fail),
+        (400.0, RuleVerdict::Pass),
+        (480.0, RuleVerdict::Pass),
     ] {
         let [motor, found] = findings(&stand, &amplifier(mains));
         assert_eq!(
@@ -230,7 +230,7 @@ fn an_amplifier_for_another_voltage_is_refused() {
         );
         assert_eq!(
             rules.verdict(Rule::MotorVoltage, motor.unwrap()),
-            Verdict::Pass
+            RuleVerdict::Pass
         );
     }
     // Without a supply the motor is judged at that of the amplifier, and the amplifier is not checked.
@@ -245,11 +245,11 @@ fn an_amplifier_for_another_voltage_is_refused() {
     );
     assert_eq!(
         rules.verdict(Rule::MotorVoltage, motor.unwrap()),
-        Verdict::Fail
+        RuleVerdict::Fail
     );
     assert_eq!(
         rules.verdict(Rule::AmplifierVoltage, found.unwrap()),
-        Verdict::NotChecked
+        RuleVerdict::NotChecked
     );
     assert!(
         stand

@@ -1,6 +1,6 @@
 //! Every rule as text: unit, reference of the limit, and missing data.
 
-use jred_file::model::rules::Verdict;
+use jred_file::model::rules::RuleVerdict;
 use jred_file::model::supply::BrakeResistor;
 use jred_file::units::RPM;
 use jred_sizing::catalogue::{Amplifier, Motor};
@@ -179,7 +179,7 @@ fn every_rule_has_its_unit_and_names_its_limit() {
             1e-12,
         );
         assert!(check.note.contains(rating), "{rule:?}: {}", check.note);
-        assert_ne!(check.verdict, Verdict::NotChecked, "{rule:?}");
+        assert_ne!(check.verdict, RuleVerdict::NotChecked, "{rule:?}");
     }
     // All except the torque without acceleration, which is off without a limit, and those of a hot or a high site.
     assert_eq!(found.len(), Rule::COUNT - 1 - 3);
@@ -280,7 +280,7 @@ fn a_missing_figure_is_named() {
     for (rule, change, missing) in changes {
         let found = judged(change);
         let (_, _, check) = found.iter().find(|(found, ..)| *found == rule).unwrap();
-        assert_eq!(check.verdict, Verdict::NotChecked, "{check:?}");
+        assert_eq!(check.verdict, RuleVerdict::NotChecked, "{check:?}");
         let words = format!("no data: {missing}");
         assert!(check.note.starts_with(&words), "{rule:?}: {}", check.note);
         assert_eq!(check.limit, None);

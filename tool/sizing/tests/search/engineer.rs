@@ -8,7 +8,7 @@ use jred_analysis::checked;
 use jred_analysis::duty::Duty;
 use jred_file::model::machine::MachineFile;
 use jred_file::model::rule::Rule;
-use jred_file::model::rules::Verdict;
+use jred_file::model::rules::RuleVerdict;
 use jred_file::model::supply::BrakeResistor;
 use jred_sizing::catalogue::{Catalogue, Drive, Sources};
 use jred_sizing::cycle::Cycle;
@@ -163,9 +163,9 @@ fn drives_stand_in_the_order_in_which_a_buyer_takes_them() {
                     let context = Context::new(&cycle, &file.site, drive, limits)
                         .with_resistors(&catalogue.resistors);
                     let checks = Judged::new(&context, &file.rules).checks;
-                    let verdicts: Vec<Verdict> = checks.iter().map(|c| c.verdict).collect();
-                    if !verdicts.contains(&Verdict::Fail) {
-                        expected.push((keys(&drive), verdicts.contains(&Verdict::Warn)));
+                    let verdicts: Vec<RuleVerdict> = checks.iter().map(|c| c.verdict).collect();
+                    if !verdicts.contains(&RuleVerdict::Fail) {
+                        expected.push((keys(&drive), verdicts.contains(&RuleVerdict::Warn)));
                     }
                 }
             }
@@ -218,7 +218,7 @@ fn bears(
     ]
     .into_iter()
     .filter_map(|rule| Some((rule, findings.get(rule)?)))
-    .all(|(rule, finding)| file.rules.verdict(rule, finding) == Verdict::Pass)
+    .all(|(rule, finding)| file.rules.verdict(rule, finding) == RuleVerdict::Pass)
 }
 
 /// The chosen resistor is the first, by power, that satisfies every rule when connected; none is chosen if the bus needs none.

@@ -2,7 +2,7 @@
 
 use jred_file::model::rule::Rule;
 use jred_file::model::rules::Limit;
-use jred_file::model::rules::Verdict;
+use jred_file::model::rules::RuleVerdict;
 use jred_sizing::select::ratio::Moments;
 use jred_sizing::select::ratio::obstacle::Obstacle;
 use jred_sizing::select::ratio::ranges::Trial;
@@ -54,7 +54,7 @@ fn reasons_where_no_ratio_holds() {
             assert!(trial.ranges(best).is_empty(), "{}", motor.key);
             let holds = |rule: Rule, ratio: f64| {
                 let finding = trial.findings(ratio).get(rule).unwrap();
-                rules.verdict(rule, finding) != Verdict::Fail
+                rules.verdict(rule, finding) != RuleVerdict::Fail
             };
             let used = |rule: Rule, ratio: f64| {
                 rules.use_of_limit(rule, trial.findings(ratio).get(rule).unwrap())

@@ -4,7 +4,7 @@ use super::{RACK, case, catalogue};
 use crate::support::{budget, near, press_text};
 use jred_analysis::duty::Instant;
 use jred_file::model::rule::Rule;
-use jred_file::model::rules::Verdict;
+use jred_file::model::rules::RuleVerdict;
 use jred_sizing::catalogue::Drive;
 use jred_sizing::catalogue::{Catalogue, Gearbox, Motor};
 use jred_sizing::cycle::form::{Coefficients, loads};
@@ -223,7 +223,7 @@ fn the_range_in_closed_form_is_that_of_the_catalogue_search() {
                         Context::new(&case.cycle, &case.file.site, drive, &prepared[id.motor()]);
                     let rules = &case.file.rules;
                     let finding = context.findings(rules).get(Rule::RmsTorque).unwrap();
-                    let holds = rules.verdict(Rule::RmsTorque, finding) != Verdict::Fail;
+                    let holds = rules.verdict(Rule::RmsTorque, finding) != RuleVerdict::Fail;
                     let within =
                         range.is_some_and(|[from, to]| (from..=to).contains(&drive.ratio()));
                     assert_eq!(

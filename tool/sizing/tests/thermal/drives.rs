@@ -7,7 +7,7 @@ use jred_analysis::duty::Duty;
 use jred_file::model::operation::Operation;
 use jred_file::model::rule::Rule;
 use jred_file::model::rules::RuleSet;
-use jred_file::model::rules::Verdict;
+use jred_file::model::rules::RuleVerdict;
 use jred_file::model::site::Site;
 use jred_sizing::catalogue::Drive;
 use jred_sizing::catalogue::{Amplifier, Gearbox, Motor, Thermal, Winding};
@@ -214,7 +214,7 @@ fn the_housing_keeps_its_limit_where_it_is_known() {
     let found = housing(&steady, &at_most(Some(70.0))).unwrap();
     near("rise", found.value.unwrap(), expected, budget::SIMPSON);
     near("limit", found.limit.unwrap(), 30.0, budget::THERMAL);
-    for (margin, verdict) in [(1.01, Verdict::Pass), (0.99, Verdict::Fail)] {
+    for (margin, verdict) in [(1.01, RuleVerdict::Pass), (0.99, RuleVerdict::Fail)] {
         let found = housing(&steady, &at_most(Some(40.0 + margin * expected)));
         assert_eq!(found.unwrap().verdict, verdict);
     }
@@ -232,7 +232,7 @@ fn the_housing_keeps_its_limit_where_it_is_known() {
             one.thermal.housing_resistance = None;
         }
         let found = housing(&one, &at_most(Some(70.0))).unwrap();
-        assert_eq!(found.verdict, Verdict::NotChecked);
+        assert_eq!(found.verdict, RuleVerdict::NotChecked);
         assert!(found.note.contains("thermal resistances"), "{}", found.note);
     }
 }
@@ -265,7 +265,7 @@ fn what_is_missing_is_said() {
     let mut open = motor();
     open.thermal.max_temperature = None;
     let found = winding(&open, &site);
-    assert_eq!(found.verdict, Verdict::NotChecked);
+    assert_eq!(found.verdict, RuleVerdict::NotChecked);
     assert!(
         found.note.contains("maximum temperature of the winding"),
         "{}",
@@ -282,7 +282,7 @@ fn what_is_missing_is_said() {
     steady.thermal.winding_time = None;
     steady.thermal.housing_time = None;
     let found = winding(&steady, &cold);
-    assert_eq!(found.verdict, Verdict::NotChecked);
+    assert_eq!(found.verdict, RuleVerdict::NotChecked);
     assert!(
         found.note.contains("thermal time constants"),
         "{}",
@@ -297,7 +297,7 @@ fn what_is_missing_is_said() {
         (Rule::BusVoltage, "voltage"),
     ] {
         let found = check(&all, rule);
-        assert_eq!(found.verdict, Verdict::NotChecked, "{rule:?}");
+        assert_eq!(found.verdict, RuleVerdict::NotChecked, "{rule:?}");
         assert!(found.note.contains(word), "{}", found.note);
     }
 }
@@ -308,7 +308,7 @@ fn runaway_fails() {
     let mut hot = motor();
     hot.thermal.housing_resistance = Some(50.0);
     let found = winding(&hot, &Site::default());
-    assert_eq!((found.verdict, found.value), (Verdict::Fail, None));
+    assert_eq!((found.verdict, found.value), (RuleVerdict::Fail, None));
     assert!(found.note.contains("thermal runaway"), "{}", found.note);
 }
 
@@ -335,7 +335,7 @@ fn currents_follow_the_torque() {
         budget::THERMAL,
     );
     assert!(
-        overload.value.unwrap() > 0.0 && overload.verdict == Verdict::Pass,
+        overload.value.unwrap() > 0.0 && overload.verdict == RuleVerdict::Pass,
         "{overload:?}"
     );
     let mut large = amplifier.clone();

@@ -8,10 +8,10 @@ use jred::machine::{Action, Mechanism as _};
 
 use crate::duty::Instant;
 use jred_file::model::machine::MachineFile;
-use jred_file::model::tabulated::Course;
+use jred_file::model::virtual_link::LinkCurve;
 
 /// Share of a torque that is rounding.
-const SAME: f64 = 1e-9;
+const TORQUE_ROUNDING: f64 = 1e-9;
 
 /// Torques (N·m, or N) that hold the machine at rest.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -24,7 +24,7 @@ pub struct Rest {
 
 /// The sources of a motion's holding torques.
 #[derive(Clone, Copy, Debug)]
-pub struct Held<'a> {
+pub struct HoldingTorques<'a> {
     /// The instants of the motion.
     pub instants: &'a [Instant],
     /// Torque (N·m, or N) at the drive link against the constant loads, one for each instant; zero in motion.
@@ -37,7 +37,7 @@ pub struct Held<'a> {
 
 impl Rest {
     /// The torques at rest in a motion, and against weight and springs wherever else the machine may rest, all at the drive link.
-    pub fn new(held: &Held, weights: impl Iterator<Item = f64>) -> Self {
+    pub fn new(held: &HoldingTorques, weights: impl Iterator<Item = f64>) -> Self {
         let mut endless = weights.fold(0.0, |most, weight| f64::max(most, weight.abs()));
         for (instant, constant) in held.instants.iter().zip(held.constant) {
             if instant.omega == 0.0 {
@@ -77,7 +77,7 @@ impl Rest {
 
     /// The longest time (s) for which more than this torque is held; `None` if it never is.
     pub fn longest_above(&self, torque: f64) -> Option<f64> {
-        let above = |most: f64| most > torque * (1.0 + SAME);
+        let above = |most: f64| most > torque * (1.0 + TORQUE_ROUNDING);
         if above(self.endless) {
             return Some(f64::INFINITY);
         }
@@ -96,7 +96,7 @@ impl Rest {
     }
 }
 
-impl Held<'_> {
+impl HoldingTorques<'_> {
     /// The stretches at rest: times (s) with the torque against weight and process loads. A stretch over the end of a cycle is one.
     fn runs(&self) -> Vec<Vec<[f64; 2]>> {
         let mut runs: Vec<Vec<[f64; 2]>> = Vec::new();
@@ -137,7 +137,9 @@ fn lengths(run: &[[f64; 2]], spans: &mut Vec<[f64; 2]>) {
     let mut open: Vec<[f64; 2]> = Vec::new();
     let mut close = |open: &mut Vec<[f64; 2]>, at: f64, below: f64| {
         let mut since = at;
-        while let Some([from, torque]) = open.pop_if(|last| last[1] * (1.0 - SAME) > below) {
+        while let Some([from, torque]) =
+            open.pop_if(|last| last[1] * (1.0 - TORQUE_ROUNDING) > below)
+        {
             since = from;
             spans.push([at - from, torque]);
         }
@@ -172,7 +174,7 @@ pub fn constant_loads(file: &MachineFile, instants: &[Instant]) -> Result<Vec<f6
         // A curve over the position is tied to it, except for a torque that is a property of the machine.
         let curve = load.link().checked_sub(first_curve);
         let curve = curve.and_then(|k| courses.get(k));
-        constant && !tied && curve.is_none_or(|course| matches!(course, Course::Torque(_)))
+        constant && !tied && curve.is_none_or(|course| matches!(course, LinkCurve::Torque(_)))
     };
     let loads = machine.loads().iter().enumerate();
     let loads: Vec<_> = loads.filter(|(k, load)| always(*k, load)).collect();

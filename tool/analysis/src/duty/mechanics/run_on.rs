@@ -13,7 +13,7 @@ use crate::duty::Instant;
 
 /// Motion in one direction at the input of the drive train.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Way {
+struct DirectionExtremes {
     /// Largest kinetic energy (J).
     energy: f64,
     /// Largest speed (rad/s).
@@ -25,14 +25,14 @@ struct Way {
 /// States from which the brake may have to stop the machine.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RunOn {
-    ways: Vec<Way>,
+    ways: Vec<DirectionExtremes>,
     /// Least inertia at the input (kg·m²).
     inertia: f64,
 }
 
 /// A brake at the motor shaft.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Closing {
+pub struct MotorBrake {
     /// Torque while it slips (N·m).
     torque: f64,
     /// Time until it has that torque (s).
@@ -45,7 +45,7 @@ pub struct Closing {
 
 /// A stop by the brake.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Stopped {
+pub struct BrakeStop {
     /// Work of the brake (J); infinite if it does not hold the machine.
     pub work: f64,
     /// Travel at the input until the brake closes (rad).
@@ -54,7 +54,7 @@ pub struct Stopped {
     pub way: f64,
 }
 
-impl Closing {
+impl MotorBrake {
     /// A brake with a torque (N·m) while it slips and a closing time (s), on the shaft of rotor and gearbox with an inertia (kg·m²)
     /// and a ratio.
     pub const fn new([torque, time]: [f64; 2], [inertia, ratio]: [f64; 2]) -> Self {
@@ -74,13 +74,13 @@ impl RunOn {
         let inertia = inertia.fold(f64::INFINITY, f64::min);
         let way = |sign: f64| {
             let moving = instants.iter().filter(|i| i.omega * sign > 0.0);
-            let mut way: Option<Way> = None;
+            let mut way: Option<DirectionExtremes> = None;
             for instant in moving {
                 let speed = instant.input_speed.abs();
                 let energy = 0.5 * instant.input_inertia * speed * speed;
                 let terms = &instant.terms;
                 let driving = -(terms.potential + terms.process) * sign / ratio;
-                let way = way.get_or_insert(Way {
+                let way = way.get_or_insert(DirectionExtremes {
                     energy: 0.0,
                     speed: 0.0,
                     driving: 0.0,
@@ -91,7 +91,7 @@ impl RunOn {
             }
             way
         };
-        let rest = Way {
+        let rest = DirectionExtremes {
             energy: 0.0,
             speed: 0.0,
             driving: held,
@@ -104,8 +104,8 @@ impl RunOn {
     }
 
     /// The most work and the longest travel of all stops.
-    pub fn worst(&self, brake: &Closing) -> Stopped {
-        let mut worst = Stopped::default();
+    pub fn worst(&self, brake: &MotorBrake) -> BrakeStop {
+        let mut worst = BrakeStop::default();
         for way in &self.ways {
             let found = self.stop(way, brake);
             worst.work = worst.work.max(found.work);
@@ -116,8 +116,8 @@ impl RunOn {
     }
 
     /// The stop in one direction, at the input.
-    fn stop(&self, way: &Way, brake: &Closing) -> Stopped {
-        let Closing {
+    fn stop(&self, way: &DirectionExtremes, brake: &MotorBrake) -> BrakeStop {
+        let MotorBrake {
             torque,
             time,
             inertia: own,
@@ -134,14 +134,14 @@ impl RunOn {
         let closed = 0.5 * inertia * fast * fast;
         if torque <= way.driving {
             let endless = if closed > 0.0 { f64::INFINITY } else { 0.0 };
-            return Stopped {
+            return BrakeStop {
                 work: endless,
                 falling,
                 way: falling + endless,
             };
         }
         let work = closed * torque / (torque - way.driving);
-        Stopped {
+        BrakeStop {
             work,
             falling,
             way: falling + work / torque,

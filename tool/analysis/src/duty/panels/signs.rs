@@ -1,15 +1,15 @@
 //! Times within a panel at which the power through a stage with losses, or at the input, changes sign.
 
 use super::stretch::Stretch;
-use super::{End, Panels};
+use super::{PanelEnd, Panels};
 use crate::duty::Instant;
-use crate::duty::fault::Fault;
-use crate::duty::moving::{Evaluated, Moving};
+use crate::duty::error::DutyError;
+use crate::duty::moving_machine::{DutyInstant, MovingMachine};
 use jred_file::number::numerics;
 use jred_file::number::parabola::Parabola;
 
 /// Share of the largest torque below which the sign of a torque is rounding.
-pub(super) const UNSIGNED: f64 = 1e-11;
+pub(super) const SIGN_ROUNDING: f64 = 1e-11;
 
 /// Share of the middle value: where the parabola through three instants comes closer to zero than this, the torque may change sign between them, and
 /// the panel is cut there.
@@ -27,7 +27,7 @@ impl Panels<'_, '_> {
     }
 
     /// A power flow at a time.
-    fn flow(&mut self, t: f64, which: usize) -> Result<f64, Fault> {
+    fn flow(&mut self, t: f64, which: usize) -> Result<f64, DutyError> {
         let now = self.moving.at(t)?;
         Ok(self
             .flows_of(&now.instant)
@@ -40,9 +40,9 @@ impl Panels<'_, '_> {
     pub(super) fn changes(
         &mut self,
         stretch: &Stretch,
-        [first, last]: [&End; 2],
-        places: &[Evaluated],
-    ) -> Result<Vec<f64>, Fault> {
+        [first, last]: [&PanelEnd; 2],
+        places: &[DutyInstant],
+    ) -> Result<Vec<f64>, DutyError> {
         let mut times = vec![first.t];
         times.extend(places.iter().map(|now| now.instant.t));
         times.push(last.t);
@@ -53,7 +53,7 @@ impl Panels<'_, '_> {
             .collect();
         let mut cuts = Vec::new();
         for which in 0..self.flows.len() {
-            let least = UNSIGNED * self.flows[which];
+            let least = SIGN_ROUNDING * self.flows[which];
             if least.is_infinite() {
                 continue;
             }
@@ -92,9 +92,9 @@ impl Panels<'_, '_> {
             }
             for [a, b] in brackets {
                 let f = |t: f64| {
-                    let mut moving = Moving::new(self.moving.file, self.moving.motion);
+                    let mut moving = MovingMachine::new(self.moving.file, self.moving.motion);
                     let now = moving.at(stretch.clamp(t))?;
-                    Ok::<f64, Fault>(self.flows_of(&now.instant)[which])
+                    Ok::<f64, DutyError>(self.flows_of(&now.instant)[which])
                 };
                 cuts.push(numerics::zero(f, [a.0, b.0], [a.1, b.1], f64::EPSILON)?);
             }

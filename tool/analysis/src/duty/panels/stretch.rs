@@ -1,11 +1,11 @@
 //! A smooth stretch of the motion, and the initial borders of its panels.
 
-use crate::duty::stretches::hair;
+use crate::duty::stretches::start_inset;
 use jred_file::model::machine::MachineFile;
 use jred_file::model::motion::Motion;
 
 /// Relative rounding of a number of panels.
-const WHOLE: f64 = 1e-12;
+const WHOLE_TOLERANCE: f64 = 1e-12;
 
 /// A smooth stretch of the motion.
 pub(super) struct Stretch {
@@ -20,7 +20,7 @@ pub(super) struct Stretch {
 
 impl Stretch {
     pub(super) fn new(file: &MachineFile, motion: &Motion, (from, to): (f64, f64)) -> Self {
-        let [first, last] = [[from, to], [to, from]].map(|ends| hair(motion, ends));
+        let [first, last] = [[from, to], [to, from]].map(|ends| start_inset(motion, ends));
         let mut rows = motion.rows_within([from, to]);
         for carriage in file.schedule.carriages() {
             rows.extend(carriage.motion.rows_within([from, to]));
@@ -75,7 +75,7 @@ impl Stretch {
 
 /// Rounds a number that is whole except for rounding.
 pub(super) fn near_whole(count: f64) -> f64 {
-    if (count - count.round()).abs() < WHOLE * count {
+    if (count - count.round()).abs() < WHOLE_TOLERANCE * count {
         count.round()
     } else {
         count

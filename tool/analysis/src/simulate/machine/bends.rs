@@ -7,8 +7,8 @@ use jred::mechanism::TrainOutput;
 
 use super::{Instant, Plant};
 use crate::simulate::clock::Moment;
-use crate::simulate::geared::Together;
-use crate::simulate::point::Points;
+use crate::simulate::coupled::CoupledMachines;
+use crate::simulate::point::ReducedLinks;
 use jred_file::model::motor::Motor;
 
 /// The direction of the evaluated velocity component, as a unit vector that no guide has.
@@ -27,7 +27,7 @@ pub(super) struct Bends {
 }
 
 impl Bends {
-    pub(super) fn of(machines: &Together, motor: &impl Motor) -> Self {
+    pub(super) fn of(machines: &CoupledMachines, motor: &impl Motor) -> Self {
         let [_, driving, back, ..] = motor.coefficients().0;
         let opposes =
             |action| matches!(action, Action::OpposingForce(_) | Action::OpposingMoment(_));
@@ -92,7 +92,7 @@ impl<'a, M: Motor> Plant<'a, M> {
     /// Output of each stage with losses, and of the motor's gearbox.
     fn flows(
         &self,
-        points: &Points<'a>,
+        points: &ReducedLinks<'a>,
         direction: f64,
         [phi, omega]: [f64; 2],
         now: &Instant,

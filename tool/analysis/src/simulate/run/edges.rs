@@ -7,25 +7,25 @@ use jred::machine::Reducible as _;
 
 use super::{Plant, Run};
 use crate::simulate::SimulationError;
-use crate::simulate::geared::{Geared, Together};
+use crate::simulate::coupled::{CoupledMachines, GearedMachine};
 use jred_file::number::numerics;
-use jred_file::number::numerics::dormand_prince::Point;
+use jred_file::number::numerics::dormand_prince::StatePoint;
 
 /// Relative distance at which an edge is still ahead, or behind after it was passed: some rounding errors.
-const HAIR: f64 = 4e-15;
+const EDGE_ROUNDING: f64 = 4e-15;
 
 /// The edges of each machine.
 pub(super) struct Edges<'a>(Vec<Machine<'a>>);
 
 struct Machine<'a> {
-    geared: Geared<'a>,
+    geared: GearedMachine<'a>,
     /// Positions of its own drive link, sorted; for a turning one within a turn.
     places: Vec<f64>,
     turns: bool,
 }
 
 impl<'a> Edges<'a> {
-    pub(super) fn of(machines: &Together<'a>) -> Self {
+    pub(super) fn of(machines: &CoupledMachines<'a>) -> Self {
         let all = machines.all().map(|geared| {
             let file = geared.file;
             let turns = file.machine.domain() == Domain::Turn;
@@ -35,7 +35,7 @@ impl<'a> Edges<'a> {
             let edges = edges.map(|edge| if turns { edge.rem_euclid(TAU) } else { edge });
             let mut places: Vec<f64> = edges.collect();
             places.sort_by(f64::total_cmp);
-            places.dedup_by(|b, a| *b - *a <= HAIR * (1.0 + a.abs()));
+            places.dedup_by(|b, a| *b - *a <= EDGE_ROUNDING * (1.0 + a.abs()));
             Machine {
                 geared,
                 places,
@@ -49,8 +49,8 @@ impl<'a> Edges<'a> {
     pub(super) fn ahead(&self, phi: f64, direction: f64) -> f64 {
         let nearest = self.0.iter().map(|machine| {
             let [own, ..] = machine.geared.state([phi, 0.0, 0.0]);
-            let way = direction * machine.geared.ratio().signum();
-            let next = machine.ahead(own, way);
+            let sense = direction * machine.geared.ratio().signum();
+            let next = machine.ahead(own, sense);
             ((next - own) / machine.geared.ratio()).abs()
         });
         phi + direction * nearest.fold(f64::INFINITY, f64::min)
@@ -58,8 +58,8 @@ impl<'a> Edges<'a> {
 }
 
 impl Machine<'_> {
-    fn ahead(&self, own: f64, way: f64) -> f64 {
-        let hair = HAIR * (1.0 + own.abs());
+    fn ahead(&self, own: f64, sense: f64) -> f64 {
+        let rounding = EDGE_ROUNDING * (1.0 + own.abs());
         let turn = if self.turns { (own / TAU).floor() } else { 0.0 };
         let rounds: &[f64] = if self.turns {
             &[-1.0, 0.0, 1.0]
@@ -70,9 +70,9 @@ impl Machine<'_> {
             let start = (turn + round) * TAU;
             self.places.iter().map(move |place| start + place)
         });
-        let ahead = all.filter(|edge| (edge - own) * way > hair);
-        ahead.fold(way * f64::INFINITY, |nearest, edge| {
-            if (edge - nearest) * way < 0.0 {
+        let ahead = all.filter(|edge| (edge - own) * sense > rounding);
+        ahead.fold(sense * f64::INFINITY, |nearest, edge| {
+            if (edge - nearest) * sense < 0.0 {
                 edge
             } else {
                 nearest
@@ -90,16 +90,16 @@ impl<P> Run<'_, P> {
     /// The state just behind the edge, which lies in the integrator's step between these two.
     pub(super) fn on_edge<const N: usize>(
         &self,
-        start: Point<N>,
-        last: Point<N>,
-    ) -> Result<Point<N>, SimulationError>
+        start: StatePoint<N>,
+        last: StatePoint<N>,
+    ) -> Result<StatePoint<N>, SimulationError>
     where
         P: Plant<N>,
     {
         let (edge, direction) = (self.edge, self.direction);
         let (t, y) = self.on_place(edge, start, last)?;
         let [_, omega] = self.plant.link(t, &y)?;
-        let behind = edge + direction * HAIR * (1.0 + edge.abs());
+        let behind = edge + direction * EDGE_ROUNDING * (1.0 + edge.abs());
         Ok((t, self.plant.with_link(t, &y, [behind, omega])?))
     }
 
@@ -107,18 +107,18 @@ impl<P> Run<'_, P> {
     pub(super) fn on_place<const N: usize>(
         &self,
         place: f64,
-        start: Point<N>,
-        last: Point<N>,
-    ) -> Result<Point<N>, SimulationError>
+        start: StatePoint<N>,
+        last: StatePoint<N>,
+    ) -> Result<StatePoint<N>, SimulationError>
     where
         P: Plant<N>,
     {
         let direction = self.direction;
-        let at = |x: f64| -> Result<Point<N>, SimulationError> {
+        let at = |x: f64| -> Result<StatePoint<N>, SimulationError> {
             let steps = self.integrate_until(start.0, start.0 + x, &start.1, |_, _| Ok(false))?;
             Ok(steps.last().copied().unwrap_or(start))
         };
-        let beyond = |(t, y): &Point<N>| -> Result<f64, SimulationError> {
+        let beyond = |(t, y): &StatePoint<N>| -> Result<f64, SimulationError> {
             Ok((self.plant.link(*t, y)?[0] - place) * direction)
         };
         let ends = [beyond(&start)?, beyond(&last)?];

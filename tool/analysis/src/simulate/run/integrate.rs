@@ -5,7 +5,7 @@ use jred::error::Error;
 use super::{Plant, Run};
 use crate::simulate::SimulationError;
 use crate::simulate::error::stopped;
-use jred_file::number::numerics::dormand_prince::Point;
+use jred_file::number::numerics::dormand_prince::StatePoint;
 
 /// Most steps in total, besides some for each row: some ten seconds.
 const MOST_IN_ALL: u64 = 1_000_000;
@@ -17,7 +17,7 @@ impl<P> Run<'_, P> {
         t: f64,
         end: f64,
         y: &[f64; N],
-    ) -> Result<Vec<Point<N>>, SimulationError>
+    ) -> Result<Vec<StatePoint<N>>, SimulationError>
     where
         P: Plant<N>,
     {
@@ -32,7 +32,7 @@ impl<P> Run<'_, P> {
         end: f64,
         y: &[f64; N],
         enough: impl Fn(f64, &[f64; N]) -> Result<bool, Error>,
-    ) -> Result<Vec<Point<N>>, SimulationError>
+    ) -> Result<Vec<StatePoint<N>>, SimulationError>
     where
         P: Plant<N>,
     {

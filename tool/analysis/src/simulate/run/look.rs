@@ -3,17 +3,17 @@
 use super::{Plant, Run};
 use crate::simulate::SimulationError;
 use crate::simulate::clock::Moment;
-use crate::simulate::observe::{PARTS, Working};
+use crate::simulate::observe::{MotorState, PARTS};
 use crate::simulate::watch::between;
 use jred_file::number::numerics;
-use jred_file::number::numerics::dormand_prince::Point;
+use jred_file::number::numerics::dormand_prince::StatePoint;
 
 impl<P> Run<'_, P> {
     /// Passes the motor's state to the observers, from one step to the next.
     pub(super) fn observe<const N: usize>(
         &mut self,
-        from: &Point<N>,
-        to: &Point<N>,
+        from: &StatePoint<N>,
+        to: &StatePoint<N>,
     ) -> Result<(), SimulationError>
     where
         P: Plant<N>,
@@ -25,7 +25,7 @@ impl<P> Run<'_, P> {
         };
         let ends = [self.at(from.0, &from.1)?, self.at(to.0, &to.1)?];
         let (inside, way) = (self.inside, between(ends));
-        let at = |share: f64| -> Result<Working, SimulationError> {
+        let at = |share: f64| -> Result<MotorState, SimulationError> {
             let t = (from.0 + share * length).max(inside[0]).min(inside[1]);
             let y = std::array::from_fn(|i| from.1[i] + share * (to.1[i] - from.1[i]));
             let y = plant.with_link(t, &y, way(share))?;

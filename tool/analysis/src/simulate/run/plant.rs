@@ -2,12 +2,12 @@
 
 use jred::error::Error;
 
-use super::Row;
+use super::OutputRow;
 use crate::simulate::SimulationError;
 use crate::simulate::clock::{Corners, Moment};
-use crate::simulate::geared::Together;
-use crate::simulate::observe::Working;
-use crate::simulate::simulated::Missing;
+use crate::simulate::coupled::CoupledMachines;
+use crate::simulate::observe::MotorState;
+use crate::simulate::result::TorqueDeficit;
 use jred_file::number::columns::Column;
 
 /// A machine in free motion as a system of differential equations of its state y. The last three values of y are the work of the motor (and then of
@@ -51,21 +51,21 @@ pub(crate) trait Plant<const N: usize> {
     fn bends(&self, moment: &Moment, y: &[f64; N]) -> Result<Vec<f64>, Error>;
 
     /// The simulated machines.
-    fn machines(&self) -> Together<'_>;
+    fn machines(&self) -> CoupledMachines<'_>;
 
     /// The state of the motor, if there is one to observe.
-    fn working(&self, _moment: &Moment, _y: &[f64; N]) -> Result<Option<Working>, Error> {
+    fn working(&self, _moment: &Moment, _y: &[f64; N]) -> Result<Option<MotorState>, Error> {
         Ok(None)
     }
 
     /// The torque missing for the motor to drive the machine from rest at a time, if it has no controller.
-    fn missing(&self, _t: f64, _y: &[f64; N]) -> Result<Option<Missing>, Error> {
+    fn missing(&self, _t: f64, _y: &[f64; N]) -> Result<Option<TorqueDeficit>, Error> {
         Ok(None)
     }
 
-    /// The columns of the figures of a [`Row`].
+    /// The columns of the figures of an [`OutputRow`].
     fn heads(&self) -> Vec<Column>;
 
     /// The output for a state.
-    fn row(&self, moment: &Moment, y: &[f64; N]) -> Result<Row, Error>;
+    fn row(&self, moment: &Moment, y: &[f64; N]) -> Result<OutputRow, Error>;
 }

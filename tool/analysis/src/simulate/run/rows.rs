@@ -1,9 +1,9 @@
 //! The rows of a motion in time.
 
-use jred_file::number::columns::{Column, Quantity};
+use jred_file::number::columns::{Column, ColumnQuantity};
 
 /// The output for a state, without time and energy columns.
-pub(crate) struct Row {
+pub(crate) struct OutputRow {
     pub(crate) figures: Vec<f64>,
     /// ½·J·ω² (J).
     pub(crate) kinetic: f64,
@@ -35,7 +35,7 @@ pub(crate) struct Terms {
     pub(crate) carriages: bool,
 }
 
-/// The columns of a motion: the time, the `figures` of a [`Row`], energies and their balance.
+/// The columns of a motion: the time, the `figures` of an [`OutputRow`], energies and their balance.
 pub(crate) fn heads(figures: Vec<Column>, terms: Terms) -> impl Iterator<Item = Column> {
     let energies = [
         Some("kinetic energy"),
@@ -48,16 +48,16 @@ pub(crate) fn heads(figures: Vec<Column>, terms: Terms) -> impl Iterator<Item = 
         Some("losses"),
     ];
     let energies = energies.into_iter().flatten();
-    let energies = energies.map(|name| Column::new(Quantity::Energy, name, "J"));
-    let balance = Column::new(Quantity::EnergyBalance, "energy balance", "J");
-    let time = std::iter::once(Column::new(Quantity::Time, "t", "s"));
+    let energies = energies.map(|name| Column::new(ColumnQuantity::Energy, name, "J"));
+    let balance = Column::new(ColumnQuantity::EnergyBalance, "energy balance", "J");
+    let time = std::iter::once(Column::new(ColumnQuantity::Time, "t", "s"));
     time.chain(figures).chain(energies).chain([balance])
 }
 
 /// A row of these columns at the time `t`, with the works since a start with the energy `start`; and the balance.
 pub(crate) fn cells(
     t: f64,
-    row: Row,
+    row: OutputRow,
     works: Works,
     start: f64,
 ) -> (impl Iterator<Item = f64>, f64) {

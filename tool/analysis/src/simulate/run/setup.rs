@@ -4,8 +4,8 @@ use std::cell::Cell;
 
 use super::edges::Edges;
 use super::{MOST_STEPS, Run};
-use crate::simulate::geared::Together;
-use crate::simulate::observe::{Controlling, Giving, Observer};
+use crate::simulate::coupled::CoupledMachines;
+use crate::simulate::observe::{ControlStatistics, EffortSums, Observer};
 use crate::simulate::watch::Watch;
 use jred_file::model::simulation::Simulation;
 use jred_file::number::numerics::dormand_prince::Accuracy;
@@ -14,7 +14,7 @@ impl<'a, P> Run<'a, P> {
     /// The initial state of a run.
     pub(super) fn new(
         plant: &'a P,
-        machines: &Together<'a>,
+        machines: &CoupledMachines<'a>,
         simulation: &Simulation,
         observer: &'a mut dyn Observer,
     ) -> Self {
@@ -51,9 +51,9 @@ impl<'a, P> Run<'a, P> {
             rest: None,
             turned_back: None,
             stuck: None,
-            controlling: Controlling::default(),
+            controlling: ControlStatistics::default(),
             has_payloads,
-            giving: Giving::default(),
+            giving: EffortSums::default(),
             to_speed: simulation.to_speed,
             reached: None,
             held: None,

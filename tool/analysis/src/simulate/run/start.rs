@@ -2,9 +2,9 @@
 
 use jred::error::Error;
 
-use super::{HAIR, Plant, Run};
+use super::{Plant, Run, SIGN_SPEED};
 use crate::simulate::clock::Moment;
-use crate::simulate::simulated::Stuck;
+use crate::simulate::result::Stall;
 
 impl<P> Run<'_, P> {
     /// The direction of motion at the start; at rest, the direction in which it will start.
@@ -31,7 +31,7 @@ impl<P> Run<'_, P> {
             if self.is_at_stop(phi, direction) {
                 continue;
             }
-            let moved = self.plant.with_link(t, y, [phi, direction * HAIR])?;
+            let moved = self.plant.with_link(t, y, [phi, direction * SIGN_SPEED])?;
             if self.plant.starts(&Moment::new(t, direction), &moved)? {
                 return Ok(direction);
             }
@@ -59,7 +59,7 @@ impl<P> Run<'_, P> {
     {
         if self.stuck.is_none() {
             let missing = self.plant.missing(self.within(time), y)?;
-            self.stuck = missing.map(|missing| Stuck { time, missing });
+            self.stuck = missing.map(|missing| Stall { time, missing });
         }
         Ok(())
     }

@@ -1,6 +1,6 @@
 //! Carriages in free motion: momentum, energy, and the torque of the motion.
 
-use jred_file::model::schedule::Now;
+use jred_file::model::schedule::ScheduleInstant;
 
 use super::{BALANCE, CONTROL, inverse_and_forward};
 use crate::reading::parse;
@@ -263,7 +263,7 @@ torque = "500 N m"
             continue;
         }
         let state = motion.at(t);
-        let now = Now::of(t, state.omega);
+        let now = ScheduleInstant::of(t, state.omega);
         let expected = file.bare_reduction_at(&now, state.phi).unwrap().inertia;
         near("J", inertias[k], expected, 1e-8);
     }

@@ -5,7 +5,7 @@ use std::convert::Infallible;
 use crate::number::numerics;
 
 use super::Motion;
-use super::piece::Piece;
+use super::piece::MotionPiece;
 
 /// Places of a smooth piece, and of a recorded one, at which the largest value is searched before it is refined.
 const PLACES: u32 = 200;
@@ -123,7 +123,7 @@ impl Motion {
     /// coordinate and of the drive link.
     fn acceleration_jumps(&self, index: usize, same: [f64; 2]) -> bool {
         let count = self.pieces.len();
-        let ends = |piece: &Piece, end: bool| {
+        let ends = |piece: &MotionPiece, end: bool| {
             let t = if end { piece.duration } else { 0.0 };
             piece.at(t).alpha
         };
@@ -146,7 +146,7 @@ impl Motion {
 }
 
 /// The course updated with the largest values of one more piece.
-fn with_piece(course: SegmentCourse, piece: &Piece) -> SegmentCourse {
+fn with_piece(course: SegmentCourse, piece: &MotionPiece) -> SegmentCourse {
     let places = if piece.is_recorded() {
         RECORDED
     } else {

@@ -7,7 +7,7 @@ use super::Phase;
 
 /// Limits of a move (SI, all greater than zero).
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Limits {
+pub struct MoveLimits {
     /// Largest speed.
     pub speed: f64,
     /// Largest acceleration while the speed grows.
@@ -27,7 +27,7 @@ pub struct TooShort {
 
 /// A change of speed as fast as possible: the acceleration rises in `ramp`, is constant for `hold`, falls in `ramp` (s).
 #[derive(Clone, Copy, Debug)]
-struct Change {
+struct SpeedChange {
     from: f64,
     to: f64,
     ramp: f64,
@@ -36,8 +36,8 @@ struct Change {
     acceleration: f64,
 }
 
-impl Change {
-    fn new(from: f64, to: f64, limits: &Limits) -> Self {
+impl SpeedChange {
+    fn new(from: f64, to: f64, limits: &MoveLimits) -> Self {
         let most = if to.abs() >= from.abs() {
             limits.acceleration
         } else {
@@ -93,8 +93,8 @@ fn push(phases: &mut Vec<Phase>, duration: f64, state: [f64; 3]) {
 }
 
 /// Changes the speed from one to the other as fast as the limits allow; also returns the distance.
-pub fn change(speeds: [f64; 2], limits: &Limits) -> (f64, Vec<Phase>) {
-    let change = Change::new(speeds[0], speeds[1], limits);
+pub fn change(speeds: [f64; 2], limits: &MoveLimits) -> (f64, Vec<Phase>) {
+    let change = SpeedChange::new(speeds[0], speeds[1], limits);
     let mut phases = Vec::new();
     change.phases(&mut phases);
     (change.distance(), phases)
@@ -105,17 +105,21 @@ pub fn change(speeds: [f64; 2], limits: &Limits) -> (f64, Vec<Phase>) {
 ///
 /// # Errors
 /// The distance is too short for the change of speed.
-pub fn fastest(distance: f64, speeds: [f64; 2], limits: &Limits) -> Result<Vec<Phase>, TooShort> {
+pub fn fastest(
+    distance: f64,
+    speeds: [f64; 2],
+    limits: &MoveLimits,
+) -> Result<Vec<Phase>, TooShort> {
     let way = distance.abs();
     let [first, last] = speeds.map(|v| (v * distance.signum()).max(0.0));
     // Up to the speed `top` and down again, without constant speed.
     let through = |top: f64| {
         [
-            Change::new(first, top, limits),
-            Change::new(top, last, limits),
+            SpeedChange::new(first, top, limits),
+            SpeedChange::new(top, last, limits),
         ]
     };
-    let way_through = |top: f64| through(top).iter().map(Change::distance).sum::<f64>();
+    let way_through = |top: f64| through(top).iter().map(SpeedChange::distance).sum::<f64>();
     let lowest = first.max(last);
     let least = way_through(lowest);
     if least > way * (1.0 + 4.0 * f64::EPSILON) {

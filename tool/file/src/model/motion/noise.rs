@@ -15,11 +15,11 @@
 use std::f64::consts::TAU;
 
 use super::Motion;
-use super::piece::Kind;
+use super::piece::PieceKind;
 use crate::number::spline::Spline;
 
 /// Median magnitude of normal errors with σ = 1.
-const MIDDLE: f64 = 0.674_489_75;
+const MEDIAN: f64 = 0.674_489_75;
 
 /// Correlation of neighbouring rows above which the motion itself bends.
 const ALTERNATES: f64 = -0.4;
@@ -29,10 +29,10 @@ const FIRST: f64 = 1.179_960;
 const SECOND: f64 = 6.0;
 
 /// Fewest rows for an estimate of the usual scatter.
-const SOME: usize = 32;
+const MIN_ROWS: usize = 32;
 
 /// Share of the motion's acceleration that noise may have after smoothing.
-const QUIET: f64 = 0.05;
+const SMOOTHED_NOISE: f64 = 0.05;
 
 /// Least ratio of successive cut-off frequencies.
 const STEP: f64 = 1.25;
@@ -86,8 +86,8 @@ impl Motion {
     pub(super) fn curve(&self) -> Option<(&Spline, bool)> {
         match self.pieces.as_slice() {
             [piece] => match &piece.kind {
-                Kind::Positions { curve, .. } => Some((curve, false)),
-                Kind::Speeds { curve, .. } => Some((curve, true)),
+                PieceKind::Positions { curve, .. } => Some((curve, false)),
+                PieceKind::Speeds { curve, .. } => Some((curve, true)),
                 _ => None,
             },
             _ => None,
@@ -127,7 +127,7 @@ pub(super) fn usual(residuals: impl Iterator<Item = f64>, y: &[f64]) -> Option<f
     let sizes: Vec<f64> = (residuals.map(f64::abs))
         .filter(|r| *r > rounding)
         .collect();
-    if sizes.len() < SOME {
+    if sizes.len() < MIN_ROWS {
         return Some(rounding);
     }
     middle(sizes.into_iter())
@@ -152,7 +152,7 @@ fn scatter(t: &[f64], y: &[f64]) -> Option<f64> {
         .map(|pair| cut(&pair[0]) * cut(&pair[1]));
     let squares = residuals.iter().map(|r| cut(r) * cut(r));
     let alternates = products.sum::<f64>() < ALTERNATES * squares.sum::<f64>();
-    alternates.then_some(middle / MIDDLE)
+    alternates.then_some(middle / MEDIAN)
 }
 
 /// RMS of a derivative of the curve at its rows.
@@ -172,7 +172,7 @@ fn smoothing(curve: &Spline, t: &[f64], order: usize, rows: f64) -> Option<f64> 
     while cutoff >= lowest {
         let omega = TAU * cutoff;
         let smooth = curve.smoothed(omega).ok()?;
-        let allowed = QUIET * derivative(&smooth, t, order);
+        let allowed = SMOOTHED_NOISE * derivative(&smooth, t, order);
         if noise(omega) <= allowed {
             return Some(cutoff);
         }

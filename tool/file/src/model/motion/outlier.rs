@@ -14,13 +14,13 @@ const BESIDE: [f64; 2] = [-1.1, -0.3];
 const UNUSUAL: f64 = 12.0;
 
 /// Share of the largest acceleration elsewhere from which the false acceleration matters.
-const FALSE: f64 = 0.3;
+const LEAST_SHARE: f64 = 0.3;
 
 /// Second derivative at a row of the spline through 1 there and 0 elsewhere, times h²: 6·(√3 − 1).
-const BENT: f64 = 4.392_305;
+const SPLINE_BEND: f64 = 4.392_305;
 
 /// Rows on either side of a row that it influences.
-const AROUND: usize = 8;
+const NEIGHBOURS: usize = 8;
 
 /// An outlier row.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,7 +44,7 @@ impl Motion {
         let (mut t, mut y) = curve.points();
         let (rows, h, end) = (t.len(), usual_step(&t)?, self.duration());
         // In a cycle every row has neighbours; otherwise the three rows at either end are not judged.
-        let before = if self.cyclic && rows > 2 * AROUND {
+        let before = if self.cyclic && rows > 2 * NEIGHBOURS {
             let more = |from: usize, shift: f64, t: &mut Vec<f64>, y: &mut Vec<f64>| {
                 let added: Vec<[f64; 2]> = (from..from + 3).map(|k| [t[k] + shift, y[k]]).collect();
                 t.extend(added.iter().map(|[t, _]| t));
@@ -78,11 +78,16 @@ impl Motion {
             } else {
                 apart
             };
-            let most = &mut accelerations[usize::from(apart > AROUND)];
+            let most = &mut accelerations[usize::from(apart > NEIGHBOURS)];
             *most = most.max(curve.at(*t)[order].abs());
         }
-        let wrong = by.abs() * if of_speeds { 1.0 / h } else { BENT / (h * h) };
-        (wrong > FALSE * accelerations[1]).then_some(Outlier {
+        let wrong = by.abs()
+            * if of_speeds {
+                1.0 / h
+            } else {
+                SPLINE_BEND / (h * h)
+            };
+        (wrong > LEAST_SHARE * accelerations[1]).then_some(Outlier {
             row,
             t: t[before + row],
             of_speeds,

@@ -2,7 +2,7 @@
 
 use std::convert::Infallible;
 
-use super::piece::{Kind, Piece};
+use super::piece::{MotionPiece, PieceKind};
 use super::{Motion, ToolCoordinate};
 use crate::model::coordinate::Coordinate;
 use crate::number::numerics;
@@ -15,7 +15,7 @@ const PARTS: u32 = 256;
 const REST: f64 = 1e-12;
 
 /// An acceleration at rest counts from this share of the largest speed per duration.
-const PUSHED: f64 = 1e-9;
+const REST_ACCELERATION: f64 = 1e-9;
 
 /// A segment of polynomials that turns back, although it neither starts nor ends against its move.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -68,16 +68,16 @@ impl Motion {
     }
 }
 
-fn overshoot(pieces: &[Piece]) -> Option<Overshoot> {
+fn overshoot(pieces: &[MotionPiece]) -> Option<Overshoot> {
     let [first, last] = [pieces.first()?, pieces.last()?];
-    let polynomial = |piece: &Piece| matches!(piece.kind, Kind::Polynomial { .. });
+    let polynomial = |piece: &MotionPiece| matches!(piece.kind, PieceKind::Polynomial { .. });
     if !pieces.iter().all(polynomial) {
         return None;
     }
     let [start, end] = [first.at(0.0), last.at(last.duration)];
     let way = end.phi - start.phi;
     let direction = way.signum();
-    let time = |piece: &Piece, k: u32| piece.duration * f64::from(k) / f64::from(PARTS);
+    let time = |piece: &MotionPiece, k: u32| piece.duration * f64::from(k) / f64::from(PARTS);
     let speeds =
         (pieces.iter()).flat_map(|piece| (0..=PARTS).map(move |k| piece.at(time(piece, k)).omega));
     let largest = speeds.fold(0.0_f64, |most, omega| most.max(omega.abs()));
@@ -111,7 +111,7 @@ fn overshoot(pieces: &[Piece]) -> Option<Overshoot> {
     let least = turns.iter().fold(0.0_f64, |least, way| least.min(*way));
     let most = turns.iter().fold(distance, |most, way| most.max(*way));
     let span = [first.start, last.end()];
-    let pushes = PUSHED * largest / (span[1] - span[0]);
+    let pushes = REST_ACCELERATION * largest / (span[1] - span[0]);
     let at_rest = |omega: f64| omega.abs() <= rest;
     Some(Overshoot {
         segment: first.segment,

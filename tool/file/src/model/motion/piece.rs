@@ -6,18 +6,18 @@ use super::nodes::{Node, step_at};
 use crate::number::spline::Spline;
 
 #[derive(Clone, Debug)]
-pub(super) struct Piece {
+pub(super) struct MotionPiece {
     /// Index of its segment.
     pub(super) segment: usize,
     /// Whether it prescribes the drive link although the motion is of the tool.
     pub(super) of_drive: bool,
     pub(super) start: f64,
     pub(super) duration: f64,
-    pub(super) kind: Kind,
+    pub(super) kind: PieceKind,
 }
 
 #[derive(Clone, Debug)]
-pub(super) enum Kind {
+pub(super) enum PieceKind {
     Polynomial {
         start: f64,
         course: Polynomial,
@@ -43,7 +43,7 @@ pub(super) enum Kind {
     Nodes(Vec<Node>),
 }
 
-impl Piece {
+impl MotionPiece {
     pub(super) fn end(&self) -> f64 {
         self.start + self.duration
     }
@@ -52,19 +52,19 @@ impl Piece {
     pub(super) const fn is_recorded(&self) -> bool {
         matches!(
             self.kind,
-            Kind::Positions { .. } | Kind::Speeds { .. } | Kind::Nodes(_)
+            PieceKind::Positions { .. } | PieceKind::Speeds { .. } | PieceKind::Nodes(_)
         )
     }
 
     /// Adds the times of the motion's rows strictly between two times.
     pub(super) fn rows_between(&self, [from, to]: [f64; 2], rows: &mut Vec<f64>) {
         match &self.kind {
-            Kind::Polynomial { .. } | Kind::Move(_) => {}
-            Kind::Positions { curve, .. } | Kind::Speeds { curve, .. } => {
+            PieceKind::Polynomial { .. } | PieceKind::Move(_) => {}
+            PieceKind::Positions { curve, .. } | PieceKind::Speeds { curve, .. } => {
                 let within = [from - self.start, to - self.start];
                 rows.extend(curve.knots_between(within).map(|knot| self.start + knot));
             }
-            Kind::Nodes(nodes) => {
+            PieceKind::Nodes(nodes) => {
                 let first = nodes.partition_point(|node| node.t <= from);
                 let after = nodes.iter().skip(first).map(|node| node.t);
                 rows.extend(after.take_while(|t| *t < to));
@@ -75,15 +75,15 @@ impl Piece {
     /// The third derivative at `t` (s) after its start; `None` if the acceleration jumps within the piece or at its ends.
     pub(super) fn jerk(&self, t: f64) -> Option<f64> {
         match &self.kind {
-            Kind::Polynomial { course, .. } => Some(course.at(t)[3]),
-            Kind::Move(step) => {
+            PieceKind::Polynomial { course, .. } => Some(course.at(t)[3]),
+            PieceKind::Move(step) => {
                 step.law().characteristic().jerk?;
                 let duration = step.duration();
                 Some(step.distance() / duration.powi(3) * step.law().jerk(t / duration))
             }
-            Kind::Positions { curve, .. } => Some(curve.at(t)[3]),
-            Kind::Speeds { curve, .. } => Some(curve.at(t)[2]),
-            Kind::Nodes(nodes) => {
+            PieceKind::Positions { curve, .. } => Some(curve.at(t)[3]),
+            PieceKind::Speeds { curve, .. } => Some(curve.at(t)[2]),
+            PieceKind::Nodes(nodes) => {
                 let ([before, after], share) = step_at(nodes, self.start + t)?;
                 Some(after.jerk_after(before, share))
             }
@@ -94,7 +94,7 @@ impl Piece {
     pub(super) fn at(&self, t: f64) -> State<f64> {
         let t = t.clamp(0.0, self.duration);
         match &self.kind {
-            Kind::Polynomial { start, course } => {
+            PieceKind::Polynomial { start, course } => {
                 let [way, omega, alpha, _] = course.at(t);
                 State {
                     phi: start + way,
@@ -102,8 +102,8 @@ impl Piece {
                     alpha,
                 }
             }
-            Kind::Move(step) => step.at(t),
-            Kind::Positions {
+            PieceKind::Move(step) => step.at(t),
+            PieceKind::Positions {
                 curve,
                 advance,
                 standstill,
@@ -116,7 +116,7 @@ impl Piece {
                     alpha: d2,
                 }
             }
-            Kind::Speeds {
+            PieceKind::Speeds {
                 curve,
                 start,
                 advance,
@@ -129,7 +129,7 @@ impl Piece {
                     alpha,
                 }
             }
-            Kind::Nodes(nodes) => step_at(nodes, self.start + t)
+            PieceKind::Nodes(nodes) => step_at(nodes, self.start + t)
                 .map_or(State::default(), |([before, after], share)| {
                     after.at_share(before, share)
                 }),

@@ -1,10 +1,10 @@
 //! Rows of a recorded motion, and the curve through them.
 
-use crate::number::spline::{Fault, Spline, Way};
+use crate::number::spline::{FitMethod, Spline, SplineError};
 
 /// Whether a recorded motion repeats.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Closing {
+pub enum Repetition {
     /// It does not.
     Open,
     /// It does, and advances by this per cycle (rad, or m): whole turns, or zero.
@@ -21,21 +21,23 @@ pub struct Recording<'r> {
     /// Angular frequency at which smoothing halves an amplitude (rad/s); `None`: the curve passes through every row.
     pub cutoff: Option<f64>,
     /// Whether it repeats: then its last row equals its first, a cycle later.
-    pub closing: Closing,
+    pub closing: Repetition,
 }
 
 impl Recording<'_> {
-    pub(super) fn duration(&self) -> Result<f64, Fault> {
+    pub(super) fn duration(&self) -> Result<f64, SplineError> {
         match self.times {
             [first, .., last] if *first == 0.0 && *last > 0.0 => Ok(*last),
-            _ => Err(Fault::NotRising),
+            _ => Err(SplineError::NotRising),
         }
     }
 
-    pub(super) fn curve(&self, values: &[f64]) -> Result<Spline, Fault> {
-        let way = self.cutoff.map_or(Way::Interpolating, Way::Smoothing);
+    pub(super) fn curve(&self, values: &[f64]) -> Result<Spline, SplineError> {
+        let way = self
+            .cutoff
+            .map_or(FitMethod::Interpolating, FitMethod::Smoothing);
         match (self.closing, self.times) {
-            (Closing::After(_), [times @ .., duration]) if values.len() == self.times.len() => {
+            (Repetition::After(_), [times @ .., duration]) if values.len() == self.times.len() => {
                 Spline::periodic(times, &values[..times.len()], *duration, way)
             }
             _ => Spline::bounded(self.times, values, way),

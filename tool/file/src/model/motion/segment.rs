@@ -2,24 +2,24 @@
 
 use jred::machine::motion::{Law, Polynomial};
 
-use super::Limits;
+use super::MoveLimits;
 
 /// One segment of a segmented motion.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Segment {
+pub struct MotionSegment {
     /// The drive link's position at its start, if it prescribes the drive link instead of the tool; `None`: it continues from the previous segment.
     pub from: Option<f64>,
     /// Distance (rad, or m); zero for a dwell.
     pub distance: f64,
     /// The course over this distance.
-    pub course: Course,
+    pub course: SegmentProfile,
     /// The limits in the file, for which the course is the fastest.
-    pub limits: Option<Limits>,
+    pub limits: Option<MoveLimits>,
 }
 
 /// The course of a segment from one end to the other.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Course {
+pub enum SegmentProfile {
     /// By a motion law, from rest to rest.
     Law {
         /// The law.
@@ -40,7 +40,7 @@ pub struct Phase {
     pub polynomial: Polynomial,
 }
 
-impl Segment {
+impl MotionSegment {
     /// A pause (s).
     pub fn dwell(duration: f64) -> Self {
         Self::law(0.0, duration, Law::default())
@@ -48,7 +48,7 @@ impl Segment {
 
     /// A move (rad, or m) by a motion law in a duration (s).
     pub const fn law(distance: f64, duration: f64, law: Law) -> Self {
-        let course = Course::Law { law, duration };
+        let course = SegmentProfile::Law { law, duration };
         Self {
             from: None,
             distance,
@@ -59,7 +59,7 @@ impl Segment {
 
     /// Successive polynomials that cover the distance together.
     pub const fn phases(distance: f64, phases: Vec<Phase>) -> Self {
-        let course = Course::Phases(phases);
+        let course = SegmentProfile::Phases(phases);
         Self {
             from: None,
             distance,
@@ -79,7 +79,7 @@ impl Segment {
 
     /// The same, made for limits.
     #[must_use]
-    pub fn within(self, limits: Limits) -> Self {
+    pub fn within(self, limits: MoveLimits) -> Self {
         let limits = Some(limits);
         Self { limits, ..self }
     }
@@ -100,19 +100,19 @@ impl Segment {
     /// Duration (s).
     pub fn duration(&self) -> f64 {
         match &self.course {
-            Course::Law { duration, .. } => *duration,
-            Course::Phases(phases) => phases.iter().map(|phase| phase.duration).sum(),
+            SegmentProfile::Law { duration, .. } => *duration,
+            SegmentProfile::Phases(phases) => phases.iter().map(|phase| phase.duration).sum(),
         }
     }
 
     /// Speed and acceleration at the start and at the end.
     pub fn ends(&self) -> [[f64; 2]; 2] {
         match &self.course {
-            Course::Law { law, duration } => {
+            SegmentProfile::Law { law, duration } => {
                 let bend = self.distance / (duration * duration);
                 [0.0, 1.0].map(|z| [0.0, law.at(z)[2] * bend])
             }
-            Course::Phases(phases) => {
+            SegmentProfile::Phases(phases) => {
                 let at = |phase: Option<&Phase>, end: bool| {
                     phase.map_or([0.0; 2], |phase| {
                         let t = if end { phase.duration } else { 0.0 };

@@ -1,7 +1,7 @@
 //! Stretches of a motion at constant speed, in which a machine does its work.
 
 use super::Motion;
-use super::piece::{Kind, Piece};
+use super::piece::{MotionPiece, PieceKind};
 
 /// A stretch at constant speed.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,8 +43,8 @@ impl Motion {
 }
 
 /// The speed of a piece with constant nonzero speed.
-fn constant(piece: &Piece) -> Option<f64> {
-    let Kind::Polynomial { course, .. } = &piece.kind else {
+fn constant(piece: &MotionPiece) -> Option<f64> {
+    let PieceKind::Polynomial { course, .. } = &piece.kind else {
         return None;
     };
     let [start, end] = [0.0, piece.duration].map(|t| course.at(t));

@@ -19,13 +19,13 @@ use raw::{Knot, Raw};
 const PLACES: u32 = 1440;
 
 /// A transfer function below this share of its largest value is zero: there the tool is at rest whatever the drive link does.
-const STANDS: f64 = 1e-9;
+const STANDSTILL: f64 = 1e-9;
 
 /// A transfer function that is nowhere larger than this (m or rad, per rad or m) is rounding: the tool does not move at all.
-const NOWHERE: f64 = 1e-12;
+const NO_MOTION: f64 = 1e-12;
 
 /// Relative variation of the transfer function of a coordinate that is linear in the drive link's: rounding.
-const EVEN: f64 = 1e-9;
+const LINEARITY: f64 = 1e-9;
 
 /// Most Newton steps; two are usual, and bisection needs fifty.
 const MOST_STEPS: u32 = 100;
@@ -105,9 +105,9 @@ impl ToolCoordinate {
             let phi = domain.position(f64::from(k) / f64::from(PLACES));
             most = most.max(raw.slope(phi)?.abs());
         }
-        let least = STANDS * most;
+        let least = STANDSTILL * most;
         let first = raw.slope(near)?;
-        if most <= NOWHERE {
+        if most <= NO_MOTION {
             return Err(Standstill::Everywhere);
         }
         if first.abs() <= least {
@@ -196,7 +196,7 @@ impl ToolCoordinate {
     pub fn axis(&self) -> Option<Axis> {
         let (first, last) = self.knots.first().zip(self.knots.last())?;
         let scale = (last.value - first.value) / (last.phi - first.phi);
-        let even = |knot: &Knot| (knot.slope - scale).abs() <= EVEN * scale.abs();
+        let even = |knot: &Knot| (knot.slope - scale).abs() <= LINEARITY * scale.abs();
         let zero = first.value - scale * first.phi;
         let axis = Axis::new(self.coordinate(), self.symbol(), [zero, scale]);
         self.knots.iter().all(even).then_some(axis)

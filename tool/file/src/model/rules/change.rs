@@ -9,7 +9,7 @@ use super::{InertiaOf, Limit, MeanTorque, Moves, RuleSet};
 
 /// The change.
 #[derive(Clone, Debug, PartialEq)]
-pub enum What {
+pub enum RuleSetting {
     /// The limit beyond which the rule is violated.
     Fail(Rule, f64),
     /// The limit beyond which a warning is given.
@@ -26,7 +26,7 @@ pub enum What {
     MeanTorque(MeanTorque),
 }
 
-impl What {
+impl RuleSetting {
     /// The rule that it changes.
     pub const fn rule(&self) -> Rule {
         match self {
@@ -43,7 +43,7 @@ impl What {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Change {
     /// The change.
-    pub what: What,
+    pub what: RuleSetting,
     /// Source.
     pub source: String,
     /// Position in the text.
@@ -87,19 +87,19 @@ impl RuleSet {
         for Change { what, source, .. } in &changes.0 {
             let index = what.rule() as usize;
             match what {
-                What::InertiaOf(of) => {
+                RuleSetting::InertiaOf(of) => {
                     self.choices.inertia_ratio_of = *of;
                     continue;
                 }
-                What::MeanTorque(exponent) => {
+                RuleSetting::MeanTorque(exponent) => {
                     self.choices.gearbox_mean_exponent = *exponent;
                     continue;
                 }
-                What::Fail(_, share) => self.limits[index].fail = Some(*share),
-                What::Warn(_, share) => self.limits[index].warn = Some(*share),
-                What::Both(_, limit) => self.limits[index] = *limit,
-                What::Off(_) => self.limits[index] = Limit::default(),
-                What::InertiaByMoves(bands) => {
+                RuleSetting::Fail(_, share) => self.limits[index].fail = Some(*share),
+                RuleSetting::Warn(_, share) => self.limits[index].warn = Some(*share),
+                RuleSetting::Both(_, limit) => self.limits[index] = *limit,
+                RuleSetting::Off(_) => self.limits[index] = Limit::default(),
+                RuleSetting::InertiaByMoves(bands) => {
                     self.choices.inertia_ratio_by_moves.clone_from(bands);
                     self.limits[index] = Limit {
                         fail: Some(1.0),
@@ -107,11 +107,11 @@ impl RuleSet {
                     };
                 }
             }
-            self.off[index] = matches!(what, What::Off(_));
+            self.off[index] = matches!(what, RuleSetting::Off(_));
             self.sources[index].clone_from(source);
             if matches!(
                 what,
-                What::Fail(Rule::InertiaRatio, _) | What::Both(Rule::InertiaRatio, _)
+                RuleSetting::Fail(Rule::InertiaRatio, _) | RuleSetting::Both(Rule::InertiaRatio, _)
             ) {
                 self.choices.inertia_ratio_by_moves.clear();
             }
@@ -146,15 +146,19 @@ impl RuleSet {
     fn check(&self, changes: &Changes) -> Result<(), Contradiction> {
         for rule in Rule::ALL {
             let (key, warning) = (rule.key(), rule.warning_key());
-            let limited =
-                |what: &What| matches!(what, What::Fail(..) | What::Warn(..) | What::Both(..));
+            let limited = |what: &RuleSetting| {
+                matches!(
+                    what,
+                    RuleSetting::Fail(..) | RuleSetting::Warn(..) | RuleSetting::Both(..)
+                )
+            };
             let own = || changes.0.iter().filter(|change| change.what.rule() == rule);
             let fault = |message: String, help: String| Contradiction {
                 message,
                 help,
                 places: changes.places(rule),
             };
-            let off = own().any(|change| matches!(change.what, What::Off(_)));
+            let off = own().any(|change| matches!(change.what, RuleSetting::Off(_)));
             if off && own().any(|change| limited(&change.what)) {
                 return Err(fault(
                     format!("`{key}` is \"off\", but the rule also has a limit"),

@@ -34,7 +34,8 @@ impl Finding {
 /// Verdict of a rule.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, schemars::JsonSchema)]
 #[serde(rename_all = "kebab-case")]
-pub enum Verdict {
+#[schemars(rename = "Verdict")]
+pub enum RuleVerdict {
     /// Not checked by this rule set.
     Off,
     /// The rule is satisfied.
@@ -47,7 +48,7 @@ pub enum Verdict {
     Fail,
 }
 
-impl Verdict {
+impl RuleVerdict {
     /// One word for tables.
     pub const fn word(self) -> &'static str {
         match self {

@@ -33,7 +33,7 @@ impl When {
     }
 
     /// Whether the instant is included, in a motion that lasts until `end`: by its time, if there is one, and by the speed ω, if known.
-    pub fn holds(&self, now: &Now, end: f64) -> bool {
+    pub fn holds(&self, now: &ScheduleInstant, end: f64) -> bool {
         let in_time = self.spans.as_ref().is_none_or(|spans| {
             now.t.is_some_and(|t| {
                 let within = |[from, to]: &[f64; 2]| *from <= t && (t < *to || *to >= end);
@@ -53,7 +53,7 @@ impl When {
 
 /// An instant: a time of the motion (s) and a speed of the drive link, if known.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Now {
+pub struct ScheduleInstant {
     /// Time of the motion (s).
     pub t: Option<f64>,
     /// Speed of the drive link (rad/s, or m/s).
@@ -64,7 +64,7 @@ pub struct Now {
     pub moves: Option<f64>,
 }
 
-impl Now {
+impl ScheduleInstant {
     /// A time of the motion, with the speed there.
     pub const fn of(t: f64, omega: f64) -> Self {
         Self {

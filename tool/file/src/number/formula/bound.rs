@@ -2,10 +2,10 @@
 
 use jred_enclosure::Interval;
 
-use super::{FUNCTIONS, Formula, Node, Operation};
+use super::{Expression, FUNCTIONS, Formula, Operation};
 
 /// Largest relative error of standard library functions, with a margin.
-const OFF: f64 = 8.0 * f64::EPSILON;
+const FUNCTION_ERROR: f64 = 8.0 * f64::EPSILON;
 
 /// Largest whole exponent that is multiplied out.
 const LARGEST_EXPONENT: f64 = 64.0;
@@ -17,12 +17,12 @@ impl Formula {
     }
 }
 
-fn bounds(node: &Node, variables: &[Interval]) -> Interval {
+fn bounds(node: &Expression, variables: &[Interval]) -> Interval {
     match node {
-        Node::Number(number) => Interval::of(*number),
-        Node::Variable(k) => variables.get(*k).copied().unwrap_or(Interval::ALL),
-        Node::Negative(inner) => -bounds(inner, variables),
-        Node::Call(function, inner) => {
+        Expression::Number(number) => Interval::of(*number),
+        Expression::Variable(k) => variables.get(*k).copied().unwrap_or(Interval::ALL),
+        Expression::Negative(inner) => -bounds(inner, variables),
+        Expression::Call(function, inner) => {
             let inner = bounds(inner, variables);
             if inner.is_bounded() {
                 FUNCTIONS[*function].1.1(inner)
@@ -30,7 +30,7 @@ fn bounds(node: &Node, variables: &[Interval]) -> Interval {
                 Interval::ALL
             }
         }
-        Node::Pair(operation, pair) => {
+        Expression::Pair(operation, pair) => {
             let [a, b] = [&pair[0], &pair[1]].map(|node| bounds(node, variables));
             match operation {
                 Operation::Plus => a + b,
@@ -74,7 +74,7 @@ fn power(a: Interval, b: Interval) -> Interval {
 
 /// A value of the standard library, with its error.
 fn rounded(value: f64) -> Interval {
-    Interval::around(value, OFF * value.abs())
+    Interval::around(value, FUNCTION_ERROR * value.abs())
 }
 
 /// A rising function.

@@ -5,7 +5,7 @@
 mod bends;
 mod coefficients;
 
-use bends::{Found, Sides};
+use bends::{Sides, StepResult};
 use coefficients::{A, B, B3, C, E5};
 
 /// Evaluations of f in one step.
@@ -18,11 +18,11 @@ const GROWTH: f64 = 6.0;
 const SHRINKAGE: f64 = 0.333;
 
 /// A position and the values there.
-pub type Point<const N: usize> = (f64, [f64; N]);
+pub type StatePoint<const N: usize> = (f64, [f64; N]);
 
 /// Why an integration did not reach its end.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Stopped<E> {
+pub enum IntegrationError<E> {
     /// f cannot be evaluated.
     Function(E),
     /// More steps are needed than allowed.
@@ -37,7 +37,7 @@ pub enum Stopped<E> {
     },
 }
 
-impl<E> From<E> for Stopped<E> {
+impl<E> From<E> for IntegrationError<E> {
     fn from(error: E) -> Self {
         Self::Function(error)
     }
@@ -69,7 +69,7 @@ impl Accuracy {
         mut y: [f64; N],
         end: f64,
         enough: impl Fn(f64, &[f64; N]) -> Result<bool, E>,
-    ) -> Result<Vec<Point<N>>, Stopped<E>> {
+    ) -> Result<Vec<StatePoint<N>>, IntegrationError<E>> {
         let mut x = 0.0;
         let mut steps = vec![(x, y)];
         let mut slope = f(x, &y)?;
@@ -78,7 +78,7 @@ impl Accuracy {
         let mut growth = GROWTH;
         for _ in 0..self.most_steps {
             if 0.1 * h <= f64::EPSILON * x {
-                return Err(Stopped::StepTooSmall { x });
+                return Err(IntegrationError::StepTooSmall { x });
             }
             let mut last = x + 1.01 * h > end;
             if last {
@@ -96,10 +96,10 @@ impl Accuracy {
             // A step that is rejected once may be too long; after the second rejection f may bend in it.
             if !sides.is_empty() && (error <= 1.0 || growth < GROWTH) {
                 let to = f(x + h, &step.y)?;
-                let begin = bends::Begin { x, y: &y, slope };
+                let begin = bends::StepStart { x, y: &y, slope };
                 match sides.pass(&f, &bends, begin, &step, to)? {
-                    Found::Nothing => ahead = Some(to),
-                    Found::Bend { step: short, which } => {
+                    StepResult::Nothing => ahead = Some(to),
+                    StepResult::Bend { step: short, which } => {
                         let found = short.error(&y, self.tolerance);
                         if found <= 1.0 {
                             (last, error, step) = (false, found, short);
@@ -132,7 +132,7 @@ impl Accuracy {
                 growth = 1.0;
             }
         }
-        Err(Stopped::TooManySteps { x })
+        Err(IntegrationError::TooManySteps { x })
     }
 
     /// A first step from the sizes of y, y′ and y″ against the tolerance.
@@ -367,7 +367,7 @@ mod tests {
             ..FINE
         };
         let found = few.steps(f, smooth, [0.0, 1.0], 100.0, |_, _| Ok(false));
-        assert!(matches!(found, Err(Stopped::TooManySteps { x }) if x > 0.0));
+        assert!(matches!(found, Err(IntegrationError::TooManySteps { x }) if x > 0.0));
         let found = FINE.steps(
             |x, _: &[f64; 1]| if x < 1.0 { Ok([1.0]) } else { Err("far") },
             smooth,
@@ -375,7 +375,7 @@ mod tests {
             9.0,
             |_, _| Ok(false),
         );
-        assert_eq!(found, Err(Stopped::Function("far")));
+        assert_eq!(found, Err(IntegrationError::Function("far")));
         for nonsense in [f64::NAN, f64::INFINITY] {
             let found = FINE.steps(
                 |_, _: &[f64; 1]| Ok::<_, ()>([nonsense]),
@@ -407,7 +407,7 @@ mod tests {
             |_, _| Ok(false),
         );
         assert!(
-            matches!(found, Err(Stopped::StepTooSmall { x }) if (x - 1.0).abs() < 1e-6),
+            matches!(found, Err(IntegrationError::StepTooSmall { x }) if (x - 1.0).abs() < 1e-6),
             "{found:?}"
         );
     }

@@ -132,7 +132,7 @@ impl Rule {
             useless += u32::from(halves[0].error + halves[1].error > USELESS * cut.error);
             parts[worst] = halves[0];
             parts.push(halves[1]);
-            let sum = |of: fn(&Part) -> f64| parts.iter().map(of).sum::<f64>();
+            let sum = |of: fn(&Subinterval) -> f64| parts.iter().map(of).sum::<f64>();
             if is_enough(sum(|part| part.error), sum(|part| part.size)) {
                 break;
             }
@@ -140,14 +140,14 @@ impl Rule {
         parts.iter().map(|part| part.integral).sum()
     }
 
-    fn part(&self, [a, b]: [f64; 2], f: &impl Fn(f64) -> f64) -> Part {
+    fn part(&self, [a, b]: [f64; 2], f: &impl Fn(f64) -> f64) -> Subinterval {
         let (middle, half) = (a.midpoint(b), 0.5 * (b - a));
         let mut values = [0.0; MOST_PLACES];
         for (value, x) in values.iter_mut().zip(self.places) {
             *value = f(middle + half * x);
         }
         let found = self.estimate(&values[..self.places.len()]);
-        Part {
+        Subinterval {
             ends: [a, b],
             integral: half * found.integral,
             error: half * found.error,
@@ -158,7 +158,7 @@ impl Rule {
 
 /// A part of an integral.
 #[derive(Clone, Copy)]
-struct Part {
+struct Subinterval {
     ends: [f64; 2],
     integral: f64,
     error: f64,

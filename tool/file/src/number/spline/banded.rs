@@ -7,7 +7,7 @@ pub(super) struct System {
 }
 
 /// Simultaneous right sides: the given one, and the columns of the two unknowns that close a ring.
-type Right = [f64; 3];
+type RightSides = [f64; 3];
 
 impl System {
     /// The unknowns of an open chain: coefficients beyond the first or the last unknown must be zero. Gaussian elimination without exchange of rows:
@@ -24,7 +24,7 @@ impl System {
         let n = self.rows.len();
         let open = n - 2;
         let mut rows = Vec::with_capacity(open);
-        let mut right: Vec<Right> = Vec::with_capacity(open);
+        let mut right: Vec<RightSides> = Vec::with_capacity(open);
         for (k, row) in self.rows.iter().enumerate().take(open) {
             let mut inner = [0.0; 5];
             let mut carried = [self.right[k], 0.0, 0.0];
@@ -68,7 +68,7 @@ impl System {
 }
 
 /// Gaussian elimination of an open chain.
-fn eliminate(mut rows: Vec<[f64; 5]>, mut right: Vec<Right>) -> Vec<Right> {
+fn eliminate(mut rows: Vec<[f64; 5]>, mut right: Vec<RightSides>) -> Vec<RightSides> {
     let n = rows.len();
     for k in 0..n {
         let (pivot, top) = (rows[k], right[k]);

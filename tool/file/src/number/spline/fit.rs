@@ -1,6 +1,6 @@
 //! From points to pieces.
 
-use super::Way;
+use super::FitMethod;
 use super::banded::System;
 
 /// The steps between knots.
@@ -15,12 +15,12 @@ fn slopes(y: &[f64], h: &[f64]) -> Vec<f64> {
 }
 
 /// Pieces over the range of the points.
-pub(super) fn bounded(x: &[f64], y: &[f64], way: Way) -> Vec<[f64; 4]> {
+pub(super) fn bounded(x: &[f64], y: &[f64], way: FitMethod) -> Vec<[f64; 4]> {
     let h = steps(x);
     match way {
-        Way::Interpolating => by_curvature(y, &h, &not_a_knot(y, &h)),
-        Way::Level => by_curvature(y, &h, &level(y, &h)),
-        Way::Monotone => {
+        FitMethod::Interpolating => by_curvature(y, &h, &not_a_knot(y, &h)),
+        FitMethod::Level => by_curvature(y, &h, &level(y, &h)),
+        FitMethod::Monotone => {
             let mean = slopes(y, &h);
             let last = mean.len() - 1;
             let inner = (1..y.len() - 1).map(|k| steffen([mean[k - 1], mean[k]], [h[k - 1], h[k]]));
@@ -29,7 +29,7 @@ pub(super) fn bounded(x: &[f64], y: &[f64], way: Way) -> Vec<[f64; 4]> {
             let tangents: Vec<f64> = [first].into_iter().chain(inner).chain([end]).collect();
             by_slope(y, &h, &at_zero(y, tangents))
         }
-        Way::Smoothing(cutoff) => {
+        FitMethod::Smoothing(cutoff) => {
             let stiffness = cutoff.powi(-4);
             let (values, curvature) = smooth_bounded(y, &h, stiffness);
             by_curvature(&values, &h, &curvature)
@@ -38,7 +38,7 @@ pub(super) fn bounded(x: &[f64], y: &[f64], way: Way) -> Vec<[f64; 4]> {
 }
 
 /// Pieces over one period; `knots` has one more knot, the end.
-pub(super) fn periodic(knots: &[f64], y: &[f64], way: Way) -> Vec<[f64; 4]> {
+pub(super) fn periodic(knots: &[f64], y: &[f64], way: FitMethod) -> Vec<[f64; 4]> {
     let h = steps(knots);
     let closed = |values: &[f64]| -> Vec<f64> {
         let first = values.first().copied();
@@ -47,17 +47,17 @@ pub(super) fn periodic(knots: &[f64], y: &[f64], way: Way) -> Vec<[f64; 4]> {
     let n = y.len();
     let mean = slopes(&closed(y), &h);
     match way {
-        Way::Monotone => {
+        FitMethod::Monotone => {
             let before = |k: usize| (k + n - 1) % n;
             let tangent = |k: usize| steffen([mean[before(k)], mean[k]], [h[before(k)], h[k]]);
             let tangents = at_zero(y, (0..n).map(tangent).collect());
             by_slope(&closed(y), &h, &closed(&tangents))
         }
-        Way::Interpolating | Way::Level => {
+        FitMethod::Interpolating | FitMethod::Level => {
             let (_, curvature) = ring(y, &h, &mean, 0.0);
             by_curvature(&closed(y), &h, &closed(&curvature))
         }
-        Way::Smoothing(cutoff) => {
+        FitMethod::Smoothing(cutoff) => {
             let (values, curvature) = ring(y, &h, &mean, cutoff.powi(-4));
             by_curvature(&closed(&values), &h, &closed(&curvature))
         }

@@ -2,11 +2,11 @@
 
 use super::Target;
 use crate::model::coordinate::Coordinate;
-use crate::model::tabulated::{Course, Direction, Over, StandIn, Table};
+use crate::model::virtual_link::{Direction, LinkCurve, LoadTable, TableVariable, VirtualLink};
 use crate::number::rounding::figure;
-use crate::number::spline::{MIN_POINTS, Spline, Way};
+use crate::number::spline::{FitMethod, MIN_POINTS, Spline};
 use crate::read::curve_file::Positions;
-use crate::text::columns::{self, Columns, Fault, Format, Known, known};
+use crate::text::columns::{self, ColumnSpec, Columns, CsvFault, Format, known};
 use crate::text::csv;
 use crate::text::problem::Problem;
 use crate::units::kind::{ANGLE, FORCE, INERTIA, LENGTH, MASS, TORQUE};
@@ -26,10 +26,10 @@ const GAP: f64 = 20.0;
 /// Share of a column's largest value by which a smooth curve may exceed all its rows: through a step it exceeds them by 11 %.
 const SWING: f64 = 0.1;
 
-type Result<T> = std::result::Result<T, Fault>;
+type Result<T> = std::result::Result<T, CsvFault>;
 
 /// The columns of a table on the drive link itself.
-fn on_drive(coordinate: Coordinate) -> (Vec<Known>, &'static str) {
+fn on_drive(coordinate: Coordinate) -> (Vec<ColumnSpec>, &'static str) {
     match coordinate {
         Coordinate::Angle => (
             vec![
@@ -53,15 +53,15 @@ fn on_drive(coordinate: Coordinate) -> (Vec<Known>, &'static str) {
 }
 
 /// The columns of a table on a link; with `along`, the column Force acts on the link in this direction.
-fn on_link(target: &Target) -> (Vec<Known>, &'static str) {
+fn on_link(target: &Target) -> (Vec<ColumnSpec>, &'static str) {
     let (mut columns, _) = on_drive(target.drive.coordinate);
     columns[PAYLOAD].kind = &MASS;
     columns[THRUST].kind = &FORCE;
-    let along = target.along.is_some() || target.over != Over::Drive;
+    let along = target.along.is_some() || target.over != TableVariable::Drive;
     if along {
         columns[TORQUE_COLUMN].names = &["Torque"];
     }
-    if target.over != Over::Drive {
+    if target.over != TableVariable::Drive {
         columns[POSITION] = known(&["Position", "s", "x", "y", "position"], &LENGTH);
     }
     columns.extend([
@@ -74,7 +74,7 @@ fn on_link(target: &Target) -> (Vec<Known>, &'static str) {
         Coordinate::Angle => {
             "\"Position [deg],Payload [kg],Thrust [N],Torque [N m]\", \"Position [deg],Force x [N],Force y [N],Moment [N m]\" (the position and at least one other)"
         }
-        Coordinate::Length if target.over != Over::Drive => {
+        Coordinate::Length if target.over != TableVariable::Drive => {
             "\"Position [mm],Force x [N],Force y [N]\" or \"Position [mm],Force [N]\" with `angle` (the position and at least one other)"
         }
         Coordinate::Length => {
@@ -85,7 +85,7 @@ fn on_link(target: &Target) -> (Vec<Known>, &'static str) {
 }
 
 /// The curves of all columns.
-pub(super) fn read(text: &str, target: &Target) -> Result<Vec<StandIn>> {
+pub(super) fn read(text: &str, target: &Target) -> Result<Vec<VirtualLink>> {
     let (known, example) = match target.on {
         Some(_) => on_link(target),
         None => on_drive(target.coordinate()),
@@ -109,7 +109,7 @@ pub(super) fn read(text: &str, target: &Target) -> Result<Vec<StandIn>> {
     }
     let has = |column: usize| columns.get(column).is_some();
     for (column, name) in [(PAYLOAD, "Payload"), (TORQUE_COLUMN, "Torque")] {
-        if has(column) && target.over != Over::Drive {
+        if has(column) && target.over != TableVariable::Drive {
             let message =
                 format!("the column {name} is for rows over the position of the drive link");
             return Err(header(message).into());
@@ -129,7 +129,7 @@ pub(super) fn read(text: &str, target: &Target) -> Result<Vec<StandIn>> {
             .into_iter()
             .any(has)
     }) {
-        return Err(Fault::InMachine(
+        return Err(CsvFault::InMachine(
             item.problem(
                 "is for the columns Force x, Force y, Force and Moment",
                 "not needed",
@@ -158,11 +158,11 @@ fn check_direction(target: &Target, has_force: bool, text: &str) -> Result<()> {
                 "add angle = \"180 deg\", counter-clockwise from +x, or angle_on_link, to the [[load]]; or give the columns Force x and Force y",
             )
             .into()),
-        Some((item, _)) if target.on.is_none() => Err(Fault::InMachine(
+        Some((item, _)) if target.on.is_none() => Err(CsvFault::InMachine(
             item.problem("is given without `on`", "a force on which link?")
                 .help("add on = \"slider\", the link on which the force acts"),
         )),
-        Some((item, _)) if !has_force => Err(Fault::InMachine(
+        Some((item, _)) if !has_force => Err(CsvFault::InMachine(
             item.problem("is given, but the table has no column Force", "not needed")
                 .help("name the column of the force Force [N]"),
         )),
@@ -178,13 +178,13 @@ struct Sheet<'t> {
 }
 
 impl Sheet<'_> {
-    fn stand_ins(&self) -> Result<Vec<StandIn>> {
+    fn stand_ins(&self) -> Result<Vec<VirtualLink>> {
         let target = self.target;
         let place = target.on.as_ref().map(|(_, place)| *place);
         let mut stand_ins = Vec::new();
-        let mut add = |what: &str, course: Course, edges: &[f64]| {
+        let mut add = |what: &str, course: LinkCurve, edges: &[f64]| {
             let name = format!("{}: {what}", target.name);
-            stand_ins.push(StandIn {
+            stand_ins.push(VirtualLink {
                 name,
                 window: target.window,
                 edges: edges.to_vec(),
@@ -202,21 +202,21 @@ impl Sheet<'_> {
                     .help("remove `between` and `ramp`: write zero rows where there is no payload")
                     .into());
             }
-            let mass = self.positions.curve(&payload, Way::Monotone)?;
+            let mass = self.positions.curve(&payload, FitMethod::Monotone)?;
             match place {
-                None => add("payload", Course::Inertia(mass), &[]),
+                None => add("payload", LinkCurve::Inertia(mass), &[]),
                 Some(on) => {
                     for (axis, letter) in ["x", "y"].into_iter().enumerate() {
                         let mass = mass.clone();
                         add(
                             &format!("payload {letter}"),
-                            Course::Payload { mass, on, axis },
+                            LinkCurve::Payload { mass, on, axis },
                             &[],
                         );
                     }
                     if target.gravity.iter().any(|g| *g != 0.0) {
                         let gravity = target.gravity;
-                        add("weight", Course::Weight { mass, on, gravity }, &[]);
+                        add("weight", LinkCurve::Weight { mass, on, gravity }, &[]);
                     }
                 }
             }
@@ -227,19 +227,19 @@ impl Sheet<'_> {
             "a thrust always opposes the motion: give its magnitude; a force with a sign belongs in the column Torque, Force or Force x",
         )? {
             self.check_ends(THRUST, &thrust)?;
-            let curve = self.positions.curve(&thrust, Way::Monotone)?;
+            let curve = self.positions.curve(&thrust, FitMethod::Monotone)?;
             match place {
                 Some(on) => {
                     let edges = self.edges()?;
                     let force = self.table(curve);
-                    add("thrust", Course::Thrust { force, on }, &edges);
+                    add("thrust", LinkCurve::Thrust { force, on }, &edges);
                 }
-                None => add("thrust", Course::Opposing(curve), &[]),
+                None => add("thrust", LinkCurve::Opposing(curve), &[]),
             }
         }
         if let Some(torque) = self.positions.values(TORQUE_COLUMN)? {
-            let torque = self.positions.curve(&torque, Way::Monotone)?;
-            add("torque", Course::Torque(torque), &[]);
+            let torque = self.positions.curve(&torque, FitMethod::Monotone)?;
+            add("torque", LinkCurve::Torque(torque), &[]);
         }
         let along = target.along.as_ref().map(|(_, along)| *along);
         let forces = [
@@ -252,25 +252,25 @@ impl Sheet<'_> {
                 continue;
             };
             let fixed = matches!(along, Direction::Fixed(_));
-            let on = (target.check_effect(true, fixed)).map_err(Fault::InMachine)?;
+            let on = (target.check_effect(true, fixed)).map_err(CsvFault::InMachine)?;
             let force = self.table(self.smooth(column, &force)?);
-            add(name, Course::Force { force, on, along }, &self.edges()?);
+            add(name, LinkCurve::Force { force, on, along }, &self.edges()?);
         }
         if let Some(moment) = self.positions.values(MOMENT)? {
-            let on = (target.check_effect(false, false)).map_err(Fault::InMachine)?;
+            let on = (target.check_effect(false, false)).map_err(CsvFault::InMachine)?;
             let moment = self.table(self.smooth(MOMENT, &moment)?);
             let link = on.link;
-            add("moment", Course::Moment { moment, link }, &self.edges()?);
+            add("moment", LinkCurve::Moment { moment, link }, &self.edges()?);
         }
         Ok(stand_ins)
     }
 
-    fn table(&self, curve: Spline) -> Table {
+    fn table(&self, curve: Spline) -> LoadTable {
         let (over, rows) = (self.target.over, &self.target.rows);
         if rows.partly {
-            Table::new(curve, over, rows.repeats())
+            LoadTable::new(curve, over, rows.repeats())
         } else {
-            Table::whole(curve, over)
+            LoadTable::whole(curve, over)
         }
     }
 
@@ -286,7 +286,7 @@ impl Sheet<'_> {
             .passes(self.target.mechanism, &[*first, *last]);
         passes.map_err(|error| {
             let problem = Problem::new(format!("the rows cannot be placed: {error}"));
-            Fault::InMachine(problem.help(error.cure().to_string()))
+            CsvFault::InMachine(problem.help(error.cure().to_string()))
         })
     }
 
@@ -310,9 +310,11 @@ impl Sheet<'_> {
         self.check_ends(column, values)?;
         self.check_gaps(column, values)?;
         let way = match &self.target.way {
-            Some((_, Way::Monotone)) => return Ok(self.positions.curve(values, Way::Monotone)?),
-            _ if self.target.rows.partly => Way::Level,
-            _ => Way::Interpolating,
+            Some((_, FitMethod::Monotone)) => {
+                return Ok(self.positions.curve(values, FitMethod::Monotone)?);
+            }
+            _ if self.target.rows.partly => FitMethod::Level,
+            _ => FitMethod::Interpolating,
         };
         let curve = self.positions.curve(values, way)?;
         let most = values.iter().fold(0.0f64, |most, v| most.max(v.abs()));

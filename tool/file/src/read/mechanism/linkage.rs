@@ -17,7 +17,7 @@ use crate::text::problem::Result;
 use crate::text::section::Section;
 
 use bodies::Bodies;
-use joints::Held;
+use joints::JointEntry;
 use problems::Context;
 
 /// Positions stored along the drive's range: from the nearest of them one step of Newton's method converges.
@@ -28,9 +28,9 @@ const CHANGE_POINTS: usize = 16;
 
 /// A linkage on the heap: with all its stations it is too large for the stack.
 #[derive(Debug)]
-struct Boxed(Box<dyn Inner>);
+struct BoxedLinkage(Box<dyn Inner>);
 
-impl Mechanism for Boxed {
+impl Mechanism for BoxedLinkage {
     fn links(&self) -> &[Link] {
         self.0.links()
     }
@@ -42,7 +42,7 @@ impl Mechanism for Boxed {
     }
 }
 
-impl Jointed for Boxed {
+impl Jointed for BoxedLinkage {
     fn joints(&self, phi: f64, frames: &Frames) -> std::result::Result<Joints, PoseError> {
         self.0.joints(phi, frames)
     }
@@ -122,10 +122,10 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
 
 /// Not inlined, so that the stations leave the stack when it returns.
 #[inline(never)]
-fn assembled(context: &Context, domain: Domain) -> std::result::Result<Boxed, LinkageError> {
+fn assembled(context: &Context, domain: Domain) -> std::result::Result<BoxedLinkage, LinkageError> {
     let linkage = context.linkage()?;
     let assembly = linkage.assemble::<STATIONS>(domain, context.drawn_at, context.poses)?;
-    Ok(Boxed(Box::new(assembly)))
+    Ok(BoxedLinkage(Box::new(assembly)))
 }
 
 /// The linkage assembled through its change points, and these points.
@@ -133,7 +133,7 @@ fn assembled(context: &Context, domain: Domain) -> std::result::Result<Boxed, Li
 fn kept_on_branch(
     context: &Context,
     domain: Domain,
-) -> std::result::Result<(Boxed, Vec<ChangePoint>), LinkageError> {
+) -> std::result::Result<(BoxedLinkage, Vec<ChangePoint>), LinkageError> {
     let assembly = context
         .linkage()?
         .assemble_through_change_points::<STATIONS, CHANGE_POINTS>(
@@ -146,11 +146,11 @@ fn kept_on_branch(
         .change_points()
         .map(|at| ChangePoint { at, within })
         .collect();
-    Ok((Boxed(Box::new(assembly)), points))
+    Ok((BoxedLinkage(Box::new(assembly)), points))
 }
 
 /// The joint that is driven.
-fn drive(section: &Section, joints: &[Held]) -> Result<usize> {
+fn drive(section: &Section, joints: &[JointEntry]) -> Result<usize> {
     let names: Vec<&str> = joints.iter().map(|joint| joint.name.as_str()).collect();
     let item = section.require(
         "drive",
@@ -200,7 +200,7 @@ fn domain(section: &Section, coordinate: Coordinate) -> Result<Domain> {
 }
 
 /// Checks that a body that turns has a moment of inertia in the file, even if it is zero.
-fn inertias(assembly: &Boxed, bodies: &Bodies) -> Result<()> {
+fn inertias(assembly: &BoxedLinkage, bodies: &Bodies) -> Result<()> {
     let open: Vec<usize> = (0..bodies.moving.len())
         .filter(|k| bodies.moving.get(*k).is_some_and(|body| !body.has_inertia))
         .collect();

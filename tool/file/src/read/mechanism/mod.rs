@@ -39,7 +39,7 @@ use crate::number::rounding::figure;
 use crate::text::file::Files;
 
 use crate::text::item::Item;
-use crate::text::key::Table;
+use crate::text::key::KeyTable;
 use crate::text::problem::{Problem, Result};
 use crate::text::section::Section;
 
@@ -53,7 +53,7 @@ enum Reader {
 }
 
 /// The types with their keys and their readers.
-const TYPES: [(&Table, Reader); 24] = [
+const TYPES: [(&KeyTable, Reader); 24] = [
     (&keys::SLIDER_CRANK, Reader::Text(slider_crank::read)),
     (&keys::GEAR_TRAIN, Reader::Text(train::read_gears)),
     (&keys::BELT, Reader::Text(train::read_belt)),

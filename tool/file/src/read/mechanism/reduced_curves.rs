@@ -6,13 +6,13 @@ use jred::machine::Link;
 use super::core;
 use crate::model::coordinate::Coordinate;
 use crate::model::mechanism::AnyMechanism;
-use crate::model::tabulated::{Course, DriveLinkAlone, StandIn};
+use crate::model::virtual_link::{DriveLinkAlone, LinkCurve, VirtualLink};
 use crate::number::rounding::figure;
-use crate::number::spline::{MIN_POINTS, Spline, Way};
-use crate::read::curve_file::{Positions, Rows};
+use crate::number::spline::{FitMethod, MIN_POINTS, Spline};
+use crate::read::curve_file::{Positions, RowVariable};
 use crate::read::drive_link::DriveLink;
 use crate::text::columns;
-use crate::text::columns::{Columns, CsvFile, Fault, Format, Known, Layout, known};
+use crate::text::columns::{ColumnSpec, Columns, CsvFault, CsvFile, Format, Layout, known};
 use crate::text::csv;
 use crate::text::file::Files;
 use crate::text::problem::{Problem, Result};
@@ -36,7 +36,7 @@ const CONSERVED: f64 = 1e-3;
 /// Smaller shares are rounding errors of the file and not reported.
 const ROUNDING: f64 = 1e-6;
 
-const ANGLES: [Known; 7] = [
+const ANGLES: [ColumnSpec; 7] = [
     known(&["phi", "φ", "angle", "position"], &ANGLE),
     known(&["J", "J_red", "inertia"], &INERTIA),
     known(&["T", "T_process", "torque"], &TORQUE),
@@ -46,7 +46,7 @@ const ANGLES: [Known; 7] = [
     known(&["J'", "J_red'"], &INERTIA_SLOPE),
 ];
 
-const LENGTHS: [Known; 7] = [
+const LENGTHS: [ColumnSpec; 7] = [
     known(&["s", "position"], &LENGTH),
     known(&["m", "m_red", "mass"], &MASS),
     known(&["F", "F_process", "force"], &FORCE),
@@ -73,7 +73,8 @@ pub(super) fn read(section: &Section, files: &dyn Files) -> Result<AnyMechanism>
     let turn = section.word("range")? == 0;
     let file = CsvFile::open(&item, "curves.csv", files)?;
     let layout = Layout::read(section)?;
-    let curves = Curves::read(&file.text, turn, &layout).map_err(|fault| file.shows(fault))?;
+    let curves =
+        CurveFileContents::read(&file.text, turn, &layout).map_err(|fault| file.shows(fault))?;
     let slides = curves.drive.slides();
     let alone = DriveLinkAlone::new(curves.drive.domain, slides, Link::MASSLESS);
     let joint = if slides {
@@ -91,14 +92,14 @@ pub(super) fn read(section: &Section, files: &dyn Files) -> Result<AnyMechanism>
 }
 
 /// The contents of a file.
-struct Curves {
+struct CurveFileContents {
     drive: DriveLink,
-    stand_ins: Vec<StandIn>,
+    stand_ins: Vec<VirtualLink>,
     facts: Vec<(&'static str, String)>,
 }
 
-impl Curves {
-    fn read(text: &str, turn: bool, layout: &Layout) -> std::result::Result<Self, Fault> {
+impl CurveFileContents {
+    fn read(text: &str, turn: bool, layout: &Layout) -> std::result::Result<Self, CsvFault> {
         let (columns, coordinate) = read_columns(text, turn, layout)?;
         let x = columns.get(POSITION).unwrap_or_default();
         let domain = match (turn, x) {
@@ -110,7 +111,7 @@ impl Curves {
             (true, _) => Domain::Turn,
         };
         let drive = DriveLink { coordinate, domain };
-        let positions = Positions::of(&columns, &Rows::of(drive))?;
+        let positions = Positions::of(&columns, &RowVariable::of(drive))?;
         let mut facts = vec![(
             "rows of the file",
             format!(
@@ -121,9 +122,9 @@ impl Curves {
             ),
         )];
         let mut stand_ins = Vec::new();
-        let mut add = |name: &str, course: Course| {
+        let mut add = |name: &str, course: LinkCurve| {
             let name = name.to_owned();
-            stand_ins.push(StandIn::new(name, course));
+            stand_ins.push(VirtualLink::new(name, course));
         };
 
         let inertia = positions
@@ -133,7 +134,7 @@ impl Curves {
                 "the reduced inertia of a machine that moves is positive everywhere; add the inertia of the drive link itself",
             )?
             .unwrap_or_default();
-        let curve = positions.curve(&inertia, Way::Interpolating)?;
+        let curve = positions.curve(&inertia, FitMethod::Interpolating)?;
         let (least, at) = curve.least();
         if least <= 0.0 {
             let row = x.partition_point(|x| *x <= at).saturating_sub(1);
@@ -147,31 +148,31 @@ impl Curves {
             .into());
         }
         facts.extend(agreement(&positions, &columns, &curve, &inertia));
-        add("inertia", Course::Inertia(curve));
+        add("inertia", LinkCurve::Inertia(curve));
 
         if let Some(torque) = positions.values(PROCESS)? {
             add(
                 "process",
-                Course::Torque(positions.curve(&torque, Way::Interpolating)?),
+                LinkCurve::Torque(positions.curve(&torque, FitMethod::Interpolating)?),
             );
         }
         if let Some(torque) = positions.values(POTENTIAL)? {
             let (torque, fact) = conserved(&positions, &columns, torque, turn)?;
             facts.extend(fact);
-            add("weight", Course::potential(torque));
+            add("weight", LinkCurve::potential(torque));
         }
         let why =
             "friction dissipates power in both directions of motion: its value is never negative";
         if let Some(viscous) = positions.magnitudes(VISCOUS, true, why)? {
             add(
                 "viscous",
-                Course::Viscous(positions.curve(&viscous, Way::Monotone)?),
+                LinkCurve::Viscous(positions.curve(&viscous, FitMethod::Monotone)?),
             );
         }
         if let Some(coulomb) = positions.magnitudes(COULOMB, true, why)? {
             add(
                 "coulomb",
-                Course::Opposing(positions.curve(&coulomb, Way::Monotone)?),
+                LinkCurve::Opposing(positions.curve(&coulomb, FitMethod::Monotone)?),
             );
         }
         facts.push((
@@ -192,8 +193,8 @@ fn read_columns(
     text: &str,
     turn: bool,
     layout: &Layout,
-) -> std::result::Result<(Columns, Coordinate), Fault> {
-    let format = |known: &'static [Known], example: &'static str| Format {
+) -> std::result::Result<(Columns, Coordinate), CsvFault> {
+    let format = |known: &'static [ColumnSpec], example: &'static str| Format {
         known,
         ignored: of_reduce,
         example,
@@ -288,14 +289,14 @@ fn conserved(
     mut torque: Vec<f64>,
     turn: bool,
 ) -> Result<(Spline, Option<(&'static str, String)>)> {
-    let curve = positions.curve(&torque, Way::Interpolating)?;
+    let curve = positions.curve(&torque, FitMethod::Interpolating)?;
     if !turn {
         return Ok((curve, None));
     }
     let [from, to] = curve.range();
     let work = curve.integral(to);
     let sizes: Vec<f64> = torque.iter().map(|t| t.abs()).collect();
-    let size = positions.curve(&sizes, Way::Monotone)?.integral(to);
+    let size = positions.curve(&sizes, FitMethod::Monotone)?.integral(to);
     if work.abs() > CONSERVED * size {
         return Err(Problem::new(format!(
             "the torque of weight and springs does work over a turn: {} J of {} J",
@@ -314,7 +315,7 @@ fn conserved(
         figure(mean)
     );
     // The curve is linear in its values: without the mean, its integral is rounding error only.
-    let curve = positions.curve(&torque, Way::Interpolating)?;
+    let curve = positions.curve(&torque, FitMethod::Interpolating)?;
     Ok((
         curve,
         (work.abs() > ROUNDING * size).then_some(("weight over a turn", fact)),

@@ -6,7 +6,7 @@ use jred::machine::MassProperties;
 
 use super::core;
 use crate::model::mechanism::AnyMechanism;
-use crate::model::tabulated::DriveLinkAlone;
+use crate::model::virtual_link::DriveLinkAlone;
 use crate::text::problem::Result;
 use crate::text::section::Section;
 

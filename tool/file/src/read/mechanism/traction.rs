@@ -16,7 +16,7 @@ use crate::text::problem::Result;
 use crate::text::section::Section;
 
 /// Names of the parts of an axis.
-struct Words {
+struct AxisNames {
     wheel: &'static str,
     slide: &'static str,
     joints: [&'static str; 3],
@@ -29,7 +29,7 @@ struct Words {
 pub(super) fn read_belt_axis(section: &Section) -> Result<AnyMechanism> {
     read(
         section,
-        &Words {
+        &AxisNames {
             wheel: "pulley",
             slide: "carriage",
             joints: ["pulley bearing", "carriage guide", "belt"],
@@ -43,7 +43,7 @@ pub(super) fn read_belt_axis(section: &Section) -> Result<AnyMechanism> {
 pub(super) fn read_conveyor(section: &Section) -> Result<AnyMechanism> {
     read(
         section,
-        &Words {
+        &AxisNames {
             wheel: "drum",
             slide: "goods",
             joints: ["drum bearing", "slide bed", "belt"],
@@ -56,7 +56,7 @@ pub(super) fn read_conveyor(section: &Section) -> Result<AnyMechanism> {
 pub(super) fn read_feed_roll(section: &Section) -> Result<AnyMechanism> {
     read(
         section,
-        &Words {
+        &AxisNames {
             wheel: "roll",
             slide: "strip",
             joints: ["roll bearing", "strip guide", "nip"],
@@ -66,7 +66,7 @@ pub(super) fn read_feed_roll(section: &Section) -> Result<AnyMechanism> {
     )
 }
 
-fn read(section: &Section, words: &Words) -> Result<AnyMechanism> {
+fn read(section: &Section, words: &AxisNames) -> Result<AnyMechanism> {
     let wheel = section.table(words.wheel)?;
     let diameter = diameter(&wheel)?;
     let radius = 0.5 * diameter;

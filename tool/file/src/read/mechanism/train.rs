@@ -4,7 +4,7 @@ use jred::machine::Mechanism as _;
 
 use crate::model::mechanism::AnyMechanism;
 use crate::read::stage;
-use crate::read::stage::{Losses, Placed};
+use crate::read::stage::{Losses, StageEntry};
 use crate::text::problem::Result;
 use crate::text::section::Section;
 
@@ -16,7 +16,7 @@ pub(super) fn read_belt(section: &Section) -> Result<AnyMechanism> {
     train(section, vec![stage::belt(section, Losses::None)?])
 }
 
-fn train(section: &Section, stages: Vec<Placed>) -> Result<AnyMechanism> {
+fn train(section: &Section, stages: Vec<StageEntry>) -> Result<AnyMechanism> {
     let train = stage::train(stages)
         .map_err(|problem| problem.at(section.header(), "in this mechanism"))?;
     let shafts = train.links().len();

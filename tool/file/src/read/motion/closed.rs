@@ -4,14 +4,14 @@ use jred::machine::Mechanism as _;
 
 use crate::model::coordinate::Coordinate;
 use crate::model::mechanism::NamedLoad;
-use crate::model::motion::Segment;
+use crate::model::motion::MotionSegment;
 use crate::model::repeats::{self, Difference};
 use crate::number::rounding::shown;
 use crate::read::drive_link::DriveLink;
 use crate::text::problem::Result;
 use crate::text::section::Section;
 
-use super::Prescribed;
+use super::PrescribedCoordinate;
 
 /// A cycle closes if its moves miss a whole number of turns by less than this (turns per segment); on a stroke, as a share of the sum of its moves.
 const CLOSED: f64 = 1e-9;
@@ -20,7 +20,7 @@ const CLOSED: f64 = 1e-9;
 fn check_returns(
     section: &Section,
     parts: &[Section],
-    segments: &[Segment],
+    segments: &[MotionSegment],
     drive: DriveLink,
 ) -> Result<()> {
     let sum: f64 = segments.iter().map(|s| s.distance).sum();
@@ -50,9 +50,9 @@ fn check_returns(
 pub(super) fn check(
     section: &Section,
     parts: &[Section],
-    segments: &[Segment],
+    segments: &[MotionSegment],
     start: f64,
-    prescribed: &Prescribed,
+    prescribed: &PrescribedCoordinate,
 ) -> Result<()> {
     let axis = prescribed.axis;
     let Some(per_turn) = prescribed.per_turn() else {
@@ -109,7 +109,12 @@ pub(super) fn check(
 }
 
 /// The load whose process torque differs most, as a clause with its name.
-fn of_load(prescribed: &Prescribed, difference: &Difference, start: f64, way: f64) -> String {
+fn of_load(
+    prescribed: &PrescribedCoordinate,
+    difference: &Difference,
+    start: f64,
+    way: f64,
+) -> String {
     let mechanism = prescribed.machine.mechanism();
     let there = difference.phi + prescribed.advance(start, way);
     let at = |named: &NamedLoad, phi: f64| {
@@ -130,7 +135,7 @@ fn of_load(prescribed: &Prescribed, difference: &Difference, start: f64, way: f6
 }
 
 /// " of the drive link" if another coordinate is prescribed.
-pub(in crate::read) fn of_the_drive(prescribed: &Prescribed) -> &'static str {
+pub(in crate::read) fn of_the_drive(prescribed: &PrescribedCoordinate) -> &'static str {
     if prescribed.tool.is_some() {
         " of the drive link"
     } else {
@@ -141,7 +146,7 @@ pub(in crate::read) fn of_the_drive(prescribed: &Prescribed) -> &'static str {
 /// How the machine differs after the prescribed coordinate has advanced by `way` from `start`; `None` if it does not.
 pub(in crate::read) fn difference(
     section: &Section,
-    prescribed: &Prescribed,
+    prescribed: &PrescribedCoordinate,
     start: f64,
     way: f64,
 ) -> Result<Option<Difference>> {

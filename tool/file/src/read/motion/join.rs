@@ -6,13 +6,13 @@ use std::f64::consts::TAU;
 use jred::Domain;
 use jred::machine::motion::{End, Polynomial, State};
 
-use crate::model::motion::Segment;
+use crate::model::motion::MotionSegment;
 use crate::text::problem::Result;
 use crate::text::section::Section;
 
-use super::Prescribed;
+use super::PrescribedCoordinate;
 use super::ends::Ends;
-use super::segment::Written;
+use super::segment::SegmentDraft;
 
 /// Share of a turn that counts as rounding, so that a join does not make one turn more.
 const ROUNDING: f64 = 1e-9;
@@ -21,9 +21,9 @@ const ROUNDING: f64 = 1e-9;
 pub(super) fn check(
     section: &Section,
     parts: &[Section],
-    written: &[(Written, Ends)],
+    written: &[(SegmentDraft, Ends)],
     cyclic: bool,
-    prescribed: &Prescribed,
+    prescribed: &PrescribedCoordinate,
 ) -> Result<()> {
     let Some(first) = written.iter().position(|(written, _)| written.is_join()) else {
         return Ok(());
@@ -39,7 +39,7 @@ pub(super) fn check(
             .help("begin the cycle with the segment that it leads to"));
     }
     for (index, (written, _)) in written.iter().enumerate() {
-        let Written::Join { to, .. } = written else {
+        let SegmentDraft::Join { to, .. } = written else {
             // After a join, the start of a tool's move is not known.
             if index > first && prescribed.tool.is_some() && !written.is_dwell() {
                 return Err(part(index)
@@ -78,7 +78,10 @@ pub(super) fn check(
             _ => {}
         }
     }
-    let closes = matches!(written.get(last), Some((Written::Join { to: None, .. }, _)));
+    let closes = matches!(
+        written.get(last),
+        Some((SegmentDraft::Join { to: None, .. }, _))
+    );
     if cyclic && !closes {
         return Err(part(last)
             .problem(
@@ -92,10 +95,10 @@ pub(super) fn check(
 
 /// Replaces the joins, and the dwells after them, by their motion of the drive link.
 pub(super) fn resolve(
-    written: &[(Written, Ends)],
-    segments: &mut [Segment],
+    written: &[(SegmentDraft, Ends)],
+    segments: &mut [MotionSegment],
     start: f64,
-    prescribed: &Prescribed,
+    prescribed: &PrescribedCoordinate,
 ) {
     let state = |phi: f64, [omega, alpha]: [f64; 2]| State { phi, omega, alpha };
     let Some(origin) = segments.first().map(|first| first.ends()[0]) else {
@@ -107,13 +110,13 @@ pub(super) fn resolve(
     let mut drive: Option<State<f64>> = None;
     let mut before = [0.0; 2];
     for ((written, _), segment) in written.iter().zip(segments) {
-        if let Written::Join { duration, to } = written {
+        if let SegmentDraft::Join { duration, to } = written {
             let from = drive.unwrap_or_else(|| prescribed.drive_state(state(position, before)));
             let target = to.as_ref().map_or(origin, |to| state(to.si, [0.0; 2]));
             let way = ahead(from, target, prescribed.drive.domain);
             let end = |state: State<f64>| End::new(state.omega, state.alpha);
             let course = Polynomial::between(way, *duration, end(from), end(target));
-            *segment = Segment::polynomial(way, *duration, course).of_drive(from.phi);
+            *segment = MotionSegment::polynomial(way, *duration, course).of_drive(from.phi);
             drive = Some(state(from.phi + way, [target.omega, target.alpha]));
             continue;
         }

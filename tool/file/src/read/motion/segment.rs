@@ -3,7 +3,7 @@
 use jred::machine::motion::Law;
 
 use crate::keys::motion::MOTION_LAWS;
-use crate::model::motion::{Limits, Segment};
+use crate::model::motion::{MotionSegment, MoveLimits};
 use crate::read::drive_link::DriveLink;
 use crate::read::law;
 use crate::text::item::{Item, Value};
@@ -11,7 +11,7 @@ use crate::text::key::SPEED;
 use crate::text::problem::{Problem, Result};
 use crate::text::section::Section;
 
-use super::Prescribed;
+use super::PrescribedCoordinate;
 use super::ends::Ends;
 
 const CONSTANT_SPEED: &str = "constant-speed";
@@ -28,9 +28,9 @@ const LIMITS: [&str; 4] = [
 ];
 
 /// A segment, as far as the file defines it.
-pub(super) enum Written {
+pub(super) enum SegmentDraft {
     /// Completely defined.
-    Known(Segment),
+    Known(MotionSegment),
     /// A polynomial over a distance in a duration.
     Polynomial { distance: f64, duration: f64 },
     /// Constant acceleration, speed and deceleration in shares of the duration.
@@ -43,7 +43,7 @@ pub(super) enum Written {
     /// As fast as limits allow: over a distance, or for a change of speed.
     Limited {
         distance: Option<Value>,
-        limits: Limits,
+        limits: MoveLimits,
         /// Largest speed as the file gives it; optional for a change of speed.
         speed: Option<Value>,
     },
@@ -51,7 +51,7 @@ pub(super) enum Written {
     Join { duration: f64, to: Option<Value> },
 }
 
-impl Written {
+impl SegmentDraft {
     /// Whether its end speeds can come from its neighbours.
     pub(super) const fn is_open(&self) -> bool {
         !matches!(self, Self::Known(_))
@@ -68,13 +68,16 @@ impl Written {
 }
 
 /// One move or one dwell, and the values of its ends.
-pub(super) fn read(section: &Section, prescribed: &Prescribed) -> Result<(Written, Ends)> {
+pub(super) fn read(
+    section: &Section,
+    prescribed: &PrescribedCoordinate,
+) -> Result<(SegmentDraft, Ends)> {
     let drive = prescribed.axis;
     let law_key = section.get("law");
     let (way, dwell) = (section.get("move"), section.get("dwell"));
     if let Some(dwell) = dwell {
         let segment = pause(section, &dwell, law_key)?;
-        return Ok((Written::Known(segment), Ends::default()));
+        return Ok((SegmentDraft::Known(segment), Ends::default()));
     }
     // An unknown law is reported after a missing distance.
     let word = law_key.as_ref().and_then(|law| law.word().ok());
@@ -108,7 +111,7 @@ pub(super) fn read(section: &Section, prescribed: &Prescribed) -> Result<(Writte
     let law = MOTION_LAWS[law_key.word()?];
     section.choose(law);
     let read = by_law(section, &law_key, law, distance)?;
-    let limited = matches!(read.0, Written::Limited { .. });
+    let limited = matches!(read.0, SegmentDraft::Limited { .. });
     section.finish_with(|key| match key {
         "accelerate" | "decelerate" if limited => {
             Some("shares of a duration are for a trapezoid whose duration is given")
@@ -125,7 +128,7 @@ fn by_law(
     law_key: &Item,
     law: &str,
     distance: Option<Value>,
-) -> Result<(Written, Ends)> {
+) -> Result<(SegmentDraft, Ends)> {
     let has_limits = || LIMITS.iter().any(|key| section.peek(key).is_some());
     Ok(match law {
         CONSTANT_SPEED => (steady(section, distance)?, Ends::default()),
@@ -143,7 +146,7 @@ fn by_law(
                 } => [accelerate, decelerate],
                 _ => [0.5; 2],
             };
-            let written = Written::Trapezoid {
+            let written = SegmentDraft::Trapezoid {
                 distance,
                 duration,
                 law,
@@ -154,19 +157,19 @@ fn by_law(
         "polynomial-5" | "polynomial-6" | "polynomial-7" => {
             let (distance, duration) = timed(section, distance)?;
             let ends = Ends::of_polynomial(section, law_key, law)?;
-            (Written::Polynomial { distance, duration }, ends)
+            (SegmentDraft::Polynomial { distance, duration }, ends)
         }
         _ => {
             let (distance, duration) = timed(section, distance)?;
             let law = law::read(section)?;
-            let segment = Segment::law(distance, duration, law);
-            (Written::Known(segment), Ends::default())
+            let segment = MotionSegment::law(distance, duration, law);
+            (SegmentDraft::Known(segment), Ends::default())
         }
     })
 }
 
 /// A polynomial that joins the segments before and after it.
-fn join(section: &Section, way: Option<Item>, drive: DriveLink) -> Result<(Written, Ends)> {
+fn join(section: &Section, way: Option<Item>, drive: DriveLink) -> Result<(SegmentDraft, Ends)> {
     if let Some(way) = way {
         return Err(way
             .problem("is not used by the law \"join\": it goes to `to`, or to the start of the cycle", "remove this")
@@ -187,10 +190,10 @@ fn join(section: &Section, way: Option<Item>, drive: DriveLink) -> Result<(Writt
         ),
         _ => None,
     })?;
-    Ok((Written::Join { duration, to }, Ends::default()))
+    Ok((SegmentDraft::Join { duration, to }, Ends::default()))
 }
 
-fn pause(section: &Section, dwell: &Item, law: Option<Item>) -> Result<Segment> {
+fn pause(section: &Section, dwell: &Item, law: Option<Item>) -> Result<MotionSegment> {
     let duration = dwell.value()?.si;
     if let Some(law) = law {
         return Err(
@@ -202,7 +205,7 @@ fn pause(section: &Section, dwell: &Item, law: Option<Item>) -> Result<Segment> 
     section.finish_with(|key| {
         (key == "duration").then_some("give the duration of a pause as dwell = \"0.25 s\"")
     })?;
-    Ok(Segment::dwell(duration))
+    Ok(MotionSegment::dwell(duration))
 }
 
 /// Distance and duration, for a law that needs both.
@@ -226,7 +229,7 @@ fn stands(value: &Value) -> String {
 }
 
 /// Two of distance, speed and duration.
-fn steady(section: &Section, distance: Option<Value>) -> Result<Written> {
+fn steady(section: &Section, distance: Option<Value>) -> Result<SegmentDraft> {
     let (speed, duration) = (section.given("speed")?, section.given("duration")?);
     if let Some(zero) = (speed.as_ref()).filter(|speed| speed.si.abs() < speed.kind.smallest) {
         return Err(zero
@@ -261,13 +264,13 @@ fn steady(section: &Section, distance: Option<Value>) -> Result<Written> {
             ));
         }
     };
-    Ok(Written::Known(Segment::constant_speed(
+    Ok(SegmentDraft::Known(MotionSegment::constant_speed(
         way, duration, speed,
     )))
 }
 
 /// The limits of a move, or of a change of speed.
-fn limited(section: &Section, distance: Option<Value>, with_jerk: bool) -> Result<Written> {
+fn limited(section: &Section, distance: Option<Value>, with_jerk: bool) -> Result<SegmentDraft> {
     // A change of speed is limited by the speeds of its ends.
     let speed = if distance.is_some() {
         Some(section.value("max_speed")?)
@@ -281,13 +284,13 @@ fn limited(section: &Section, distance: Option<Value>, with_jerk: bool) -> Resul
     } else {
         None
     };
-    let limits = Limits {
+    let limits = MoveLimits {
         speed: speed.as_ref().map_or(f64::INFINITY, |speed| speed.si),
         acceleration,
         deceleration,
         jerk,
     };
-    Ok(Written::Limited {
+    Ok(SegmentDraft::Limited {
         distance,
         limits,
         speed,

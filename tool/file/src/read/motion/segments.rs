@@ -2,7 +2,7 @@
 
 use jred::machine::motion::{End, Polynomial};
 
-use crate::model::motion::{Motion, Phase, Reach, Segment, change, fastest};
+use crate::model::motion::{Motion, MotionSegment, Phase, Reach, change, fastest};
 use crate::read::drive_link::DriveLink;
 use crate::text::item::Value;
 use crate::text::problem::{Problem, Result};
@@ -10,8 +10,8 @@ use crate::text::section::Section;
 
 use super::ends::Ends;
 use super::join;
-use super::segment::{self, Written};
-use super::{Prescribed, closed, start};
+use super::segment::{self, SegmentDraft};
+use super::{PrescribedCoordinate, closed, start};
 
 /// The most segments of a motion.
 const MAX_SEGMENTS: usize = 1000;
@@ -20,7 +20,11 @@ const MAX_SEGMENTS: usize = 1000;
 const CONTINUOUS: f64 = 1e-6;
 
 /// The motion of a section with segments.
-pub(super) fn read(section: &Section, cyclic: bool, prescribed: &Prescribed) -> Result<Motion> {
+pub(super) fn read(
+    section: &Section,
+    cyclic: bool,
+    prescribed: &PrescribedCoordinate,
+) -> Result<Motion> {
     let drive = prescribed.axis;
     let start = start(section, prescribed)?;
     let item = section.need("segment")?;
@@ -71,7 +75,7 @@ pub(super) fn read(section: &Section, cyclic: bool, prescribed: &Prescribed) -> 
 /// The segments as written, in their order.
 struct Chain<'a> {
     parts: &'a [Section<'a>],
-    written: &'a [(Written, Ends)],
+    written: &'a [(SegmentDraft, Ends)],
     cyclic: bool,
     drive: DriveLink,
 }
@@ -93,7 +97,7 @@ impl Chain<'_> {
     fn own_speed(&self, index: usize, side: usize) -> Option<f64> {
         let (written, ends) = &self.written[index];
         match written {
-            Written::Known(segment) => Some(segment.ends()[side][0]),
+            SegmentDraft::Known(segment) => Some(segment.ends()[side][0]),
             _ => ends.speeds[side].as_ref().map(|speed| speed.si),
         }
     }
@@ -110,26 +114,26 @@ impl Chain<'_> {
     }
 
     /// All segments with complete ends. Polynomials are last, because they take accelerations from their neighbours.
-    fn segments(&self) -> Result<Vec<Segment>> {
-        let mut known: Vec<Option<Segment>> = Vec::with_capacity(self.written.len());
+    fn segments(&self) -> Result<Vec<MotionSegment>> {
+        let mut known: Vec<Option<MotionSegment>> = Vec::with_capacity(self.written.len());
         for (index, (written, ends)) in self.written.iter().enumerate() {
             let speeds = self.speeds(index);
             known.push(match written {
-                Written::Known(segment) => Some(segment.clone()),
-                Written::Polynomial { .. } => None,
+                SegmentDraft::Known(segment) => Some(segment.clone()),
+                SegmentDraft::Polynomial { .. } => None,
                 // A placeholder: its ends are those of the drive link, which are known last.
-                Written::Join { duration, .. } => Some(Segment::dwell(*duration)),
-                Written::Trapezoid {
+                SegmentDraft::Join { duration, .. } => Some(MotionSegment::dwell(*duration)),
+                SegmentDraft::Trapezoid {
                     distance,
                     duration,
                     law,
                     shares,
                 } => Some(if speeds.iter().all(|speed| speed.abs() <= 0.0) {
-                    Segment::law(*distance, *duration, *law)
+                    MotionSegment::law(*distance, *duration, *law)
                 } else {
                     trapezoid(*distance, *duration, *shares, speeds)
                 }),
-                Written::Limited {
+                SegmentDraft::Limited {
                     distance,
                     limits,
                     speed,
@@ -139,14 +143,14 @@ impl Chain<'_> {
                     Some(match distance {
                         None => {
                             let (distance, phases) = change(speeds, limits);
-                            Segment::phases(distance, phases).within(*limits)
+                            MotionSegment::phases(distance, phases).within(*limits)
                         }
                         Some(distance) => {
                             let phases = fastest(distance.si, speeds, limits);
                             let phases = phases.map_err(|short| {
                                 self.too_short(index, distance, speeds, short.least)
                             })?;
-                            Segment::phases(distance.si, phases).within(*limits)
+                            MotionSegment::phases(distance.si, phases).within(*limits)
                         }
                     })
                 }
@@ -154,8 +158,8 @@ impl Chain<'_> {
         }
         let polynomial = |index: usize| {
             let (written, ends) = &self.written[index];
-            let Written::Polynomial { distance, duration } = *written else {
-                return Segment::dwell(0.0);
+            let SegmentDraft::Polynomial { distance, duration } = *written else {
+                return MotionSegment::dwell(0.0);
             };
             let speeds = self.speeds(index);
             let end = |side: usize| {
@@ -171,7 +175,7 @@ impl Chain<'_> {
                 }
             };
             let course = Polynomial::between(distance, duration, end(0), end(1));
-            Segment::polynomial(distance, duration, course)
+            MotionSegment::polynomial(distance, duration, course)
         };
         let segments = known.iter().enumerate();
         Ok(segments
@@ -251,12 +255,12 @@ impl Chain<'_> {
     }
 
     /// Checks that each segment starts at the speed with which the one before ends.
-    fn check_speeds(&self, segments: &[Segment]) -> Result<()> {
+    fn check_speeds(&self, segments: &[MotionSegment]) -> Result<()> {
         let ends: Vec<[f64; 2]> = segments
             .iter()
             .map(|segment| segment.ends().map(|[speed, _]| speed))
             .collect();
-        let mean = |segment: &Segment| (segment.distance / segment.duration()).abs();
+        let mean = |segment: &MotionSegment| (segment.distance / segment.duration()).abs();
         let most = (segments.iter().map(mean)).chain(ends.iter().flatten().map(|v| v.abs()));
         let most = most.fold(0.0, f64::max);
         for (index, [_, before]) in ends.iter().enumerate() {
@@ -337,7 +341,7 @@ fn trapezoid(
     duration: f64,
     [accelerate, decelerate]: [f64; 2],
     [first, last]: [f64; 2],
-) -> Segment {
+) -> MotionSegment {
     let mean = distance / duration - 0.5 * (accelerate * first + decelerate * last);
     let middle = mean / (1.0 - 0.5 * (accelerate + decelerate));
     let phase = |share: f64, from: f64, to: f64| {
@@ -354,5 +358,5 @@ fn trapezoid(
         phases.push(phase(steady, middle, middle));
     }
     phases.push(phase(decelerate, middle, last));
-    Segment::phases(distance, phases)
+    MotionSegment::phases(distance, phases)
 }

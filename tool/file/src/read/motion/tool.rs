@@ -28,7 +28,7 @@ const ROUNDING: f64 = 1e-9;
 const OF_CURVE: f64 = 1e-7;
 
 /// The coordinate whose motion is prescribed: the drive link's, or one of the tool.
-pub(in crate::read) struct Prescribed<'a> {
+pub(in crate::read) struct PrescribedCoordinate<'a> {
     /// Its kind and range: the tool coordinate's, if there is one.
     pub(in crate::read) axis: DriveLink,
     pub(in crate::read) drive: DriveLink,
@@ -38,7 +38,7 @@ pub(in crate::read) struct Prescribed<'a> {
     pub(in crate::read) loads: &'a [NamedLoad],
 }
 
-impl<'a> Prescribed<'a> {
+impl<'a> PrescribedCoordinate<'a> {
     pub(super) fn read(
         section: &Section,
         drive: DriveLink,

@@ -1,6 +1,6 @@
 //! Closing of a recorded cycle: its speeds at both ends, and its advance.
 
-use super::{Fault, Prescribed, Repeats, SPEED};
+use super::{CsvFault, PrescribedCoordinate, Repeats, SPEED};
 use crate::number::rounding::figure;
 use crate::read::motion::closed;
 use crate::text::columns::Columns;
@@ -8,7 +8,7 @@ use crate::text::problem::{Problem, Result};
 
 /// A cyclic profile closes if it misses a whole number of turns, or on a stroke its start, by less than this share of a turn or of the stroke. The
 /// file can give another tolerance.
-pub(super) const CLOSED: f64 = 1e-5;
+pub(super) const CLOSURE: f64 = 1e-5;
 
 /// Share of the largest speed by which the first and the last speed of a cycle may differ.
 const SPEED_CLOSED: f64 = 0.01;
@@ -41,9 +41,9 @@ pub(super) fn closed(
     [start, way]: [f64; 2],
     most: f64,
     columns: &Columns,
-    prescribed: &Prescribed,
+    prescribed: &PrescribedCoordinate,
     repeats: &Repeats,
-) -> std::result::Result<f64, Fault> {
+) -> std::result::Result<f64, CsvFault> {
     let drive = prescribed.axis;
     let turn = prescribed.per_turn();
     let whole = turn.map_or(0.0, |turn| (way / turn).round() * turn);
@@ -53,7 +53,7 @@ pub(super) fn closed(
     }
     let mut differs = String::new();
     if turn.is_some() {
-        let Some(difference) = repeats(start, way).map_err(Fault::InMachine)? else {
+        let Some(difference) = repeats(start, way).map_err(CsvFault::InMachine)? else {
             return Ok(way);
         };
         differs = format!(

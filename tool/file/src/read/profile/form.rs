@@ -1,9 +1,9 @@
 //! The columns of a recorded motion: over time, or over the angle of a master.
 
-use super::Request;
+use super::ProfileKeys;
 use crate::model::coordinate::Coordinate;
 use crate::number::spline::MIN_POINTS;
-use crate::text::columns::{self, Columns, Fault, Format, Known, Layout, known};
+use crate::text::columns::{self, ColumnSpec, Columns, CsvFault, Format, Layout, known};
 use crate::text::csv;
 use crate::text::problem::Problem;
 use crate::units::kind::{
@@ -22,7 +22,7 @@ const SLOPE: usize = 5;
 const BEND: usize = 6;
 
 /// The columns of a drive link that turns or swings.
-const ANGLES: [Known; 7] = [
+const ANGLES: [ColumnSpec; 7] = [
     known(&["t", "time"], &TIME),
     known(&["phi", "φ", "psi", "ψ", "angle", "position"], &ANGLE),
     known(&["omega", "ω", "n", "speed"], &ANGULAR_SPEED),
@@ -33,7 +33,7 @@ const ANGLES: [Known; 7] = [
 ];
 
 /// The columns of a drive link that slides.
-const LENGTHS: [Known; 7] = [
+const LENGTHS: [ColumnSpec; 7] = [
     known(&["t", "time"], &TIME),
     known(&["s", "x", "y", "position"], &LENGTH),
     known(&["v", "speed"], &VELOCITY),
@@ -48,8 +48,8 @@ pub(super) fn read_columns(
     text: &str,
     coordinate: Coordinate,
     layout: &Layout,
-    request: &Request,
-) -> Result<Columns, Fault> {
+    request: &ProfileKeys,
+) -> Result<Columns, CsvFault> {
     let (known, example) = match coordinate {
         Coordinate::Angle => (
             &ANGLES,
@@ -86,10 +86,10 @@ pub(super) fn read_columns(
 }
 
 /// Converts the columns of an electronic cam to time; the master turns at constant speed.
-fn over_master(columns: &mut Columns, request: &Request, text: &str) -> Result<(), Fault> {
+fn over_master(columns: &mut Columns, request: &ProfileKeys, text: &str) -> Result<(), CsvFault> {
     let Some(master) = columns.get(MASTER).map(<[f64]>::to_vec) else {
         return match &request.master_speed {
-            Some(speed) => Err(Fault::InMachine(
+            Some(speed) => Err(CsvFault::InMachine(
                 speed
                     .problem(
                         "is given, but the file has no column for the master",

@@ -6,11 +6,11 @@ use crate::text::columns::Columns;
 use crate::text::problem::{Problem, Result};
 
 use super::{POSITION, SPEED, TIME_COLUMN};
-use crate::number::spline::{Fault, Spline, Way};
+use crate::number::spline::{FitMethod, Spline, SplineError};
 
 /// Tolerances between rows: of the position in shares of the largest speed times the step, of the speed in shares of the largest acceleration times
 /// the step. Larger deviations mean a wrong unit.
-const MISSED: [f64; 2] = [0.05, 0.7];
+const ROW_TOLERANCE: [f64; 2] = [0.05, 0.7];
 
 /// Share of the range of positions, and of the largest speed, that is added for short steps: rounding of the digits.
 const DIGITS: f64 = 1e-4;
@@ -23,13 +23,16 @@ pub(super) fn slopes(
     columns: &Columns,
     times: &[f64],
     cyclic: bool,
-) -> std::result::Result<Vec<f64>, Fault> {
+) -> std::result::Result<Vec<f64>, SplineError> {
     let speeds = columns.get(SPEED).unwrap_or_default();
     let curve = match times {
-        [inner @ .., end] if cyclic && speeds.len() == times.len() => {
-            Spline::periodic(inner, &speeds[..inner.len()], *end, Way::Interpolating)?
-        }
-        _ => Spline::bounded(times, speeds, Way::Interpolating)?,
+        [inner @ .., end] if cyclic && speeds.len() == times.len() => Spline::periodic(
+            inner,
+            &speeds[..inner.len()],
+            *end,
+            FitMethod::Interpolating,
+        )?,
+        _ => Spline::bounded(times, speeds, FitMethod::Interpolating)?,
     };
     Ok(times.iter().map(|t| curve.at(*t)[1]).collect())
 }
@@ -76,7 +79,7 @@ pub(super) fn nodes(columns: &Columns, times: &[f64], accelerations: &[f64]) -> 
         let [before, after] = [&pair[0], &pair[1]];
         let [position, speed] = after.missed_since(before).map(f64::abs);
         let step = after.step;
-        if position > MISSED[0] * step * fastest + DIGITS * range {
+        if position > ROW_TOLERANCE[0] * step * fastest + DIGITS * range {
             return Err(columns
                 .problem(
                     POSITION,
@@ -85,7 +88,7 @@ pub(super) fn nodes(columns: &Columns, times: &[f64], accelerations: &[f64]) -> 
                 )
                 .help(CURE));
         }
-        if speed > MISSED[1] * step * hardest + DIGITS * fastest {
+        if speed > ROW_TOLERANCE[1] * step * hardest + DIGITS * fastest {
             return Err(columns
                 .problem(
                     SPEED,

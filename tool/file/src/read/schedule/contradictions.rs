@@ -4,14 +4,14 @@ use std::f64::consts::TAU;
 
 use jred::machine::Load;
 
-use super::{Course, Part, instants};
+use super::{ActivePart, MotionSegments, instants};
 use crate::number::rounding::figure;
 use crate::text::problem::{Problem, Result};
 use crate::text::section::Section;
 
 /// Checks that loads of one name act on one link, and never two of them at the same instant and position.
-pub(super) fn check_contradictions(acting: &[Acting], course: &Course) -> Result<()> {
-    let text = |acting: &Acting, key: &'static str| {
+pub(super) fn check_contradictions(acting: &[LoadActivity], course: &MotionSegments) -> Result<()> {
+    let text = |acting: &LoadActivity, key: &'static str| {
         let item = acting.section.peek(key)?;
         item.text("").ok().map(str::to_owned)
     };
@@ -69,15 +69,15 @@ pub(super) fn check_contradictions(acting: &[Acting], course: &Course) -> Result
 }
 
 /// A `[[load]]` of the file with the times and positions at which it acts.
-pub(super) struct Acting<'s> {
+pub(super) struct LoadActivity<'s> {
     section: Section<'s>,
-    part: Part<'s>,
+    part: ActivePart<'s>,
     /// Positions from and to (rad or m), and the number of turns after which they recur (0: never); `None`: at all positions.
     window: Option<([f64; 2], u32)>,
 }
 
-impl<'s> Acting<'s> {
-    pub(super) fn new(section: Section<'s>, part: Part<'s>, load: Option<&Load>) -> Self {
+impl<'s> LoadActivity<'s> {
+    pub(super) fn new(section: Section<'s>, part: ActivePart<'s>, load: Option<&Load>) -> Self {
         let window = load.and_then(Load::window).map(|window| {
             let [from, .., to] = window.edges();
             ([from, to], window.turns())

@@ -3,7 +3,7 @@
 use jred::machine::Machine;
 use jred::machine::Mechanism as _;
 
-use super::{Course, joined, part};
+use super::{MotionSegments, joined, part};
 use crate::model::mechanism::AnyMechanism;
 use crate::model::motion::Motion;
 use crate::model::schedule::Payload;
@@ -23,7 +23,7 @@ const INSTANTS: u32 = 1000;
 pub(super) fn read(
     root: &Section,
     machine: &Machine<AnyMechanism>,
-    course: &Course,
+    course: &MotionSegments,
 ) -> Result<Vec<Payload>> {
     let sections = root.tables("payload")?;
     let mut payloads: Vec<Payload> = Vec::new();
@@ -55,7 +55,11 @@ fn check_once(payloads: [&Payload; 2], sections: [&Section; 2]) -> Result<()> {
     .help("set it down before it is picked up again, or give the second one a name of its own"))
 }
 
-fn payload(section: &Section, machine: &Machine<AnyMechanism>, course: &Course) -> Result<Payload> {
+fn payload(
+    section: &Section,
+    machine: &Machine<AnyMechanism>,
+    course: &MotionSegments,
+) -> Result<Payload> {
     let (name, mass) = attached(section, machine.mechanism(), "payload")?;
     let while_moving = section.is("while_moving")?;
     let part = part(section, course)?;

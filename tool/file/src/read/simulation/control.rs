@@ -6,7 +6,7 @@ use crate::model::drive_train::DriveTrain;
 use crate::model::motion::Motion;
 use crate::model::simulation::{Control, EndStops, FeedForward, Halt, Shaft};
 
-use super::place::{Given, Places};
+use super::place::{AxisReader, AxisValue};
 use crate::number::rounding::figure;
 use crate::read::drive_link::DriveLink;
 use crate::text::item::Item;
@@ -19,7 +19,7 @@ const MOST_CYCLES: f64 = 1000.0;
 
 /// Context of the parts of a simulation.
 #[derive(Clone, Copy)]
-pub(in crate::read) struct Around<'a> {
+pub(in crate::read) struct SimulationContext<'a> {
     pub(in crate::read) drive: DriveLink,
     pub(in crate::read) axis: Axis,
     pub(in crate::read) drive_train: &'a DriveTrain,
@@ -27,7 +27,7 @@ pub(in crate::read) struct Around<'a> {
     pub(in crate::read) variator: bool,
 }
 
-impl Around<'_> {
+impl SimulationContext<'_> {
     /// Whether the motor acts as a force on a link that slides.
     fn pushes(&self) -> bool {
         self.drive.slides() && self.drive_train.stages().is_empty()
@@ -47,7 +47,7 @@ impl Around<'_> {
 /// The controller. `at`: the motor's shaft; `duration`: of the simulation (s); `torque`: the motor's torque over the speed.
 pub(super) fn control(
     simulation: &Section,
-    around: Around,
+    around: SimulationContext,
     (at, duration): (Shaft, f64),
     torque: Option<&Characteristic>,
 ) -> Result<Option<Control>> {
@@ -119,7 +119,11 @@ fn limits(control: &Item, torque: &Characteristic) -> Result<()> {
 }
 
 /// The controlled stop during a simulation of this `duration` (s).
-pub(super) fn halt(simulation: &Section, around: Around, duration: f64) -> Result<Option<Halt>> {
+pub(super) fn halt(
+    simulation: &Section,
+    around: SimulationContext,
+    duration: f64,
+) -> Result<Option<Halt>> {
     let Some(item) = simulation.get("stop") else {
         return Ok(None);
     };
@@ -148,14 +152,14 @@ pub(super) fn halt(simulation: &Section, around: Around, duration: f64) -> Resul
 /// The end stops. `start`: start position of the motion.
 pub(super) fn end_stops(
     simulation: &Section,
-    around: Around,
+    around: SimulationContext,
     start: f64,
 ) -> Result<Option<EndStops>> {
     let Some(item) = simulation.get("end_stops") else {
         return Ok(None);
     };
     let section = around.part(&item, "[simulation.end_stops]")?;
-    let places = Places::of(around);
+    let places = AxisReader::of(around);
     let kind = if places.is_length() { &LENGTH } else { &ANGLE };
     let example = format!("[\"{}\", \"{}\"]", kind.example, kind.example);
     let at = section.require("at", &format!("at = {example}"))?;
@@ -174,7 +178,7 @@ pub(super) fn end_stops(
             .help("give the lower stop first"));
     }
     let cure = "place the end stops within the stroke";
-    let reached = |given: &Given| places.reached(given, "out of reach", cure);
+    let reached = |given: &AxisValue| places.reached(given, "out of reach", cure);
     let [first, second] = [reached(&first)?, reached(&second)?];
     // The axis can count in the opposite direction to the drive link.
     let [from, to] = [first.min(second), first.max(second)];

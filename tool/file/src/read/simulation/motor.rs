@@ -9,14 +9,14 @@ use crate::text::problem::Result;
 use crate::text::section::Section;
 
 /// Motor data of a file.
-pub(super) struct Given {
+pub(super) struct MotorModel {
     /// Torque over speed at steady current.
     pub(super) characteristic: Characteristic,
     /// The winding, if the current has a time constant, with its place in the file.
     pub(super) winding: Option<(Winding, Value)>,
 }
 
-impl Given {
+impl MotorModel {
     const fn of(characteristic: Characteristic) -> Self {
         Self {
             characteristic,
@@ -31,7 +31,7 @@ pub(super) fn effort(
     [key, curve_key]: [&'static str; 2],
     drive: DriveLink,
     [speed, most]: [&str; 2],
-) -> Result<Option<Given>> {
+) -> Result<Option<MotorModel>> {
     let no_speed = format!("0 {}", drive.speed().unit);
     let no_effort = format!("0 {}", drive.effort().unit);
     let example = format!("[[\"{no_speed}\", \"{most}\"], [\"{speed}\", \"{no_effort}\"]]");
@@ -47,14 +47,14 @@ pub(super) fn effort(
     };
     Ok(Some(match found {
         "dc_motor" => dc_motor(&item)?,
-        "induction_motor" => Given::of(induction_motor(&item)?),
-        found if found == key => Given::of(Characteristic::constant(item.value()?.si)),
-        _ => Given::of(Characteristic::Points(points(&item, drive, &example)?)),
+        "induction_motor" => MotorModel::of(induction_motor(&item)?),
+        found if found == key => MotorModel::of(Characteristic::constant(item.value()?.si)),
+        _ => MotorModel::of(Characteristic::Points(points(&item, drive, &example)?)),
     }))
 }
 
 /// A DC motor: its line, or its winding.
-fn dc_motor(item: &Item) -> Result<Given> {
+fn dc_motor(item: &Item) -> Result<MotorModel> {
     let section = item.section("[simulation.dc_motor]".into())?;
     if section.peek("voltage").is_some() {
         return wound(&section);
@@ -65,14 +65,14 @@ fn dc_motor(item: &Item) -> Result<Given> {
     );
     section.finish()?;
     same_way(&speed, &torque)?;
-    Ok(Given::of(Characteristic::Dc {
+    Ok(MotorModel::of(Characteristic::Dc {
         no_load_speed: speed.si,
         stall_torque: torque.si,
     }))
 }
 
 /// A DC motor from its winding: T_stall = k·U/R, ω₀ = U/k.
-fn wound(section: &Section) -> Result<Given> {
+fn wound(section: &Section) -> Result<MotorModel> {
     let (voltage, resistance) = (section.value("voltage")?, section.value("resistance")?.si);
     let constant = section.value("torque_constant")?.si;
     let inductance = section.given("inductance")?;
@@ -94,7 +94,7 @@ fn wound(section: &Section) -> Result<Given> {
             Some((winding, value))
         }
     };
-    Ok(Given {
+    Ok(MotorModel {
         characteristic: Characteristic::Dc {
             no_load_speed: voltage.si / constant,
             stall_torque: constant * voltage.si / resistance,

@@ -2,7 +2,7 @@
 
 use jred::Domain;
 
-use super::Around;
+use super::SimulationContext;
 use crate::model::axis::Axis;
 use crate::model::coordinate::Coordinate;
 use crate::number::rounding::figure;
@@ -12,13 +12,13 @@ use crate::text::problem::Result;
 
 /// The axis of a machine and its drive link.
 #[derive(Clone, Copy)]
-pub(super) struct Places {
+pub(super) struct AxisReader {
     drive: DriveLink,
     axis: Axis,
 }
 
 /// A given value, and its equivalent at the drive link.
-pub(super) struct Given {
+pub(super) struct AxisValue {
     pub(super) value: Value,
     /// At the drive link.
     pub(super) drive: f64,
@@ -26,8 +26,8 @@ pub(super) struct Given {
     of_axis: bool,
 }
 
-impl Places {
-    pub(super) fn of(around: Around) -> Self {
+impl AxisReader {
+    pub(super) fn of(around: SimulationContext) -> Self {
         Self {
             drive: around.drive,
             axis: around.axis,
@@ -58,7 +58,7 @@ impl Places {
     }
 
     /// A position of the axis, or of the drive link if the unit says so.
-    pub(super) fn position(&self, item: &Item) -> Result<Given> {
+    pub(super) fn position(&self, item: &Item) -> Result<AxisValue> {
         let spoken = item.quantity(self.spoken().position());
         self.either(
             spoken,
@@ -68,9 +68,9 @@ impl Places {
     }
 
     /// A position of the drive link.
-    pub(super) fn drive_position(&self, item: &Item) -> Result<Given> {
+    pub(super) fn drive_position(&self, item: &Item) -> Result<AxisValue> {
         let value = item.quantity(self.drive.position())?;
-        Ok(Given {
+        Ok(AxisValue {
             drive: value.si,
             value,
             of_axis: false,
@@ -78,7 +78,7 @@ impl Places {
     }
 
     /// A speed of the axis, or of the drive link if the unit says so.
-    pub(super) fn speed(&self, item: &Item) -> Result<Given> {
+    pub(super) fn speed(&self, item: &Item) -> Result<AxisValue> {
         let spoken = item.quantity(self.spoken().speed());
         self.either(
             spoken,
@@ -93,12 +93,12 @@ impl Places {
         spoken: Result<Value>,
         drive: impl Fn() -> Result<Value>,
         at_drive: impl Fn(f64) -> f64,
-    ) -> Result<Given> {
+    ) -> Result<AxisValue> {
         let other = self.axis.coordinate != self.drive.coordinate;
         match spoken {
             Err(_) if other && drive().is_ok() => {
                 let value = drive()?;
-                Ok(Given {
+                Ok(AxisValue {
                     drive: value.si,
                     value,
                     of_axis: false,
@@ -106,7 +106,7 @@ impl Places {
             }
             spoken => {
                 let value = spoken?;
-                Ok(Given {
+                Ok(AxisValue {
                     drive: at_drive(value.si),
                     value,
                     of_axis: true,
@@ -116,7 +116,7 @@ impl Places {
     }
 
     /// Refuses a position outside the stroke; a position beyond an end by rounding is the end.
-    pub(super) fn reached(&self, given: &Given, label: &str, cure: &str) -> Result<f64> {
+    pub(super) fn reached(&self, given: &AxisValue, label: &str, cure: &str) -> Result<f64> {
         if !self.drive.reaches(given.drive) {
             let range = match self.axis.range(self.drive.domain) {
                 Some([from, to]) if given.of_axis => {

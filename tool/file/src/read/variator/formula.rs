@@ -12,7 +12,7 @@ use crate::text::section::Section;
 use crate::units::kind::TIME;
 
 /// Instants of a simulation at which a formula is evaluated.
-const TRIED: u32 = 4000;
+const INSTANTS: u32 = 4000;
 
 /// `ratio = "0.8 + 0.3*sin(2*pi*t)"`: a formula of the time (s) and the angle of the input shaft (rad).
 pub(super) fn formula(item: &Item, root: &Section) -> Result<Ratio> {
@@ -39,8 +39,8 @@ pub(super) fn formula(item: &Item, root: &Section) -> Result<Ratio> {
         None => 0.0,
     };
     let ratio = Ratio::by(formula);
-    for k in 0..=TRIED {
-        let share = f64::from(k) / f64::from(TRIED);
+    for k in 0..=INSTANTS {
+        let share = f64::from(k) / f64::from(INSTANTS);
         let (t, phi) = (
             share * duration,
             (share * 64.0).fract() * std::f64::consts::TAU,

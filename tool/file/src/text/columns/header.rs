@@ -1,9 +1,9 @@
 //! Assignment of a file's columns to the format's, and cures if it is ambiguous.
 
 use super::layout::{Layout, Title};
-use super::{Fault, Format, Known};
+use super::{ColumnSpec, CsvFault, Format};
 use crate::plain;
-use crate::text::csv::{Table, header_place};
+use crate::text::csv::{CsvTable, header_place};
 use crate::text::problem::{Problem, quoted};
 use crate::units::quantity::unit_of;
 use crate::units::{self, did_you_mean};
@@ -12,15 +12,15 @@ use crate::units::{self, did_you_mean};
 type Indices<'l> = Vec<Option<(usize, Option<&'l str>)>>;
 
 /// A column of the format: its index, its unit, and the size of the unit (SI).
-pub(super) type Found = (usize, Option<String>, f64);
+pub(super) type ColumnMatch = (usize, Option<String>, f64);
 
 /// For each title the column of the format; `None` if the column is ignored.
 pub(super) fn columns(
-    table: &Table,
+    table: &CsvTable,
     titles: &[Title],
     format: &Format,
     layout: &Layout,
-) -> Result<Vec<Option<Found>>, Fault> {
+) -> Result<Vec<Option<ColumnMatch>>, CsvFault> {
     let indices = match &layout.mapped {
         Some(_) => mapped(titles, format, layout)?,
         None => named(table, titles, format, layout)?,
@@ -49,15 +49,19 @@ pub(super) fn columns(
 }
 
 /// Assignment by the titles in the machine file; other columns are ignored.
-fn mapped<'l>(titles: &[Title], format: &Format, layout: &'l Layout) -> Result<Indices<'l>, Fault> {
+fn mapped<'l>(
+    titles: &[Title],
+    format: &Format,
+    layout: &'l Layout,
+) -> Result<Indices<'l>, CsvFault> {
     let mut found = vec![None; titles.len()];
     for mapped in layout.mapped.iter().flatten() {
         let fault = |what: &str, label: &str, help: String| {
-            Fault::InMachine(mapped.item.problem(what, label).help(help))
+            CsvFault::InMachine(mapped.item.problem(what, label).help(help))
         };
         let known = format.known.iter();
         let Some(index) = known.clone().position(|known| known.is(mapped.name)) else {
-            let names: Vec<&str> = known.map(Known::key).collect();
+            let names: Vec<&str> = known.map(ColumnSpec::key).collect();
             let near = did_you_mean(mapped.name, &names);
             return Err(fault(
                 "is no column that is read here",
@@ -96,11 +100,11 @@ fn mapped<'l>(titles: &[Title], format: &Format, layout: &'l Layout) -> Result<I
 
 /// Assignment by the names of the format.
 fn named<'l>(
-    table: &Table,
+    table: &CsvTable,
     titles: &[Title],
     format: &Format,
     layout: &Layout,
-) -> Result<Indices<'l>, Fault> {
+) -> Result<Indices<'l>, CsvFault> {
     let help = format!(
         "the first line gives column names with units: {}",
         format.example
@@ -136,7 +140,7 @@ fn named<'l>(
 /// A line for the machine file that assigns the columns, as an addition to another cure: by names, by units, or by order if the columns have neither.
 /// Empty if fewer than two columns can be assigned.
 fn or_mapped(titles: &[Title], format: &Format, layout: &Layout) -> String {
-    let measures = |title: &Title, known: &Known| {
+    let measures = |title: &Title, known: &ColumnSpec| {
         let unit = title.unit.as_deref().unwrap_or_default();
         !unit.is_empty() && unit_of(unit, &[known.kind]).is_ok()
     };
@@ -190,7 +194,7 @@ pub(super) fn check_first_lines(
     titles: &[Title],
     format: &Format,
     layout: &Layout,
-) -> Result<(), Fault> {
+) -> Result<(), CsvFault> {
     let is_number = |title: &Title| title.whole.replace(',', ".").parse::<f64>().is_ok();
     let section = &layout.section;
     if titles.iter().all(is_number) {

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::f64::consts::TAU;
 
-use super::Known;
+use super::ColumnSpec;
 use crate::text::item::Item;
 use crate::text::problem::Result;
 use crate::text::section::Section;
@@ -21,13 +21,13 @@ pub(crate) struct Layout<'a> {
     /// The titles of a file without a header, and the key that gives them.
     pub(super) titles: Option<(Vec<String>, Item<'a>)>,
     /// Assignment of the file's columns.
-    pub(super) mapped: Option<Vec<Mapped<'a>>>,
+    pub(super) mapped: Option<Vec<ColumnMapping<'a>>>,
     /// Angle of one count (rad).
     count: Option<f64>,
 }
 
 /// A column that the machine file assigns: its known name and its title in the file, with a unit if the title there has none.
-pub(super) struct Mapped<'a> {
+pub(super) struct ColumnMapping<'a> {
     pub(super) name: &'a str,
     pub(super) title: Title,
     pub(super) item: Item<'a>,
@@ -50,7 +50,7 @@ impl<'a> Layout<'a> {
                 let entries = table.entries().into_iter();
                 let mapped = entries.map(|(name, item)| {
                     let title = Title::of(item.text("Time (sec)")?);
-                    Ok(Mapped { name, title, item })
+                    Ok(ColumnMapping { name, title, item })
                 });
                 Some(mapped.collect::<Result<Vec<_>>>()?)
             }
@@ -155,7 +155,7 @@ impl Title {
     }
 
     /// The title with the part after the last underscore as its unit, as in "time_s", if the rest is a known name.
-    pub(super) fn underscored(self, known: &[Known]) -> Self {
+    pub(super) fn underscored(self, known: &[ColumnSpec]) -> Self {
         let is_known = |name: &str| known.iter().any(|known| known.is(name));
         if self.unit.is_some() || is_known(&self.name) {
             return self;

@@ -6,7 +6,7 @@ use jred_file::text::problem::Result;
 
 use super::explained;
 use super::text::kilowatts;
-use jred_file::model::rules::Verdict;
+use jred_file::model::rules::RuleVerdict;
 use jred_file::number::rounding::short;
 use jred_file::number::words::counted;
 use jred_sizing::select::size::{Candidate, Selection};
@@ -53,7 +53,7 @@ impl<'c> Asked<'c> {
             let broken = judged
                 .checks
                 .iter()
-                .filter(|check| check.verdict == Verdict::Fail);
+                .filter(|check| check.verdict == RuleVerdict::Fail);
             let broken = broken.map(|check| match (check.used(), check.bound()) {
                 (used, _) if !used.is_empty() => format!("{} {used}", check.rule),
                 (_, Some(limit)) => format!("{} {} of {limit}", check.rule, check.figure()),

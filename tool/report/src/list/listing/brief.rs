@@ -11,7 +11,7 @@ use crate::table::output::text_table;
 use crate::table::screen::Screen;
 use jred_file::model::machine::MachineFile;
 use jred_file::model::rule::Rule;
-use jred_file::model::rules::Verdict;
+use jred_file::model::rules::RuleVerdict;
 use jred_file::number::rounding::short;
 use jred_file::number::words::counted;
 use jred_sizing::judge::Judged;
@@ -115,7 +115,7 @@ fn parts(screen: Screen, text: &mut String, judged: &Judged) {
     let of = |rule: Rule| judged.checks.iter().find(|check| check.id == rule);
     let brake = match of(Rule::BrakeTorque) {
         None => "not needed".to_owned(),
-        Some(check) if check.verdict == Verdict::NotChecked => judged.least_brake.map_or_else(
+        Some(check) if check.verdict == RuleVerdict::NotChecked => judged.least_brake.map_or_else(
             || "needed; the catalogue gives none for this motor".to_owned(),
             |torque| {
                 let words = &drive.motor.kind.vocabulary().torque;
@@ -139,14 +139,14 @@ fn parts(screen: Screen, text: &mut String, judged: &Judged) {
     ) {
         (Some(r), ..) => named(&r.maker, &r.model, &marks::key(&r.key, r.from_maker), &[]),
         (None, Some(_), _) => "that of the machine file".to_owned(),
-        (None, None, Some(bus)) if bus.verdict == Verdict::NotChecked => {
+        (None, None, Some(bus)) if bus.verdict == RuleVerdict::NotChecked => {
             let energy = judged.duty.regenerative_energy;
             format!(
                 "not known: {} J are fed back per cycle, and figures of the DC bus are missing",
                 short(energy)
             )
         }
-        (None, None, Some(bus)) if bus.verdict == Verdict::Fail => {
+        (None, None, Some(bus)) if bus.verdict == RuleVerdict::Fail => {
             "needed, and none fits".to_owned()
         }
         _ => "not needed".to_owned(),
@@ -170,7 +170,7 @@ fn missing(file: &MachineFile, judged: &Judged) -> Vec<String> {
         missing.push("ask for which voltage the motor is made".to_owned());
     }
     let open: Vec<&str> = (judged.checks.iter())
-        .filter(|check| check.verdict == Verdict::NotChecked)
+        .filter(|check| check.verdict == RuleVerdict::NotChecked)
         .map(|check| check.rule)
         .collect();
     if !open.is_empty() {
@@ -184,10 +184,10 @@ fn missing(file: &MachineFile, judged: &Judged) -> Vec<String> {
 
 /// The rules that use most of their limits, or are violated, and the number of rules by verdict.
 fn limits(screen: Screen, text: &mut String, judged: &Judged) {
-    let is = |verdict: Verdict| move |check: &&Check| check.verdict == verdict;
-    let fails = judged.checks.iter().any(|c| c.verdict == Verdict::Fail);
+    let is = |verdict: RuleVerdict| move |check: &&Check| check.verdict == verdict;
+    let fails = judged.checks.iter().any(|c| c.verdict == RuleVerdict::Fail);
     let mut shown: Vec<&Check> = if fails {
-        judged.checks.iter().filter(is(Verdict::Fail)).collect()
+        judged.checks.iter().filter(is(RuleVerdict::Fail)).collect()
     } else {
         let checked = judged.checks.iter();
         checked.filter(|check| !check.used().is_empty()).collect()
@@ -225,13 +225,13 @@ fn limits(screen: Screen, text: &mut String, judged: &Judged) {
     }
     let _ = writeln!(text, "{table}");
     let count = |verdict| judged.checks.iter().filter(is(verdict)).count();
-    let checked = count(Verdict::Pass) + count(Verdict::Warn) + count(Verdict::Fail);
-    let result = match (count(Verdict::Fail), count(Verdict::Warn)) {
+    let checked = count(RuleVerdict::Pass) + count(RuleVerdict::Warn) + count(RuleVerdict::Fail);
+    let result = match (count(RuleVerdict::Fail), count(RuleVerdict::Warn)) {
         (0, 0) => "all satisfied".to_owned(),
         (0, n) => format!("all satisfied, {}", counted(n, "warning", "warnings")),
         (n, _) => format!("{n} violated"),
     };
-    let open = match count(Verdict::NotChecked) {
+    let open = match count(RuleVerdict::NotChecked) {
         0 => String::new(),
         n => format!("; {n} not checked"),
     };
@@ -247,7 +247,7 @@ fn limits(screen: Screen, text: &mut String, judged: &Judged) {
         ),
     );
     let in_table = |check: &&Check| shown.iter().any(|other| other.id == check.id);
-    let warned = judged.checks.iter().filter(is(Verdict::Warn));
+    let warned = judged.checks.iter().filter(is(RuleVerdict::Warn));
     for check in warned.filter(|check| !in_table(check)) {
         let bound = check
             .bound()
@@ -287,7 +287,7 @@ pub(super) fn choices(screen: Screen, selection: &Selection) -> String {
     } else if let Some(next) = selection.next_smaller() {
         let next = selection.judged(&next);
         let violated: Vec<String> = (next.checks.iter())
-            .filter(|check| check.verdict == Verdict::Fail)
+            .filter(|check| check.verdict == RuleVerdict::Fail)
             .map(|check| {
                 format!("{} {}", check.rule, check.used())
                     .trim_end()

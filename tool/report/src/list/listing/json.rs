@@ -14,7 +14,7 @@ use jred_analysis::duty::Duty;
 use jred_file::model::coordinate::Coordinate;
 use jred_file::model::machine::MachineFile;
 use jred_file::model::rule::Rule;
-use jred_file::model::rules::Verdict;
+use jred_file::model::rules::RuleVerdict;
 use jred_file::number::figures::Figures;
 use jred_sizing::catalogue::MotorKind;
 use jred_sizing::cycle::form::MotorDuty;
@@ -241,7 +241,7 @@ pub(crate) struct DriveData<'a> {
     #[serde(rename = "figures from")]
     figures: &'static str,
     /// The worst verdict of its rules.
-    verdict: Verdict,
+    verdict: RuleVerdict,
     /// Duty of the motor.
     duty: MotorDuty,
     /// The rules.

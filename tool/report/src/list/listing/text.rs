@@ -11,7 +11,7 @@ use crate::table::output::text_table;
 use jred_analysis::duty::{Duty, Instant};
 use jred_file::model::machine::MachineFile;
 use jred_file::model::rule::Rule;
-use jred_file::model::rules::Verdict;
+use jred_file::model::rules::RuleVerdict;
 use jred_file::model::site::Site;
 use jred_file::number::figures::Figures;
 use jred_file::number::rounding::{cleared, rounded, short, significant};
@@ -412,7 +412,7 @@ fn rules_table(judged: &Judged) -> String {
     let mut table = text_table(&[
         "rule", "figure", "limit", "used", "margin", "verdict", "limit is",
     ]);
-    let open = |check: &&Check| check.verdict == Verdict::NotChecked;
+    let open = |check: &&Check| check.verdict == RuleVerdict::NotChecked;
     for check in judged.checks.iter().filter(|check| !open(check)) {
         table.add_row([
             check.rule.to_owned(),

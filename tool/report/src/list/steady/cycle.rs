@@ -2,7 +2,7 @@
 
 use crate::answer::Answer;
 use crate::list::driven::{Turns, driven};
-use jred_analysis::steady::{Cycle, Figures, Held, Level, Start};
+use jred_analysis::steady::{Cycle, Level, Scaling, Start, SteadyFigures};
 use jred_file::model::coordinate::Coordinate;
 use jred_file::number::rounding::{percent, short};
 use jred_file::units::RPM;
@@ -45,7 +45,7 @@ pub(super) fn describe(answer: &mut Answer, cycle: &Cycle) {
     answer.fact("start from rest", started(&cycle.start));
 }
 
-fn speeds(answer: &mut Answer, figures: &Figures) {
+fn speeds(answer: &mut Answer, figures: &SteadyFigures) {
     // Speeds and torques count along the motion, as the fastest and slowest instants do.
     let backwards = if figures.mean_speed < 0.0 {
         "; all speeds and torques along the motion, in which φ falls"
@@ -73,7 +73,7 @@ fn speeds(answer: &mut Answer, figures: &Figures) {
 }
 
 /// Torques, powers and energies of the motor, the loads and the losses.
-fn works(answer: &mut Answer, figures: &Figures) {
+fn works(answer: &mut Answer, figures: &SteadyFigures) {
     let torque = figures.motor_torque;
     let mean = torque.mean * figures.motor_speed.signum();
     let [mean, rms, peak] = [mean, torque.rms, torque.peak].map(short);
@@ -109,7 +109,7 @@ fn works(answer: &mut Answer, figures: &Figures) {
 }
 
 /// Reports process loads that drive the machine.
-fn process(answer: &mut Answer, figures: &Figures) {
+fn process(answer: &mut Answer, figures: &SteadyFigures) {
     let energy = figures.energy;
     let turns = Turns {
         works: [energy.motor, energy.process, energy.losses],
@@ -129,7 +129,7 @@ fn process(answer: &mut Answer, figures: &Figures) {
     }
 }
 
-fn scaled(held: &Held) -> String {
+fn scaled(held: &Scaling) -> String {
     match (&held.by, held.torque) {
         (Level::Motor, Some(torque)) => format!("a constant motor torque of {} N m", short(torque)),
         (Level::Motor, None) => format!(

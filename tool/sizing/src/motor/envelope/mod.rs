@@ -15,7 +15,7 @@ use crate::catalogue::{Amplifier, Catalogue, Motor};
 use crate::motor::supply::Voltages;
 use crate::motor::winding::CurrentCurve;
 use jred_file::model::rule::Rule;
-use jred_file::model::rules::{RuleSet, Verdict};
+use jred_file::model::rules::{RuleSet, RuleVerdict};
 use jred_file::model::site::Site;
 use jred_file::model::surroundings::Surroundings;
 use jred_file::number::rounding::short;
@@ -188,7 +188,7 @@ impl Prepared {
         let motor = ("motor", Rule::MotorVoltage, Some(self.voltages.motor));
         let amplifier = ("amplifier", Rule::AmplifierVoltage, self.voltages.amplifier);
         let mut parts = [motor, amplifier].into_iter();
-        let refused = |rule, finding| rules.verdict(rule, finding) == Verdict::Fail;
+        let refused = |rule, finding| rules.verdict(rule, finding) == RuleVerdict::Fail;
         parts.find_map(|(part, rule, finding)| {
             let finding = finding.filter(|finding| refused(rule, *finding))?;
             Some(format!(

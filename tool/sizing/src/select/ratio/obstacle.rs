@@ -6,7 +6,7 @@ use super::Range;
 use super::ranges::{Trial, tried};
 use crate::judge::Findings;
 use jred_file::model::rule::Rule;
-use jred_file::model::rules::Verdict;
+use jred_file::model::rules::RuleVerdict;
 use jred_file::number::numerics::edge;
 use jred_file::number::rounding::significant;
 
@@ -151,7 +151,7 @@ impl Trial<'_> {
     /// Whether a rule is satisfied, and the share of its limit; a rule that does not apply is satisfied.
     fn point(&self, rule: Rule, findings: &Findings) -> (bool, f64) {
         findings.get(rule).map_or((true, 0.0), |finding| {
-            let holds = self.rules.verdict(rule, finding) != Verdict::Fail;
+            let holds = self.rules.verdict(rule, finding) != RuleVerdict::Fail;
             (holds, self.rules.use_of_limit(rule, finding))
         })
     }

@@ -1,6 +1,6 @@
 //! Positions at which f bends, where a value passes zero. A step ends there, so that its error is that of a smooth f.
 
-use super::{Point, Step};
+use super::{StatePoint, Step};
 use crate::number::numerics;
 
 /// Share of a value that is rounding.
@@ -27,7 +27,7 @@ pub(super) struct Sides {
 }
 
 /// Position of a zero of a value after the start of a step.
-enum Place {
+enum ZeroCrossing {
     /// None, for steps of these lengths.
     Nowhere,
     /// At the start.
@@ -36,7 +36,7 @@ enum Place {
 }
 
 /// Result of a step.
-pub(super) enum Found<const N: usize> {
+pub(super) enum StepResult<const N: usize> {
     /// No bend.
     Nothing,
     /// A bend, at the end of a shorter step.
@@ -45,7 +45,7 @@ pub(super) enum Found<const N: usize> {
 
 /// Start of a step.
 #[derive(Clone, Copy)]
-pub(super) struct Begin<'a, const N: usize> {
+pub(super) struct StepStart<'a, const N: usize> {
     pub(super) x: f64,
     pub(super) y: &'a [f64; N],
     pub(super) slope: [f64; N],
@@ -76,11 +76,11 @@ impl Sides {
         &mut self,
         f: &impl Fn(f64, &[f64; N]) -> Result<[f64; N], E>,
         bends: &impl Fn(f64, &[f64; N]) -> Result<Vec<f64>, E>,
-        begin: Begin<N>,
+        begin: StepStart<N>,
         whole: &Step<N>,
         to: [f64; N],
-    ) -> Result<Found<N>, E> {
-        let Begin { x, y, slope } = begin;
+    ) -> Result<StepResult<N>, E> {
+        let StepStart { x, y, slope } = begin;
         let h = whole.h;
         let between = |share: f64| hermite([y, &whole.y], [&slope, &to], h, share);
         let at = |share: f64| bends(x + share * h, &between(share));
@@ -115,25 +115,25 @@ impl Sides {
                     [from * h, until * h],
                     (which, before),
                 )? {
-                    Place::After(tau) if tau > ON_END * h && tau < h * (1.0 - ON_END) => {
+                    ZeroCrossing::After(tau) if tau > ON_END * h && tau < h * (1.0 - ON_END) => {
                         if first.is_none_or(|(earlier, _)| tau < earlier) {
                             first = Some((tau, which));
                         }
                     }
-                    Place::After(_) | Place::Here => self.sides[which] = now,
-                    Place::Nowhere => {}
+                    ZeroCrossing::After(_) | ZeroCrossing::Here => self.sides[which] = now,
+                    ZeroCrossing::Nowhere => {}
                 }
             }
             if let Some((tau, which)) = first
                 && let Some(step) = Step::new(f, x, tau, y, slope)?
             {
-                return Ok(Found::Bend { step, which });
+                return Ok(StepResult::Bend { step, which });
             }
         }
         if let Some((_, values)) = seen.pop() {
             self.values = values;
         }
-        Ok(Found::Nothing)
+        Ok(StepResult::Nothing)
     }
 
     /// Positions between the evaluated ones at which a value that approaches zero and moves away again is beyond it.
@@ -177,9 +177,9 @@ fn place<const N: usize, E>(
     (x, y, slope): (f64, &[f64; N], [f64; N]),
     mut ends: [f64; 2],
     (which, before): (usize, f64),
-) -> Result<Place, E> {
+) -> Result<ZeroCrossing, E> {
     let value = |tau: f64| -> Result<f64, E> {
-        let (x, y): Point<N> = match Step::new(f, x, tau, y, slope)? {
+        let (x, y): StatePoint<N> = match Step::new(f, x, tau, y, slope)? {
             Some(step) if tau > 0.0 => (x + tau, step.y),
             _ => (x, *y),
         };
@@ -192,7 +192,7 @@ fn place<const N: usize, E>(
         (ends, values) = ([0.0, ends[0]], [value(0.0)?, values[0]]);
     }
     if values[1] >= 0.0 {
-        Ok(Place::Nowhere)
+        Ok(ZeroCrossing::Nowhere)
     } else if values[0] <= 0.0 {
         // It has just passed zero, and may be beyond it for a short time.
         let mut until = (ends[1], values[1]);
@@ -201,13 +201,13 @@ fn place<const N: usize, E>(
             let there = value(near)?;
             if there > 0.0 {
                 let (ends, values) = ([near, until.0], [there, until.1]);
-                return numerics::zero(value, ends, values, PLACE).map(Place::After);
+                return numerics::zero(value, ends, values, PLACE).map(ZeroCrossing::After);
             }
             until = (near, there);
         }
-        Ok(Place::Here)
+        Ok(ZeroCrossing::Here)
     } else {
-        numerics::zero(value, ends, values, PLACE).map(Place::After)
+        numerics::zero(value, ends, values, PLACE).map(ZeroCrossing::After)
     }
 }
 

@@ -16,7 +16,7 @@ const CONSTANT_VELOCITY: usize = 10;
 const POLYNOMIAL: usize = 11;
 
 /// A segment as it is written.
-enum Written<'a> {
+enum SegmentDraft<'a> {
     /// A complete segment.
     Known(Segment),
     /// A polynomial with [s′, s″] at its start and end, as far as the file gives them.
@@ -39,7 +39,7 @@ pub(in crate::read::mechanism) fn read(section: &Section) -> Result<Program> {
     Program::new(&segments).map_err(|error| problem(section, &parts, &segments, &error))
 }
 
-fn segment<'a>(section: &Section<'a>) -> Result<Written<'a>> {
+fn segment<'a>(section: &Section<'a>) -> Result<SegmentDraft<'a>> {
     let Some((key, item)) = section.one_of(&["dwell", "rise", "return"]) else {
         return Err(section.missing(
             "rise",
@@ -53,7 +53,7 @@ fn segment<'a>(section: &Section<'a>) -> Result<Written<'a>> {
             "law" => Some("a dwell has no law"),
             _ => None,
         })?;
-        return Ok(Written::Known(Segment::dwell(angle)));
+        return Ok(SegmentDraft::Known(Segment::dwell(angle)));
     }
     let size = item.value()?;
     let rise = if key == "rise" { size.si } else { -size.si };
@@ -70,14 +70,14 @@ fn segment<'a>(section: &Section<'a>) -> Result<Written<'a>> {
         size.check_positive()?;
     }
     let read = match word {
-        CONSTANT_VELOCITY => Written::Known(Segment::constant_velocity(angle, rise)),
-        POLYNOMIAL => Written::Polynomial {
+        CONSTANT_VELOCITY => SegmentDraft::Known(Segment::constant_velocity(angle, rise)),
+        POLYNOMIAL => SegmentDraft::Polynomial {
             angle,
             rise,
             ends: ends(section)?,
             law,
         },
-        _ => Written::Known(Segment::law(law::read(section)?, angle, rise)),
+        _ => SegmentDraft::Known(Segment::law(law::read(section)?, angle, rise)),
     };
     section.finish()?;
     Ok(read)
@@ -98,12 +98,12 @@ fn ends(section: &Section) -> Result<[[Option<f64>; 2]; 2]> {
 }
 
 /// The segments; a polynomial takes ends that are not given from its neighbours.
-fn resolved(parts: &[Section], written: &[Written]) -> Result<Vec<Segment>> {
+fn resolved(parts: &[Section], written: &[SegmentDraft]) -> Result<Vec<Segment>> {
     let count = written.len();
-    let resolve = |(index, one): (usize, &Written)| {
+    let resolve = |(index, one): (usize, &SegmentDraft)| {
         let (angle, rise, ends, law) = match one {
-            Written::Known(segment) => return Ok(*segment),
-            Written::Polynomial {
+            SegmentDraft::Known(segment) => return Ok(*segment),
+            SegmentDraft::Polynomial {
                 angle,
                 rise,
                 ends,
@@ -138,10 +138,10 @@ fn resolved(parts: &[Section], written: &[Written]) -> Result<Vec<Segment>> {
 }
 
 /// [s′, s″] at the start (0) or the end (1) of a segment, as far as known.
-fn end_of(written: &Written, side: usize) -> [Option<f64>; 2] {
+fn end_of(written: &SegmentDraft, side: usize) -> [Option<f64>; 2] {
     match written {
-        Written::Polynomial { ends, .. } => ends[side],
-        Written::Known(segment) => match segment.shape {
+        SegmentDraft::Polynomial { ends, .. } => ends[side],
+        SegmentDraft::Known(segment) => match segment.shape {
             Shape::Dwell => [Some(0.0); 2],
             Shape::Law(law) => {
                 let bend = segment.rise / (segment.angle * segment.angle);

@@ -11,10 +11,10 @@ use jred::machine::motion::{End, Polynomial};
 use jred::mechanism::cam::{MAX_SEGMENTS, Program, Segment};
 
 use crate::number::rounding::short;
-use crate::number::spline::{MIN_POINTS, Way};
-use crate::read::curve_file::{Positions, Rows};
+use crate::number::spline::{FitMethod, MIN_POINTS};
+use crate::read::curve_file::{Positions, RowVariable};
 use crate::read::mechanism::core;
-use crate::text::columns::{self, Columns, CsvFile, Fault, Format, Known, Layout, known};
+use crate::text::columns::{self, ColumnSpec, Columns, CsvFault, CsvFile, Format, Layout, known};
 use crate::text::csv;
 use crate::text::file::Files;
 use crate::text::item::Item;
@@ -28,13 +28,13 @@ const SLOPE: usize = 2;
 const BEND: usize = 3;
 
 /// The columns of a translating follower, and of an oscillating one.
-const SLIDES: [Known; 4] = [
+const SLIDES: [ColumnSpec; 4] = [
     known(&["phi", "φ", "theta", "cam", "master", "angle"], &ANGLE),
     known(&["s", "rise", "lift"], &LENGTH),
     known(&["s'", "v", "slope"], &CAM_VELOCITY),
     known(&["s''", "a", "bend"], &CAM_ACCELERATION),
 ];
-const SWINGS: [Known; 4] = [
+const SWINGS: [ColumnSpec; 4] = [
     known(&["phi", "φ", "theta", "cam", "master", "angle"], &ANGLE),
     known(&["psi", "ψ", "rise", "lift"], &ANGLE),
     known(&["psi'", "slope"], &SHARE),
@@ -51,7 +51,7 @@ const ROUNDING: f64 = 1e-9;
 const HALVINGS: u32 = 48;
 
 /// Cam angle and lift with both derivatives.
-type Point = (f64, [f64; 3]);
+type LiftPoint = (f64, [f64; 3]);
 
 /// The program of the file that `item` names, and a line about it for the report.
 pub(super) fn read(
@@ -96,14 +96,14 @@ pub(super) fn read(
 
 /// The rows of a table from 0 to a full turn, both included, and the values between them.
 struct Lift {
-    rows: Vec<Point>,
+    rows: Vec<LiftPoint>,
     /// The lift midway between each row and the next, if a spline goes through the rows.
     middles: Option<Vec<f64>>,
     stroke: f64,
 }
 
 impl Lift {
-    fn of(text: &str, layout: &Layout, oscillating: bool) -> Result<Self, Fault> {
+    fn of(text: &str, layout: &Layout, oscillating: bool) -> Result<Self, CsvFault> {
         let (known, example) = if oscillating {
             (
                 &SWINGS,
@@ -141,7 +141,7 @@ impl Lift {
         }
         let positions = Positions::of(
             &columns,
-            &Rows {
+            &RowVariable {
                 domain: Domain::Turn,
                 of: "the cam".to_owned(),
                 partly: false,
@@ -152,7 +152,7 @@ impl Lift {
         let [lift, slope, bend] = [column(LIFT)?, column(SLOPE)?, column(BEND)?];
         let curve = slope
             .is_empty()
-            .then(|| positions.curve(&lift, Way::Interpolating))
+            .then(|| positions.curve(&lift, FitMethod::Interpolating))
             .transpose()?;
         let (slopes, bends) = (&slope, &bend);
         let point = |(k, (x, s)): (usize, (&f64, &f64))| {
@@ -166,7 +166,7 @@ impl Lift {
             let turned = if TAU - turned < ROUNDING { 0.0 } else { turned };
             (turned, [*s, derivatives[0], derivatives[1]])
         };
-        let mut rows: Vec<Point> = (positions.x().iter().zip(&lift))
+        let mut rows: Vec<LiftPoint> = (positions.x().iter().zip(&lift))
             .enumerate()
             .map(point)
             .collect();
@@ -190,7 +190,7 @@ impl Lift {
     }
 
     /// Checks that the first row is at the start of the turn, on the base circle.
-    fn check_start(rows: &[Point], stroke: f64, columns: &Columns) -> Result<(), Fault> {
+    fn check_start(rows: &[LiftPoint], stroke: f64, columns: &Columns) -> Result<(), CsvFault> {
         let Some((start, [lift, ..])) = rows.first() else {
             return Ok(());
         };

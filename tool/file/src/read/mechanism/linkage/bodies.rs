@@ -16,10 +16,10 @@ use crate::units::{closest, did_you_mean};
 pub(super) const GROUND: &str = "ground";
 
 /// One body as the file gives it.
-pub(super) struct Drawn {
+pub(super) struct BodyEntry {
     pub(super) name: String,
     pub(super) link: Link,
-    pub(super) points: Vec<Point>,
+    pub(super) points: Vec<BodyPoint>,
     /// Angle in the drawing (rad).
     pub(super) angle: Option<f64>,
     /// Origin in the drawing (m).
@@ -30,25 +30,25 @@ pub(super) struct Drawn {
 }
 
 /// A point with its name, in its body's frame (m).
-pub(super) struct Point {
+pub(super) struct BodyPoint {
     pub(super) name: String,
     pub(super) at: [f64; 2],
 }
 
 /// The points of the ground, and all moving bodies.
 pub(super) struct Bodies {
-    pub(super) ground: Vec<Point>,
-    pub(super) moving: Vec<Drawn>,
+    pub(super) ground: Vec<BodyPoint>,
+    pub(super) moving: Vec<BodyEntry>,
 }
 
 /// A point of a body, referenced by name.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct End {
+pub(super) struct JointEnd {
     pub(super) body: Body,
     pub(super) at: [f64; 2],
 }
 
-impl End {
+impl JointEnd {
     pub(super) const fn marker(&self) -> Marker {
         match self.body {
             Body::Ground => Marker::ground(self.at),
@@ -108,7 +108,7 @@ impl Bodies {
     }
 
     /// The point that `item` names: "body.point", or "body" for the origin of its frame.
-    pub(super) fn end(&self, item: &Item) -> Result<End> {
+    pub(super) fn end(&self, item: &Item) -> Result<JointEnd> {
         let text = item.text("crank.A")?;
         let (name, point) = match text.split_once('.') {
             Some((name, point)) => (name.trim(), Some(point.trim())),
@@ -116,7 +116,7 @@ impl Bodies {
         };
         let body = self.find(item, name)?;
         let Some(point) = point else {
-            return Ok(End {
+            return Ok(JointEnd {
                 body,
                 at: [0.0, 0.0],
             });
@@ -126,7 +126,7 @@ impl Bodies {
             Body::Link(link) => self.moving.get(link).map_or(&self.ground, |b| &b.points),
         };
         if let Some(found) = points.iter().find(|p| p.name == point) {
-            return Ok(End { body, at: found.at });
+            return Ok(JointEnd { body, at: found.at });
         }
         let names: Vec<&str> = points.iter().map(|p| p.name.as_str()).collect();
         let [name, point] = [name, point].map(plain::cut);
@@ -153,7 +153,7 @@ impl Bodies {
     }
 }
 
-fn drawn(section: &Section) -> Result<Drawn> {
+fn drawn(section: &Section) -> Result<BodyEntry> {
     let item = section.need("name")?;
     let name = item.words_of_text()?.to_owned();
     if name == GROUND || name.contains('.') {
@@ -177,7 +177,7 @@ fn drawn(section: &Section) -> Result<Drawn> {
     let points = named_points(section, "points")?;
     section.finish()?;
     let link = Link::new(properties).map_err(|error| core(section, error))?;
-    Ok(Drawn {
+    Ok(BodyEntry {
         name,
         link,
         points,
@@ -189,7 +189,7 @@ fn drawn(section: &Section) -> Result<Drawn> {
 }
 
 /// The points of a table whose keys are their names.
-fn named_points(section: &Section, key: &'static str) -> Result<Vec<Point>> {
+fn named_points(section: &Section, key: &'static str) -> Result<Vec<BodyPoint>> {
     let Some(table) = section.maybe_table(key)? else {
         return Ok(Vec::new());
     };
@@ -199,7 +199,7 @@ fn named_points(section: &Section, key: &'static str) -> Result<Vec<Point>> {
                 .problem("has a name that joints cannot use", "this point")
                 .help("joints write \"body.point\": choose a name without \".\", such as A"));
         }
-        Ok(Point {
+        Ok(BodyPoint {
             name: name.trim().to_owned(),
             at: item.two()?,
         })

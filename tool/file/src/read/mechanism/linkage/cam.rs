@@ -15,8 +15,8 @@ use crate::read::mechanism::{core, disc_cam};
 use crate::text::problem::{Problem, Result};
 use crate::text::section::Section;
 
-use super::bodies::{Bodies, End};
-use super::joints::Held;
+use super::bodies::{Bodies, JointEnd};
+use super::joints::JointEntry;
 
 /// The most cams of a linkage.
 pub(super) const MOST: usize = 8;
@@ -25,7 +25,7 @@ pub(super) const MOST: usize = 8;
 const ROUNDING: f64 = 1e-4;
 
 /// Largest angular velocity, relative to the drive's, that counts as standstill.
-const STILL: f64 = 1e-6;
+const STANDSTILL: f64 = 1e-6;
 
 /// Points of the profile for drawings.
 const OUTLINE: u32 = 720;
@@ -44,7 +44,7 @@ pub(super) struct Cam {
 pub(super) fn read(
     section: &Section,
     bodies: &Bodies,
-    [cam, follower]: [End; 2],
+    [cam, follower]: [JointEnd; 2],
     place: usize,
 ) -> Result<(Pair, Cam)> {
     if place >= MOST {
@@ -104,7 +104,11 @@ fn roller(section: &Section) -> Result<Roller> {
 }
 
 /// Checks over the drive's range that the bearings are where the joints require them.
-pub(super) fn check(mechanism: &impl Mechanism, bodies: &Bodies, joints: &[Held]) -> Result<()> {
+pub(super) fn check(
+    mechanism: &impl Mechanism,
+    bodies: &Bodies,
+    joints: &[JointEntry],
+) -> Result<()> {
     const PLACES: usize = 12;
     let domain = mechanism.domain();
     for (joint, cam) in cams(joints) {
@@ -120,7 +124,12 @@ pub(super) fn check(mechanism: &impl Mechanism, bodies: &Bodies, joints: &[Held]
     Ok(())
 }
 
-fn stands(joint: &Held, cam: &Cam, bodies: &Bodies, frames: &[jred::machine::Frame]) -> Result<()> {
+fn stands(
+    joint: &JointEntry,
+    cam: &Cam,
+    bodies: &Bodies,
+    frames: &[jred::machine::Frame],
+) -> Result<()> {
     let (base, profile) = (cam.placed.base(), cam.placed.profile());
     let [on_cam, on_follower] = joint.pair.markers();
     let [x, y] = base.position(frames).map(|c| c.value);
@@ -182,7 +191,7 @@ fn stands(joint: &Held, cam: &Cam, bodies: &Bodies, frames: &[jred::machine::Fra
                 .help("the follower slides along +y of the arrangement, which `axis_direction` turns, at x = offset"));
         }
         let turn = on_follower.direction(frames).d1 - base.direction(frames).d1;
-        if turn.abs() > STILL {
+        if turn.abs() > STANDSTILL {
             return Err(misfit(
                 &format!("the follower {name} turns, but its type is for a translating follower"),
                 &cam.follower,
@@ -194,7 +203,7 @@ fn stands(joint: &Held, cam: &Cam, bodies: &Bodies, frames: &[jred::machine::Fra
 }
 
 /// Adds the profiles as outlines of their bodies, and the contacts that must not open.
-pub(super) fn described(mut mechanism: AnyMechanism, joints: &[Held]) -> AnyMechanism {
+pub(super) fn described(mut mechanism: AnyMechanism, joints: &[JointEntry]) -> AnyMechanism {
     // Within a piece, a curve that is not smooth has its limit at one of the samples, which are some tenths of a degree apart.
     const PIECES: u32 = 12;
     let domain = mechanism.domain();
@@ -231,13 +240,13 @@ pub(super) fn described(mut mechanism: AnyMechanism, joints: &[Held]) -> AnyMech
 }
 
 /// The joints of type "cam".
-fn cams(joints: &[Held]) -> impl Iterator<Item = (&Held, &Cam)> {
+fn cams(joints: &[JointEntry]) -> impl Iterator<Item = (&JointEntry, &Cam)> {
     joints
         .iter()
         .filter_map(|joint| joint.cam.as_ref().map(|cam| (joint, cam)))
 }
 
 /// The cams in the order of their indices.
-pub(super) fn placed(joints: &[Held]) -> Vec<PlacedCam> {
+pub(super) fn placed(joints: &[JointEntry]) -> Vec<PlacedCam> {
     cams(joints).map(|(_, cam)| cam.placed.clone()).collect()
 }

@@ -9,11 +9,11 @@ use jred::mechanism::linkage::{Pair, Pose};
 use crate::text::problem::{Problem, Result};
 
 use super::bodies::Bodies;
-use super::joints::Held;
+use super::joints::JointEntry;
 
 /// Known position and angle of a body.
 #[derive(Clone, Copy, Default)]
-struct Known {
+struct BodyPlacement {
     angle: Option<f64>,
     origin: Option<[f64; 2]>,
 }
@@ -21,7 +21,7 @@ struct Known {
 /// One pose for each body. `drawn_at`: the drive's coordinate, if the file gives it.
 pub(super) fn poses(
     bodies: &Bodies,
-    joints: &[Held],
+    joints: &[JointEntry],
     drive: usize,
     drawn_at: Option<f64>,
 ) -> Result<Vec<Pose>> {
@@ -29,7 +29,7 @@ pub(super) fn poses(
         known: bodies
             .moving
             .iter()
-            .map(|body| Known {
+            .map(|body| BodyPlacement {
                 angle: body.angle,
                 origin: body.position,
             })
@@ -64,14 +64,14 @@ pub(super) fn poses(
 }
 
 struct Drawing {
-    known: Vec<Known>,
+    known: Vec<BodyPlacement>,
     drawn_at: Option<f64>,
 }
 
 impl Drawing {
-    fn of(&self, body: Body) -> Known {
+    fn of(&self, body: Body) -> BodyPlacement {
         match body {
-            Body::Ground => Known {
+            Body::Ground => BodyPlacement {
                 angle: Some(0.0),
                 origin: Some([0.0; 2]),
             },
@@ -79,12 +79,12 @@ impl Drawing {
         }
     }
 
-    fn slot(&mut self, body: Body) -> Option<&mut Known> {
+    fn slot(&mut self, body: Body) -> Option<&mut BodyPlacement> {
         self.known.get_mut(body.link()?)
     }
 
     /// Finds the angles that follow from guides, rigid connections and the drive.
-    fn angles(&mut self, joints: &[Held], drive: usize) {
+    fn angles(&mut self, joints: &[JointEntry], drive: usize) {
         for _ in 0..self.known.len() {
             for (k, joint) in joints.iter().enumerate() {
                 let (markers, turn) = match joint.pair {
@@ -112,12 +112,12 @@ impl Drawing {
     }
 
     /// Finds the origins, from the ground outwards: over pins first, over guides only where there is no other connection.
-    fn origins(&mut self, joints: &[Held], drive: usize) {
+    fn origins(&mut self, joints: &[JointEntry], drive: usize) {
         while self.step(joints, drive, false) || self.step(joints, drive, true) {}
     }
 
     /// Places one more body; false if none can be placed.
-    fn step(&mut self, joints: &[Held], drive: usize, over_guides: bool) -> bool {
+    fn step(&mut self, joints: &[JointEntry], drive: usize, over_guides: bool) -> bool {
         for (k, joint) in joints.iter().enumerate() {
             let (markers, way) = match joint.pair {
                 Pair::Joint(Joint::Revolute(m) | Joint::Fixed(m)) if !over_guides => (m, None),

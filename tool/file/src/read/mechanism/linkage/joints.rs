@@ -11,11 +11,11 @@ use crate::text::item::Item;
 use crate::text::problem::Result;
 use crate::text::section::Section;
 
-use super::bodies::{Bodies, End};
+use super::bodies::{Bodies, JointEnd};
 use super::cam::{self, Cam};
 
 /// One joint as the file gives it.
-pub(super) struct Held {
+pub(super) struct JointEntry {
     pub(super) name: String,
     pub(super) kind: &'static str,
     pub(super) pair: Pair,
@@ -25,7 +25,7 @@ pub(super) struct Held {
     pub(super) cam: Option<Cam>,
 }
 
-impl Held {
+impl JointEntry {
     /// The joint with its teeth in mesh in the drawn position; a rack lies on the side of its pinion where it is drawn.
     pub(super) fn meshing_at(&mut self, frames: &[Frame]) {
         if let Pair::Rack {
@@ -42,9 +42,9 @@ impl Held {
     }
 }
 
-pub(super) fn read(section: &Section, bodies: &Bodies) -> Result<Vec<Held>> {
+pub(super) fn read(section: &Section, bodies: &Bodies) -> Result<Vec<JointEntry>> {
     let sections = section.tables("joint")?;
-    let mut joints: Vec<Held> = Vec::with_capacity(sections.len());
+    let mut joints: Vec<JointEntry> = Vec::with_capacity(sections.len());
     let mut names = Names::of("joints");
     for section in &sections {
         let cams = joints.iter().filter(|joint| joint.cam.is_some()).count();
@@ -56,7 +56,7 @@ pub(super) fn read(section: &Section, bodies: &Bodies) -> Result<Vec<Held>> {
 }
 
 /// Reads a joint. `cams`: number of cams among the joints before it.
-fn joint(section: &Section, bodies: &Bodies, cams: usize) -> Result<Held> {
+fn joint(section: &Section, bodies: &Bodies, cams: usize) -> Result<JointEntry> {
     let kind = JOINTS[section.word("type")?];
     section.choose(kind);
     let between = section.need("between")?;
@@ -89,7 +89,7 @@ fn joint(section: &Section, bodies: &Bodies, cams: usize) -> Result<Held> {
         (pair, radii, None)
     };
     section.finish()?;
-    Ok(Held {
+    Ok(JointEntry {
         name,
         kind,
         pair,
@@ -104,7 +104,7 @@ fn pair(
     kind: &str,
     section: &Section,
     bodies: &Bodies,
-    ends: [End; 2],
+    ends: [JointEnd; 2],
 ) -> Result<(Pair, Option<Range<usize>>)> {
     let [a, b] = ends.map(|end| end.marker());
     let joint = |joint| Ok((Pair::Joint(joint), None));
@@ -175,7 +175,7 @@ fn direction(section: &Section, what: &str) -> Result<f64> {
 }
 
 /// The body that carries both gears.
-fn carrier(section: &Section, bodies: &Bodies, ends: [End; 2]) -> Result<Body> {
+fn carrier(section: &Section, bodies: &Bodies, ends: [JointEnd; 2]) -> Result<Body> {
     let Some(item) = section.get("carrier") else {
         if ends.iter().any(|end| end.body == Body::Ground) {
             return Err(section.missing(

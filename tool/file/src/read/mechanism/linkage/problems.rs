@@ -16,16 +16,16 @@ use crate::text::section::Section;
 
 use super::bodies::Bodies;
 use super::cam;
-use super::joints::Held;
+use super::joints::JointEntry;
 
 /// An error nearer than this to the drawn position (rad or m) is an error of the drawing.
-const HAIR: f64 = 1e-6;
+const DRAWING_TOLERANCE: f64 = 1e-6;
 
 /// Data for messages.
 pub(super) struct Context<'a> {
     pub(super) section: &'a Section<'a>,
     pub(super) bodies: &'a Bodies,
-    pub(super) joints: &'a [Held],
+    pub(super) joints: &'a [JointEntry],
     pub(super) drive: usize,
     pub(super) coordinate: Coordinate,
     pub(super) poses: &'a [Pose],
@@ -35,7 +35,11 @@ pub(super) struct Context<'a> {
 }
 
 /// Refuses bodies without a joint, bodies not connected to the ground, and linkages with other than one degree of freedom.
-pub(super) fn check_topology(section: &Section, bodies: &Bodies, joints: &[Held]) -> Result<()> {
+pub(super) fn check_topology(
+    section: &Section,
+    bodies: &Bodies,
+    joints: &[JointEntry],
+) -> Result<()> {
     let count = bodies.moving.len();
     // One pass for each body finds all bodies connected to the ground.
     let mut held = vec![false; count];
@@ -114,7 +118,7 @@ impl Context<'_> {
             {
                 return self.crossing(joint, &flat);
             }
-            if (phi - self.drawn_at).abs() < HAIR {
+            if (phi - self.drawn_at).abs() < DRAWING_TOLERANCE {
                 return self.drawn_flat(phi, joint);
             }
         }
@@ -230,7 +234,7 @@ impl Context<'_> {
 
     /// The largest gap in the drawing.
     fn widest_gap(&self) -> String {
-        let gap = |held: &Held| match held.pair {
+        let gap = |held: &JointEntry| match held.pair {
             Pair::Joint(Joint::Revolute([a, b])) => {
                 let (a, b) = (a.position(self.frames), b.position(self.frames));
                 (b[0].value - a[0].value).hypot(b[1].value - a[1].value)
@@ -355,7 +359,7 @@ impl Context<'_> {
     }
 
     /// The linkage with its topology checked.
-    pub(super) fn linkage(&self) -> std::result::Result<Whole, LinkageError> {
+    pub(super) fn linkage(&self) -> std::result::Result<LargestLinkage, LinkageError> {
         let links: Vec<_> = self.bodies.moving.iter().map(|body| body.link).collect();
         let pairs: Vec<_> = self.joints.iter().map(|joint| joint.pair).collect();
         Linkage::with_cams(&links, &pairs, &cam::placed(self.joints), self.drive)
@@ -380,4 +384,4 @@ impl Context<'_> {
 }
 
 /// Room for the largest linkage.
-type Whole = Linkage<{ MOST[0] }, { MOST[1] }, { cam::MOST }>;
+type LargestLinkage = Linkage<{ MOST[0] }, { MOST[1] }, { cam::MOST }>;

@@ -8,7 +8,7 @@ use crate::number::rounding::figure;
 use crate::text::problem::{Problem, Result};
 
 use super::bodies::Bodies;
-use super::joints::Held;
+use super::joints::JointEntry;
 
 /// Share by which radii may miss the centre distance: rounding in the file.
 const ROUNDING: f64 = 1e-4;
@@ -24,10 +24,14 @@ pub(super) fn offset(pinion: &Marker, rack: &Marker, frames: &[Frame]) -> f64 {
 }
 
 /// Checks every rolling joint at positions over the drive's range.
-pub(super) fn check(mechanism: &impl Mechanism, bodies: &Bodies, joints: &[Held]) -> Result<()> {
+pub(super) fn check(
+    mechanism: &impl Mechanism,
+    bodies: &Bodies,
+    joints: &[JointEntry],
+) -> Result<()> {
     const PLACES: usize = 12;
     let domain = mechanism.domain();
-    let rolling: Vec<&Held> = joints.iter().filter(|j| j.radii.is_some()).collect();
+    let rolling: Vec<&JointEntry> = joints.iter().filter(|j| j.radii.is_some()).collect();
     if rolling.is_empty() {
         return Ok(());
     }
@@ -72,13 +76,13 @@ pub(super) fn check(mechanism: &impl Mechanism, bodies: &Bodies, joints: &[Held]
     Ok(())
 }
 
-fn misfit(joint: &Held, message: &str) -> Problem {
+fn misfit(joint: &JointEntry, message: &str) -> Problem {
     let place = joint.radii.clone().unwrap_or(joint.place.clone());
     Problem::new(format!("joint \"{}\": {message}", joint.name)).at(place, "does not fit")
 }
 
 fn gears(
-    joint: &Held,
+    joint: &JointEntry,
     bodies: &Bodies,
     [a, b]: &[Marker; 2],
     carrier: Body,
@@ -128,7 +132,12 @@ fn gears(
     Ok(())
 }
 
-fn belt(joint: &Held, bodies: &Bodies, centres: &[Marker; 2], frames: &[Frame]) -> Result<()> {
+fn belt(
+    joint: &JointEntry,
+    bodies: &Bodies,
+    centres: &[Marker; 2],
+    frames: &[Frame],
+) -> Result<()> {
     for centre in centres {
         let [x, y] = centre.position(frames);
         if x.d1.hypot(y.d1) > STILL {

@@ -17,22 +17,22 @@ use jred::machine::{Machine, PoseError, Reducible, Reduction};
 use crate::task::{Failure, Task};
 use jred_file::model::machine::{MachineFile, Machines};
 use jred_file::model::mechanism::AnyMechanism;
-use jred_file::model::schedule::Now;
+use jred_file::model::schedule::ScheduleInstant;
 use jred_file::number::rounding::short;
 
 /// Places at which both directions are compared.
 const PLACES: u32 = 1440;
 /// Share of the largest value that counts as zero: rounding.
-const NOTHING: f64 = 1e-12;
+const LOAD_ROUNDING: f64 = 1e-12;
 
 /// The machine of each direction; one, if no load depends on it.
 #[derive(Clone, Debug)]
-pub(crate) struct BothWays {
+pub(crate) struct MachineByDirection {
     forward: Machine<AnyMechanism>,
     backward: Option<Machine<AnyMechanism>>,
 }
 
-impl BothWays {
+impl MachineByDirection {
     /// The machines of a file in which only loads depend on the motion, by its direction.
     pub(crate) fn new(file: &MachineFile, task: &Task) -> Result<Self, Failure> {
         if file.schedule.is_empty() {
@@ -43,9 +43,9 @@ impl BothWays {
         }
         let (machines, ratio) = (Machines::of(file)?, file.drive_train.ratio());
         let way = |omega: f64| -> Result<Machine<AnyMechanism>, Error> {
-            let now = Now {
+            let now = ScheduleInstant {
                 omega: Some(omega),
-                ..Now::default()
+                ..ScheduleInstant::default()
             };
             let machine = machines.among(&now).clone();
             Ok(machine.with_flywheel(task.rotor * ratio * ratio)?)
@@ -89,7 +89,7 @@ impl BothWays {
         let coordinate = file.machine.mechanism().coordinate();
         for (phi, coulomb, difference, sum) in found {
             let at = coordinate.place(phi);
-            if difference.abs() > NOTHING * sum.abs() {
+            if difference.abs() > LOAD_ROUNDING * sum.abs() {
                 return Err(Failure::Impossible {
                     message: format!(
                         "the viscous friction goes by the direction: at {at} it is another one forwards than backwards, and a table has one b"
@@ -97,7 +97,7 @@ impl BothWays {
                     help: "remove the direction of the viscous load, or give it to the firmware as a torque of its own".to_owned(),
                 });
             }
-            if coulomb < -NOTHING * largest {
+            if coulomb < -LOAD_ROUNDING * largest {
                 return Err(Failure::Impossible {
                     message: format!(
                         "the loads by direction drive the motion: at {at} they take {} {} less forwards than backwards, and friction takes more",
@@ -123,7 +123,7 @@ fn combined(forward: &Reduction, backward: &Reduction) -> Reduction {
         .with_coulomb(coulomb)
 }
 
-impl Reducible for BothWays {
+impl Reducible for MachineByDirection {
     fn domain(&self) -> Domain {
         self.forward.domain()
     }

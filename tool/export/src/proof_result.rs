@@ -1,17 +1,17 @@
 //! The result of a proof.
 
-use jred_enclosure::{Proof, Unproven};
+use jred_enclosure::{Proof, ProofError};
 
 /// Result of a proof.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Proven {
+pub enum ProofResult {
     /// The error is bounded.
     Bounded(Proof),
     /// It could not be bounded.
-    Open(Unproven),
+    Open(ProofError),
 }
 
-impl Proven {
+impl ProofResult {
     /// The bound: of the ticks, or of the table if the tick's arithmetic is not proven.
     pub fn bound(&self) -> Option<f64> {
         match self {

@@ -10,20 +10,20 @@ use jred::machine::{
 };
 use jred::number::{RangeError, Transfer};
 
-use super::{Course, StandIn};
+use super::{LinkCurve, VirtualLink};
 use crate::model::mechanism::Inner;
 
 /// A mechanism with virtual links after its own links.
 #[derive(Clone, Debug)]
-pub(crate) struct Tabulated {
+pub(crate) struct CurveMechanism {
     inner: Arc<dyn Inner>,
     links: Vec<Link>,
-    courses: Vec<Course>,
+    courses: Vec<LinkCurve>,
     edges: Vec<f64>,
 }
 
-impl Tabulated {
-    pub(crate) fn new(inner: Arc<dyn Inner>, stand_ins: &[StandIn]) -> Result<Self, Error> {
+impl CurveMechanism {
+    pub(crate) fn new(inner: Arc<dyn Inner>, stand_ins: &[VirtualLink]) -> Result<Self, Error> {
         let mut links = inner.links().to_vec();
         for stand_in in stand_ins {
             links.push(Link::rotor(stand_in.course.inertia())?);
@@ -52,7 +52,7 @@ impl Tabulated {
     }
 
     /// The curves, in the order of their links.
-    pub(crate) fn courses(&self) -> &[Course] {
+    pub(crate) fn courses(&self) -> &[LinkCurve] {
         &self.courses
     }
 
@@ -62,7 +62,7 @@ impl Tabulated {
     }
 }
 
-impl Mechanism for Tabulated {
+impl Mechanism for CurveMechanism {
     fn links(&self) -> &[Link] {
         &self.links
     }
@@ -87,7 +87,7 @@ impl Mechanism for Tabulated {
     }
 }
 
-impl Jointed for Tabulated {
+impl Jointed for CurveMechanism {
     /// The joints of the mechanism, then the bearing and the gearing of each virtual link.
     fn joints(&self, phi: f64, frames: &Frames) -> Result<Joints, PoseError> {
         let own = self.own();

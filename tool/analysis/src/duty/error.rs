@@ -12,7 +12,7 @@ const LARGER: f64 = 1e-6;
 
 /// Why a duty is rejected: its error must be known to be small enough.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Fault {
+pub enum DutyError {
     /// An error of the machine.
     Machine(Error),
     /// The integrals need more instants than fit into memory.
@@ -50,13 +50,13 @@ pub enum Fault {
     },
 }
 
-impl<E: Into<Error>> From<E> for Fault {
+impl<E: Into<Error>> From<E> for DutyError {
     fn from(error: E) -> Self {
         Self::Machine(error.into())
     }
 }
 
-impl Fault {
+impl DutyError {
     /// The cure; empty for errors without one.
     pub fn cure(&self) -> String {
         match self {
@@ -87,7 +87,7 @@ impl Fault {
     }
 }
 
-impl fmt::Display for Fault {
+impl fmt::Display for DutyError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Machine(error) => error.fmt(f),
@@ -130,17 +130,17 @@ impl fmt::Display for Fault {
     }
 }
 
-impl std::error::Error for Fault {}
+impl std::error::Error for DutyError {}
 
-impl miette::Diagnostic for Fault {
+impl miette::Diagnostic for DutyError {
     fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
         let cure = self.cure();
         (!cure.is_empty()).then(|| Box::new(cure) as Box<dyn fmt::Display>)
     }
 }
 
-impl From<Fault> for Problem {
-    fn from(fault: Fault) -> Self {
+impl From<DutyError> for Problem {
+    fn from(fault: DutyError) -> Self {
         Self::new(fault.to_string()).help(fault.cure())
     }
 }

@@ -5,7 +5,7 @@ use thiserror::Error;
 /// Why a proof fails.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
-pub enum Unproven {
+pub enum ProofError {
     /// A joint with teeth, a cam, a rope or a belt, whose equations do not contain its geometry.
     #[error("joint number {} transmits by contact, and its curves are not enclosed", number + 1)]
     Joint {

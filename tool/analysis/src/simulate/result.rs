@@ -2,13 +2,13 @@
 
 use super::SimulationError;
 use super::clock::Moment;
-use super::geared::Geared;
-use jred_file::model::schedule::Now;
+use super::coupled::GearedMachine;
+use jred_file::model::schedule::ScheduleInstant;
 use jred_file::number::columns::Columns;
 
 /// A motion, up to its end or to an error.
 #[derive(Debug)]
-pub struct Simulated {
+pub struct SimulationResult {
     /// A row for each output step.
     pub columns: Columns,
     /// Final rest of the drive link after the motor was switched off.
@@ -25,15 +25,15 @@ pub struct Simulated {
     /// Time and travel to the speed of [`Simulation::to_speed`](jred_file::model::simulation::Simulation::to_speed).
     pub reached: Option<Rest>,
     /// Works in whole turns, for a turning drive link.
-    pub turned: Option<Turned>,
+    pub turned: Option<TurnWorks>,
     /// The impacts on end stops.
     pub impacts: Option<Impacts>,
     /// The first position at which the motor has not driven the machine on.
-    pub missing: Option<Stuck>,
+    pub missing: Option<Stall>,
     /// The controlled motor at its torque limit.
     pub torque_limit: Option<TorqueLimit>,
     /// The largest error of a controlled machine.
-    pub following: Option<Following>,
+    pub following: Option<FollowingError>,
     /// φ, ω, α of the drive link in each row.
     pub states: Vec<[f64; 3]>,
     /// The time of each row, and the direction of motion.
@@ -85,7 +85,7 @@ pub const BRIEFEST_FLIGHT: f64 = 1e-6;
 
 /// Works in whole turns of the drive link, from the start.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Turned {
+pub struct TurnWorks {
     /// Number of turns; negative: φ falls.
     pub turns: f64,
     /// Work at the motor's shaft (J).
@@ -100,7 +100,7 @@ pub struct Turned {
 
 /// Torque of a motor at rest, and the torque that the machine needs to move on.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Missing {
+pub struct TorqueDeficit {
     /// Position (rad, or m).
     pub phi: f64,
     /// Available motor torque there (N·m).
@@ -111,11 +111,11 @@ pub struct Missing {
 
 /// First position at which a machine has stopped under its motor, or did not start.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Stuck {
+pub struct Stall {
     /// Time (s).
     pub time: f64,
     /// The missing torque.
-    pub missing: Missing,
+    pub missing: TorqueDeficit,
 }
 
 /// A motor at the limit of its torque under a controller.
@@ -133,7 +133,7 @@ pub struct TorqueLimit {
 
 /// The largest following error, at the integrator's steps and at three instants between steps.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Following {
+pub struct FollowingError {
     /// Its time (s).
     pub time: f64,
     /// Its position (rad, or m).
@@ -142,9 +142,9 @@ pub struct Following {
     pub error: f64,
 }
 
-impl Simulated {
+impl SimulationResult {
     /// For each row, the instant of a machine, and φ, ω and α of its drive link.
-    pub fn states_of(&self, machine: &Geared) -> Vec<(Now, [f64; 3])> {
+    pub fn states_of(&self, machine: &GearedMachine) -> Vec<(ScheduleInstant, [f64; 3])> {
         let rows = self.moments.iter().zip(&self.states);
         rows.map(|(moment, state)| {
             let state = machine.state(*state);

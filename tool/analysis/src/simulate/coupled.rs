@@ -20,18 +20,18 @@ use jred_file::model::schedule::Schedule;
 use jred_file::model::simulation::{Shaft, Simulation};
 
 /// Tolerance within which a number of turns is whole: some rounding errors.
-const WHOLE: f64 = 1e-9;
+const TURNS_TOLERANCE: f64 = 1e-9;
 
 /// A machine whose drive link moves in proportion to that of the first one: φ_k = offset + ratio·φ.
 #[derive(Clone, Copy, Debug)]
-pub struct Geared<'a> {
+pub struct GearedMachine<'a> {
     /// The machine.
     pub file: &'a MachineFile,
     offset: f64,
     ratio: f64,
 }
 
-impl<'a> Geared<'a> {
+impl<'a> GearedMachine<'a> {
     /// The first machine.
     pub const fn first(file: &'a MachineFile) -> Self {
         Self {
@@ -72,13 +72,13 @@ impl<'a> Geared<'a> {
 
 /// Machines on one shaft.
 #[derive(Clone, Debug)]
-pub struct Together<'a> {
+pub struct CoupledMachines<'a> {
     /// The machine whose drive link is the coordinate.
     pub first: &'a MachineFile,
-    beside: Vec<Geared<'a>>,
+    beside: Vec<GearedMachine<'a>>,
 }
 
-impl<'a> Together<'a> {
+impl<'a> CoupledMachines<'a> {
     /// A machine alone.
     pub const fn alone(first: &'a MachineFile) -> Self {
         Self {
@@ -120,7 +120,7 @@ impl<'a> Together<'a> {
                 ));
             }
             let ratio = self.first.drive_train.ratio() / file.drive_train.ratio();
-            self.beside.push(Geared {
+            self.beside.push(GearedMachine {
                 file,
                 offset: start - ratio * simulation.start_angle,
                 ratio,
@@ -131,11 +131,11 @@ impl<'a> Together<'a> {
 
     /// The same machines with another first one, which differs only in its inertia.
     #[must_use]
-    pub fn with_first<'b>(&self, first: &'b MachineFile) -> Together<'b>
+    pub fn with_first<'b>(&self, first: &'b MachineFile) -> CoupledMachines<'b>
     where
         'a: 'b,
     {
-        Together {
+        CoupledMachines {
             first,
             beside: self.beside.clone(),
         }
@@ -171,19 +171,20 @@ impl<'a> Together<'a> {
 
     /// Whether all machines are in the same position after a turn of the first drive link.
     pub(super) fn go_by_turns(&self) -> bool {
-        let whole = |ratio: f64| (ratio - ratio.round()).abs() <= WHOLE * (1.0 + ratio.abs());
+        let whole =
+            |ratio: f64| (ratio - ratio.round()).abs() <= TURNS_TOLERANCE * (1.0 + ratio.abs());
         self.all()
             .all(|machine| machine.file.machine.domain() == Domain::Turn && whole(machine.ratio()))
     }
 
     /// The machines besides the first.
-    pub fn beside(&self) -> &[Geared<'a>] {
+    pub fn beside(&self) -> &[GearedMachine<'a>] {
         &self.beside
     }
 
     /// All machines.
-    pub fn all(&self) -> impl Iterator<Item = Geared<'a>> + '_ {
-        std::iter::once(Geared::first(self.first)).chain(self.beside.iter().copied())
+    pub fn all(&self) -> impl Iterator<Item = GearedMachine<'a>> + '_ {
+        std::iter::once(GearedMachine::first(self.first)).chain(self.beside.iter().copied())
     }
 }
 

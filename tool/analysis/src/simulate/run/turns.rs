@@ -4,15 +4,15 @@ use std::f64::consts::TAU;
 
 use super::{Plant, Run};
 use crate::simulate::SimulationError;
-use crate::simulate::simulated::Turned;
-use jred_file::number::numerics::dormand_prince::Point;
+use crate::simulate::result::TurnWorks;
+use jred_file::number::numerics::dormand_prince::StatePoint;
 
 impl<P> Run<'_, P> {
     /// Counts the whole turns that end in the integrator's step between these two.
     pub(super) fn count_turns<const N: usize>(
         &mut self,
-        from: &Point<N>,
-        to: &Point<N>,
+        from: &StatePoint<N>,
+        to: &StatePoint<N>,
     ) -> Result<(), SimulationError>
     where
         P: Plant<N>,
@@ -28,7 +28,7 @@ impl<P> Run<'_, P> {
         let (t, y) = self.on_place(begin + turns * TAU, *from, *to)?;
         let row = self.plant.row(&self.moment(t), &y)?;
         let [motor, process, losses] = std::array::from_fn(|i| y[N - 3 + i]);
-        self.turned = Some(Turned {
+        self.turned = Some(TurnWorks {
             turns,
             motor,
             process,

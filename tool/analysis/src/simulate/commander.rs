@@ -4,12 +4,12 @@ use jred::error::Error;
 
 use super::SimulationError;
 use super::clock::{Corners, Moment};
+use super::coupled::CoupledMachines;
 use super::free::{PLAIN, WITH_GUESTS, guests_of, slope_in_motion};
-use super::geared::Together;
 use super::machine::{Instant, Plant};
-use super::observe::Working;
-use super::run::{self, Row};
-use super::simulated::Missing;
+use super::observe::MotorState;
+use super::result::TorqueDeficit;
+use super::run::{self, OutputRow};
 use jred_file::model::motor::Motor;
 use jred_file::number::columns::Column;
 
@@ -60,12 +60,12 @@ pub(super) trait Commander<M> {
 }
 
 /// The machine, its motor, and the commander.
-pub(super) struct Commanded<'a, M, C> {
+pub(super) struct CommandedPlant<'a, M, C> {
     pub(super) plant: Plant<'a, M>,
     pub(super) commander: C,
 }
 
-impl<M: Motor, C: Commander<M>> Commanded<'_, M, C> {
+impl<M: Motor, C: Commander<M>> CommandedPlant<'_, M, C> {
     /// Torque at the motor shaft (of the motor or, once it is switched off, of the brake), requested torque, and rate of the motor's state.
     fn torque(&self, moment: &Moment, y: [f64; 3]) -> Result<[f64; 3], Error> {
         if self.is_off(moment.t) {
@@ -92,7 +92,7 @@ fn commanded<const N: usize>(y: &[f64; N]) -> [f64; 3] {
     [y[0], y[1], y[2]]
 }
 
-impl<M: Motor, C: Commander<M>, const N: usize> run::Plant<N> for Commanded<'_, M, C> {
+impl<M: Motor, C: Commander<M>, const N: usize> run::Plant<N> for CommandedPlant<'_, M, C> {
     fn start(&self) -> Result<[f64; N], Error> {
         run::Plant::<N>::start(&self.plant)
     }
@@ -151,7 +151,7 @@ impl<M: Motor, C: Commander<M>, const N: usize> run::Plant<N> for Commanded<'_, 
         self.commander.corners(&self.plant, self.plant.changes())
     }
 
-    fn machines(&self) -> Together<'_> {
+    fn machines(&self) -> CoupledMachines<'_> {
         self.plant.machines.clone()
     }
 
@@ -160,17 +160,17 @@ impl<M: Motor, C: Commander<M>, const N: usize> run::Plant<N> for Commanded<'_, 
         own.chain([self.commander.column()]).collect()
     }
 
-    fn working(&self, moment: &Moment, y: &[f64; N]) -> Result<Option<Working>, Error> {
+    fn working(&self, moment: &Moment, y: &[f64; N]) -> Result<Option<MotorState>, Error> {
         let [torque, asked, _] = self.torque(moment, commanded(y))?;
         let working = (self.plant).working_at(moment, [y[0], y[1]], [torque, asked])?;
         let on = !self.is_off(moment.t);
-        Ok(Some(Working {
+        Ok(Some(MotorState {
             error: (self.commander.error(&self.plant, moment.t, y[0])).filter(|_| on),
             ..working
         }))
     }
 
-    fn missing(&self, t: f64, y: &[f64; N]) -> Result<Option<Missing>, Error> {
+    fn missing(&self, t: f64, y: &[f64; N]) -> Result<Option<TorqueDeficit>, Error> {
         if self.commander.settles() {
             run::Plant::<N>::missing(&self.plant, t, y)
         } else {
@@ -178,7 +178,7 @@ impl<M: Motor, C: Commander<M>, const N: usize> run::Plant<N> for Commanded<'_, 
         }
     }
 
-    fn row(&self, moment: &Moment, y: &[f64; N]) -> Result<Row, Error> {
+    fn row(&self, moment: &Moment, y: &[f64; N]) -> Result<OutputRow, Error> {
         let alpha = if moment.direction == 0.0 {
             0.0
         } else {

@@ -13,14 +13,14 @@ use crate::series::{REMAINDER, Series};
 ///
 /// `at` contains the coefficients in the middle, `over` the coefficients at all positions of the stretch: Lagrange's remainder.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Form {
+pub struct TaylorForm {
     /// Coefficients in the middle.
     pub at: Series,
     /// Coefficients anywhere on the stretch.
     pub over: Series,
 }
 
-impl Form {
+impl TaylorForm {
     /// A quantity that lies in an interval everywhere. It need not be constant, nor smooth; do not use its derivative.
     #[must_use]
     pub const fn somewhere(value: Interval) -> Self {
@@ -138,7 +138,7 @@ impl Form {
     }
 }
 
-impl Add for Form {
+impl Add for TaylorForm {
     type Output = Self;
     fn add(self, g: Self) -> Self {
         Self {
@@ -148,21 +148,21 @@ impl Add for Form {
     }
 }
 
-impl Sub for Form {
+impl Sub for TaylorForm {
     type Output = Self;
     fn sub(self, g: Self) -> Self {
         self + -g
     }
 }
 
-impl Neg for Form {
+impl Neg for TaylorForm {
     type Output = Self;
     fn neg(self) -> Self {
         self.both(|f| -*f)
     }
 }
 
-impl Mul for Form {
+impl Mul for TaylorForm {
     type Output = Self;
     fn mul(self, g: Self) -> Self {
         Self {
@@ -172,7 +172,7 @@ impl Mul for Form {
     }
 }
 
-impl Mul<f64> for Form {
+impl Mul<f64> for TaylorForm {
     type Output = Self;
     fn mul(self, k: f64) -> Self {
         self.both(|f| *f * k)

@@ -1,6 +1,6 @@
 //! Tabulated curves as virtual links of a mechanism.
 //!
-//! A curve in a machine file over the position of the drive link is represented by a *virtual link* (`StandIn`): a rotor on its own bearing, geared
+//! A curve in a machine file over the position of the drive link is represented by a *virtual link* ([`VirtualLink`]): a rotor on its own bearing, geared
 //! to the drive link with a ratio ψ′(φ) that follows from the curve. The method of reduction then reproduces the curve, with consistent derivatives,
 //! and d'Alembert's principle gives the same torque through the gearing:
 //!
@@ -24,8 +24,8 @@
 mod mechanism;
 mod table;
 
-pub(crate) use mechanism::{DriveLinkAlone, Tabulated};
-pub use table::{Over, Table};
+pub(crate) use mechanism::{CurveMechanism, DriveLinkAlone};
+pub use table::{LoadTable, TableVariable};
 
 use jred::error::Error;
 use jred::machine::{Action, Body, Element, Frame, Load, Marker, Window, Wrench};
@@ -35,12 +35,12 @@ use crate::number::spline::Spline;
 
 /// Kind of curve that a virtual link represents.
 #[derive(Clone, Debug)]
-pub enum Course {
+pub enum LinkCurve {
     /// A reduced inertia (kg·m², or kg of a sliding drive link).
     Inertia(Spline),
     /// A torque (N·m, or N) in the direction of growing φ.
     Torque(Spline),
-    /// A torque from a potential, −U′; its integral over a turn is zero. See [`Course::potential`].
+    /// A torque from a potential, −U′; its integral over a turn is zero. See [`LinkCurve::potential`].
     Potential {
         /// The torque.
         torque: Spline,
@@ -56,7 +56,7 @@ pub enum Course {
         /// Mass.
         mass: Spline,
         /// Its point.
-        on: Place,
+        on: LinkPoint,
         /// 0: along x, 1: along y.
         axis: usize,
     },
@@ -65,30 +65,30 @@ pub enum Course {
         /// Mass.
         mass: Spline,
         /// Its point.
-        on: Place,
+        on: LinkPoint,
         /// Gravity (m/s²).
         gravity: [f64; 2],
     },
     /// A force (N) against the motion of a point, not negative.
     Thrust {
         /// Force.
-        force: Table,
+        force: LoadTable,
         /// Its point.
-        on: Place,
+        on: LinkPoint,
     },
     /// A force (N) on a point.
     Force {
         /// Force.
-        force: Table,
+        force: LoadTable,
         /// Its point.
-        on: Place,
+        on: LinkPoint,
         /// Its direction.
         along: Direction,
     },
     /// A moment (N·m) on link number `link`.
     Moment {
         /// Moment.
-        moment: Table,
+        moment: LoadTable,
         /// Index of the link.
         link: usize,
     },
@@ -96,14 +96,14 @@ pub enum Course {
 
 /// A point of a link.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Place {
+pub struct LinkPoint {
     /// Index of the link.
     pub link: usize,
     /// The point in its frame (m).
     pub at: [f64; 2],
 }
 
-impl Place {
+impl LinkPoint {
     fn position(self, frames: &[Frame]) -> [Transfer; 2] {
         frames
             .get(self.link)
@@ -132,20 +132,20 @@ impl Direction {
 
 /// A virtual link.
 #[derive(Clone, Debug)]
-pub struct StandIn {
+pub struct VirtualLink {
     /// Its name in tables.
     pub name: String,
     /// The curve it represents.
-    pub course: Course,
+    pub course: LinkCurve,
     /// The part of the range in which a load acts, if not the whole.
     pub window: Option<Window>,
     /// The drive link's positions at which the curve is not smooth.
     pub edges: Vec<f64>,
 }
 
-impl StandIn {
+impl VirtualLink {
     /// A virtual link that acts everywhere and is smooth.
-    pub const fn new(name: String, course: Course) -> Self {
+    pub const fn new(name: String, course: LinkCurve) -> Self {
         Self {
             name,
             course,
@@ -203,7 +203,7 @@ const fn values(f: Transfer) -> [f64; 3] {
     [f.value, f.d1, f.d2]
 }
 
-impl Course {
+impl LinkCurve {
     /// The torque of a potential, with an offset larger than its possible fall: a constant in U has no effect.
     pub fn potential(torque: Spline) -> Self {
         let [from, to] = torque.range();
@@ -265,7 +265,7 @@ impl Course {
     /// The gearing wrench for one unit of effort of the rotor, whose frame is `rotor`. It acts on the point or link of the curve, otherwise it is the
     /// `drive`'s unit effort times −ψ′. With 1 N·m on the rotor it does no work.
     fn gearing(&self, phi: f64, frames: &[Frame], rotor: &Frame, drive: Wrench) -> Wrench {
-        let force = |on: &Place, force: [f64; 2]| {
+        let force = |on: &LinkPoint, force: [f64; 2]| {
             let point = on.position(frames).map(|c| c.value);
             Wrench::force(Body::Link(on.link), point, force).times(-1.0)
         };

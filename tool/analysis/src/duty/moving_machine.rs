@@ -9,13 +9,13 @@ use super::Instant;
 use jred_file::model::drive_train::DriveTrain;
 use jred_file::model::machine::MachineFile;
 use jred_file::model::motion::Motion;
-use jred_file::model::schedule::Now;
+use jred_file::model::schedule::ScheduleInstant;
 
 /// Share of a stretch at which a move from rest counts as moving; at its start it has at most this share of that speed.
-const SLIGHTLY: f64 = 1e-3;
+const START_SHARE: f64 = 1e-3;
 
 /// The machine in its motion. A dwell requests one position at every time step, so the last one is cached.
-pub(super) struct Moving<'a> {
+pub(super) struct MovingMachine<'a> {
     pub(super) file: &'a MachineFile,
     pub(super) motion: &'a Motion,
     last: Option<(f64, usize, Reduction)>,
@@ -23,7 +23,7 @@ pub(super) struct Moving<'a> {
 
 /// An instant, with additional data for its integrals.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Evaluated {
+pub(super) struct DutyInstant {
     pub(super) instant: Instant,
     /// Power lost in the drive train, including friction of its branches (W).
     pub(super) loss: f64,
@@ -35,7 +35,7 @@ pub(super) struct Evaluated {
     pub(super) energy: f64,
 }
 
-impl<'a> Moving<'a> {
+impl<'a> MovingMachine<'a> {
     pub(super) const fn new(file: &'a MachineFile, motion: &'a Motion) -> Self {
         Self {
             file,
@@ -45,7 +45,7 @@ impl<'a> Moving<'a> {
     }
 
     /// The reduction, and the torque of carriages from their motion along their guides, which is not a process load.
-    fn parts(&mut self, now: &Now, phi: f64) -> Result<(Reduction, f64), Error> {
+    fn parts(&mut self, now: &ScheduleInstant, phi: f64) -> Result<(Reduction, f64), Error> {
         if !self.file.schedule.flows() {
             return Ok((self.reduction(now, phi)?, 0.0));
         }
@@ -54,7 +54,7 @@ impl<'a> Moving<'a> {
         self.file.apart(&machine, reduction, phi)
     }
 
-    fn reduction(&mut self, now: &Now, phi: f64) -> Result<Reduction, Error> {
+    fn reduction(&mut self, now: &ScheduleInstant, phi: f64) -> Result<Reduction, Error> {
         let number = self.file.schedule.number(now);
         if let Some((place, known, reduction)) = &self.last
             && place.to_bits() == phi.to_bits()
@@ -73,14 +73,14 @@ impl<'a> Moving<'a> {
             return None;
         }
         let speed = |share: f64| self.motion.at(from + share * (to - from)).omega;
-        let ahead = speed(SLIGHTLY);
-        (speed(0.0).abs() <= SLIGHTLY * ahead.abs() && ahead != 0.0).then(|| ahead.signum())
+        let ahead = speed(START_SHARE);
+        (speed(0.0).abs() <= START_SHARE * ahead.abs() && ahead != 0.0).then(|| ahead.signum())
     }
 
     /// The machine at time `t` of its motion.
-    pub(super) fn at(&mut self, t: f64) -> Result<Evaluated, Error> {
+    pub(super) fn at(&mut self, t: f64) -> Result<DutyInstant, Error> {
         let state = self.motion.at(t);
-        let (reduction, carriages) = self.parts(&Now::of(t, state.omega), state.phi)?;
+        let (reduction, carriages) = self.parts(&ScheduleInstant::of(t, state.omega), state.phi)?;
         let mut terms = reduction.torque(state.omega, state.alpha);
         terms.velocity += carriages;
         Ok(self.with(t, state, &reduction, terms))
@@ -93,13 +93,14 @@ impl<'a> Moving<'a> {
             alpha: 0.0,
             ..self.motion.at(t)
         };
-        let (reduction, carriages) = self.parts(&Now::starting(t, direction), state.phi)?;
+        let (reduction, carriages) =
+            self.parts(&ScheduleInstant::starting(t, direction), state.phi)?;
         let terms = TorqueTerms {
             coulomb: reduction.coulomb * direction,
             velocity: carriages,
             ..reduction.torque(0.0, 0.0)
         };
-        let Evaluated { instant, .. } = self.with(t, state, &reduction, terms);
+        let DutyInstant { instant, .. } = self.with(t, state, &reduction, terms);
         Ok(instant.towards(&self.file.drive_train, direction))
     }
 
@@ -109,7 +110,7 @@ impl<'a> Moving<'a> {
         state: State<f64>,
         reduction: &Reduction,
         terms: TorqueTerms,
-    ) -> Evaluated {
+    ) -> DutyInstant {
         let train = &self.file.drive_train;
         let ratio = train.ratio();
         let inertia = reduction.inertia;
@@ -138,7 +139,7 @@ impl<'a> Moving<'a> {
         let squared = instant.input_inertia * speed * speed;
         let magnitudes: f64 = terms.values().into_iter().map(f64::abs).sum();
         let accelerating = (instant.input_inertia * instant.input_alpha).abs();
-        Evaluated {
+        DutyInstant {
             loss: input.loss,
             magnitude: magnitudes / ratio.abs() + accelerating,
             ratio,

@@ -8,7 +8,7 @@ use crate::model::mechanism::AnyMechanism;
 
 /// A mass fixed to a link: a counterweight, a tool, a payload.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Attached {
+pub struct AttachedMass {
     /// Index of the link.
     pub link: usize,
     /// Position of its centre of mass in the link's frame (m).
@@ -19,7 +19,7 @@ pub struct Attached {
     pub inertia: f64,
 }
 
-impl Attached {
+impl AttachedMass {
     /// The mass without its link, in the link's frame.
     ///
     /// # Errors
@@ -58,7 +58,7 @@ impl Attached {
 /// A sum is not finite.
 pub fn laden<'a>(
     mechanism: &AnyMechanism,
-    masses: impl IntoIterator<Item = &'a Attached>,
+    masses: impl IntoIterator<Item = &'a AttachedMass>,
 ) -> Result<AnyMechanism, Error> {
     let mut masses = masses.into_iter().peekable();
     if masses.peek().is_none() {
@@ -71,24 +71,24 @@ pub fn laden<'a>(
         }
     }
     let inner = mechanism.clone();
-    Ok(mechanism.clone().with_inner(Laden { inner, links }))
+    Ok(mechanism.clone().with_inner(WithMass { inner, links }))
 }
 
 /// A mechanism with masses on some of its links.
 #[derive(Clone, Debug)]
-pub(crate) struct Laden {
+pub(crate) struct WithMass {
     inner: AnyMechanism,
     links: Vec<Link>,
 }
 
-impl Laden {
+impl WithMass {
     /// The mechanism without the masses.
     pub(crate) const fn inner(&self) -> &AnyMechanism {
         &self.inner
     }
 }
 
-impl Mechanism for Laden {
+impl Mechanism for WithMass {
     fn links(&self) -> &[Link] {
         &self.links
     }
@@ -103,7 +103,7 @@ impl Mechanism for Laden {
     }
 }
 
-impl Jointed for Laden {
+impl Jointed for WithMass {
     fn joints(&self, phi: f64, frames: &Frames) -> Result<Joints, PoseError> {
         self.inner.joints(phi, frames)
     }

@@ -2,13 +2,13 @@
 
 use jred::machine::Marker;
 
-use crate::form::Form;
 use crate::interval::Interval;
 use crate::series::Series;
+use crate::taylor_form::TaylorForm;
 
 /// A link's frame with its Taylor series: origin, angle, and sine and cosine of the angle.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Place<T> {
+pub struct LinkFrame<T> {
     /// Origin, x (m).
     pub x: T,
     /// Origin, y (m).
@@ -21,19 +21,19 @@ pub struct Place<T> {
     pub cos: T,
 }
 
-impl Place<Form> {
+impl LinkFrame<TaylorForm> {
     /// The fixed frame.
     pub const GROUND: Self = Self {
-        x: Form::constant(0.0),
-        y: Form::constant(0.0),
-        psi: Form::constant(0.0),
-        sin: Form::constant(0.0),
-        cos: Form::constant(1.0),
+        x: TaylorForm::constant(0.0),
+        y: TaylorForm::constant(0.0),
+        psi: TaylorForm::constant(0.0),
+        sin: TaylorForm::constant(0.0),
+        cos: TaylorForm::constant(1.0),
     };
 
     /// A link with its origin and its angle.
     #[must_use]
-    pub fn new([x, y]: [Form; 2], psi: Form) -> Self {
+    pub fn new([x, y]: [TaylorForm; 2], psi: TaylorForm) -> Self {
         let (sin, cos) = psi.sin_cos();
         Self {
             x,
@@ -45,8 +45,8 @@ impl Place<Form> {
     }
 
     /// Joins the series in the middle of the stretch and over the stretch.
-    pub(crate) fn joined(at: &Place<Series>, over: &Place<Series>) -> Self {
-        let form = |at: &Series, over: &Series| Form {
+    pub(crate) fn joined(at: &LinkFrame<Series>, over: &LinkFrame<Series>) -> Self {
+        let form = |at: &Series, over: &Series| TaylorForm {
             at: *at,
             over: *over,
         };
@@ -61,24 +61,24 @@ impl Place<Form> {
 
     /// A vector of the link, [u, v], in the coordinates of the mechanism.
     #[must_use]
-    pub fn vector(&self, [u, v]: [f64; 2]) -> [Form; 2] {
+    pub fn vector(&self, [u, v]: [f64; 2]) -> [TaylorForm; 2] {
         [self.cos * u - self.sin * v, self.sin * u + self.cos * v]
     }
 
     /// A point of the link.
     #[must_use]
-    pub fn point(&self, at: [f64; 2]) -> [Form; 2] {
+    pub fn point(&self, at: [f64; 2]) -> [TaylorForm; 2] {
         let [x, y] = self.vector(at);
         [self.x + x, self.y + y]
     }
 }
 
-pub(crate) fn body(marker: &Marker, places: &[Place<Form>]) -> Place<Form> {
+pub(crate) fn body(marker: &Marker, places: &[LinkFrame<TaylorForm>]) -> LinkFrame<TaylorForm> {
     let link = marker.body.link().and_then(|link| places.get(link));
-    link.copied().unwrap_or(Place::GROUND)
+    link.copied().unwrap_or(LinkFrame::GROUND)
 }
 
 /// A marker's direction from +x.
-pub(crate) fn direction(marker: &Marker, places: &[Place<Form>]) -> Form {
-    body(marker, places).psi + Form::somewhere(Interval::of(marker.angle()))
+pub(crate) fn direction(marker: &Marker, places: &[LinkFrame<TaylorForm>]) -> TaylorForm {
+    body(marker, places).psi + TaylorForm::somewhere(Interval::of(marker.angle()))
 }

@@ -15,7 +15,7 @@ const PLACES: u32 = 1440;
 
 /// The variable of a table's rows.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Over {
+pub enum TableVariable {
     /// The position of the drive link.
     Drive,
     /// x or y of a point, relative to a zero.
@@ -31,7 +31,7 @@ pub enum Over {
     },
 }
 
-impl Over {
+impl TableVariable {
     /// Its value with the links at `frames`.
     fn value(self, phi: f64, frames: &[Frame]) -> Transfer {
         match self {
@@ -108,25 +108,29 @@ impl Over {
 
 /// A force or a moment over a position. Outside its rows it has the value of the nearest one.
 #[derive(Clone, Debug)]
-pub struct Table {
+pub struct LoadTable {
     curve: Spline,
-    over: Over,
+    over: TableVariable,
     /// Number of turns of the drive link after which the rows repeat; 0: never.
     turns: u32,
 }
 
-impl Table {
+impl LoadTable {
     /// A curve over a part of its variable that begins and ends with zero and repeats after this number of turns of the drive link (0: never).
-    pub fn new(curve: Spline, over: Over, turns: u32) -> Self {
+    pub fn new(curve: Spline, over: TableVariable, turns: u32) -> Self {
         Self {
-            turns: if over == Over::Drive { turns } else { 0 },
+            turns: if over == TableVariable::Drive {
+                turns
+            } else {
+                0
+            },
             curve,
             over,
         }
     }
 
     /// A curve over the whole range of its variable.
-    pub const fn whole(curve: Spline, over: Over) -> Self {
+    pub const fn whole(curve: Spline, over: TableVariable) -> Self {
         Self {
             curve,
             over,
@@ -135,7 +139,7 @@ impl Table {
     }
 
     /// Its curve, its variable, and whether it repeats with the turns of the drive link.
-    pub const fn parts(&self) -> (&Spline, Over, bool) {
+    pub const fn parts(&self) -> (&Spline, TableVariable, bool) {
         (&self.curve, self.over, self.turns > 0)
     }
 

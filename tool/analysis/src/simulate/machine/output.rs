@@ -1,15 +1,15 @@
 //! Output of a machine under its motor: the columns of a row, and the state of the motor.
 
 use jred::error::Error;
-use jred::machine::motion::State as Moving;
+use jred::machine::motion::State;
 
-use super::{Plant, Stored, beside_name};
+use super::{Plant, StoredEnergy, beside_name};
 use crate::simulate::clock::Moment;
-use crate::simulate::observe::Working;
-use crate::simulate::run::Row;
+use crate::simulate::observe::MotorState;
+use crate::simulate::run::OutputRow;
 use jred_file::model::coordinate::Coordinate;
 use jred_file::model::motor::Motor;
-use jred_file::number::columns::{Column, Quantity};
+use jred_file::number::columns::{Column, ColumnQuantity};
 
 impl<M: Motor> Plant<'_, M> {
     /// The motor at a state, with a torque at its shaft; `asked` is the controller's request.
@@ -18,14 +18,14 @@ impl<M: Motor> Plant<'_, M> {
         moment: &Moment,
         [phi, omega]: [f64; 2],
         [torque, asked]: [f64; 2],
-    ) -> Result<Working, Error> {
+    ) -> Result<MotorState, Error> {
         let held = moment.direction == 0.0;
         let now = if held {
             None
         } else {
             Some(self.under(moment, [phi, omega], torque)?)
         };
-        Ok(Working {
+        Ok(MotorState {
             phi,
             speed: omega * self.ratio(),
             torque,
@@ -42,10 +42,10 @@ impl<M: Motor> Plant<'_, M> {
         moment: &Moment,
         link: [f64; 2],
         torques: [f64; 2],
-    ) -> Result<Working, Error> {
+    ) -> Result<MotorState, Error> {
         let working = self.working(moment, link, torques)?;
         let is_off = (self.simulation.halt).is_some_and(|halt| moment.t >= halt.time);
-        Ok(Working {
+        Ok(MotorState {
             torque: if is_off { 0.0 } else { working.torque },
             asked: if is_off { 0.0 } else { working.asked },
             ..working
@@ -66,8 +66,8 @@ impl<M: Motor> Plant<'_, M> {
             self.axis.column(),
             speed,
             acceleration,
-            Column::new(Quantity::MotorEffort, motor, unit),
-            Column::new(Quantity::ReducedInertia, inertia, inertia_unit),
+            Column::new(ColumnQuantity::MotorEffort, motor, unit),
+            Column::new(ColumnQuantity::ReducedInertia, inertia, inertia_unit),
         ];
         let beside = self.machines.beside().iter().enumerate();
         let positions = beside.map(|(k, machine)| {
@@ -88,13 +88,13 @@ impl<M: Motor> Plant<'_, M> {
         moment: &Moment,
         [phi, omega, alpha]: [f64; 3],
         torque: f64,
-    ) -> Result<Row, Error> {
-        let Stored {
+    ) -> Result<OutputRow, Error> {
+        let StoredEnergy {
             inertia,
             beyond,
             potential,
         } = self.stored(moment, [phi, omega])?;
-        let shown = self.axis.state(&Moving { phi, omega, alpha });
+        let shown = self.axis.state(&State { phi, omega, alpha });
         let own = [
             self.axis.shown(phi),
             shown.omega,
@@ -107,7 +107,7 @@ impl<M: Motor> Plant<'_, M> {
             let [phi, ..] = machine.state([phi, omega, alpha]);
             machine.file.axis().shown(phi)
         });
-        Ok(Row {
+        Ok(OutputRow {
             figures: own.into_iter().chain(positions).collect(),
             kinetic: 0.5 * inertia * omega * omega,
             beyond,

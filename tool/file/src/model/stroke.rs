@@ -10,13 +10,13 @@ use super::mechanism::Inner;
 
 /// A mechanism on a stroke of its drive link, which may be a part of a turn.
 #[derive(Clone, Debug)]
-pub(super) struct OnStroke {
+pub(super) struct StrokeMechanism {
     inner: Arc<dyn Inner>,
     domain: Domain,
     edges: Vec<f64>,
 }
 
-impl OnStroke {
+impl StrokeMechanism {
     /// The mechanism on its whole range.
     pub(super) fn inner(&self) -> &dyn Inner {
         self.inner.as_ref()
@@ -47,7 +47,7 @@ impl OnStroke {
     }
 }
 
-impl Mechanism for OnStroke {
+impl Mechanism for StrokeMechanism {
     fn links(&self) -> &[Link] {
         self.inner.links()
     }
@@ -62,7 +62,7 @@ impl Mechanism for OnStroke {
     }
 }
 
-impl Jointed for OnStroke {
+impl Jointed for StrokeMechanism {
     fn joints(&self, phi: f64, frames: &Frames) -> Result<Joints, PoseError> {
         self.inner.joints(phi, frames)
     }
