@@ -19,7 +19,7 @@ const LEFT: f64 = 0.98;
 
 /// A contact that a motion loses, and limits that keep it.
 #[derive(Clone, Debug)]
-pub struct Broken {
+pub struct ContactLoss {
     /// The contact, where and when.
     pub lost: Lost,
     /// Limits of acceleration and deceleration of the drive link (rad/s², or m/s²) that keep the contact, where the motion exceeds them; `None`: no
@@ -31,7 +31,7 @@ pub struct Broken {
 ///
 /// # Errors
 /// The mechanism cannot be placed somewhere.
-pub fn broken(file: &MachineFile, trace: &Trace) -> Result<Option<Broken>, Error> {
+pub fn broken(file: &MachineFile, trace: &Trace) -> Result<Option<ContactLoss>, Error> {
     let nodes = trace.nodes();
     if nodes.len() < 2 || OneWay::all(file.machine.mechanism()).is_empty() {
         return Ok(None);
@@ -40,7 +40,7 @@ pub fn broken(file: &MachineFile, trace: &Trace) -> Result<Option<Broken>, Error
         return Ok(None);
     };
     let limits = limits(file, trace)?;
-    Ok(Some(Broken { lost, limits }))
+    Ok(Some(ContactLoss { lost, limits }))
 }
 
 /// The largest acceleration and deceleration that keep all contacts at the places and speeds of a motion, also at rest. Only kinds that the motion

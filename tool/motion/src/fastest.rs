@@ -40,17 +40,17 @@ use jred::machine::Reducible as _;
 use jred_file::model::machine::MachineFile;
 
 use crate::trace::Trace;
-use crate::way::{Actuator, Way};
-use course::{CELLS, Course, SWEEP_EXCESS};
+use crate::way::{Actuator, PathDynamics};
+use course::{CELLS, PathSearch, SWEEP_EXCESS};
 use field::Field;
-pub use field::{Binding, Limits, Reserve};
+pub use field::{Binding, MoveLimits, Reserve};
 pub use joint_force::JointForces;
 pub use kept::KeptPart;
 pub use obstacle::NoMotion;
 pub use phases::Phase;
-pub use programme::{Price, Start, Warm};
+pub use programme::{Price, Start, WarmStart};
 pub use rms::Rms;
-pub use slowed::Slowing;
+pub use slowed::SettableLimit;
 pub use tool_speed::{ToolSpeed, ToolSpeeds};
 use track::Ends;
 
@@ -67,7 +67,7 @@ pub struct Task {
     /// Speeds at the start and at the end, in the direction of the move (rad/s, or m/s); 0: at rest.
     pub speeds: [f64; 2],
     /// Limits besides those of the motor.
-    pub limits: Limits,
+    pub limits: MoveLimits,
     /// Whether the move repeats endlessly: its end is its start, with a speed to be found; `speeds` are ignored.
     pub endless: bool,
 }
@@ -116,7 +116,7 @@ pub fn priced(
     task: &Task,
     price: Price,
     start: Start,
-) -> Result<(Fastest, Warm), NoMotion> {
+) -> Result<(Fastest, WarmStart), NoMotion> {
     if task.limits.forces.is_some() {
         return Err(NoMotion::JointForceAlone);
     }
@@ -137,7 +137,7 @@ pub fn priced(
         speeds: task.speeds,
         corners: corners::corners(&field, task.from, length)?,
     };
-    let asked = programme::Asked {
+    let asked = programme::MoveRequest {
         field: &field,
         ends: &ends,
         bound: bound.time,
@@ -192,11 +192,15 @@ fn refine(
 ) -> Result<Fastest, NoMotion> {
     let way = way(file, actuator, task)?;
     let limits = task.limits;
-    Course::new(&Field { way: &way, limits }, task)?.fastest(task.speeds, within)
+    PathSearch::new(&Field { way: &way, limits }, task)?.fastest(task.speeds, within)
 }
 
 /// The path of a task, if its ends are valid.
-fn way<'a>(file: &'a MachineFile, actuator: &Actuator, task: &Task) -> Result<Way<'a>, NoMotion> {
+fn way<'a>(
+    file: &'a MachineFile,
+    actuator: &Actuator,
+    task: &Task,
+) -> Result<PathDynamics<'a>, NoMotion> {
     let length = task.to - task.from;
     let numbers = [task.from, task.to, task.speeds[0], task.speeds[1]];
     if length == 0.0 || !numbers.iter().all(|x| x.is_finite()) {
@@ -210,7 +214,7 @@ fn way<'a>(file: &'a MachineFile, actuator: &Actuator, task: &Task) -> Result<Wa
     if back < 0.0 {
         return Err(NoMotion::SelfLocking);
     }
-    Ok(Way::new(file, actuator.clone(), length.signum()))
+    Ok(PathDynamics::new(file, actuator.clone(), length.signum()))
 }
 
 /// The least number of cells for a path of many turns. The cells must resolve changes within a turn, and corners are borders of cells.

@@ -22,9 +22,9 @@ use std::rc::Rc;
 use jred::error::Error;
 use jred_file::model::motion::Phase;
 
-use self::outcome::Waits;
-use self::task::{Task, edges};
-use crate::way::Way;
+use self::outcome::Wait;
+use self::task::{EffortTask, edges};
+use crate::way::PathDynamics;
 pub use crate::way::without_drive;
 
 mod bound;
@@ -76,15 +76,15 @@ pub struct Travel {
 
 /// The form of the ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Ends {
+struct EndConditions {
     rest: [bool; 2],
     ramp: f64,
     ring: bool,
 }
 
 impl Travel {
-    fn ends(&self) -> Ends {
-        Ends {
+    fn ends(&self) -> EndConditions {
+        EndConditions {
             rest: self.speeds.map(|speed| speed == 0.0 && !self.ring),
             ramp: if self.ring || self.ramp == 0.0 {
                 0.0
@@ -143,7 +143,7 @@ pub enum Reason {
 
 /// The gentlest motion of a move.
 #[derive(Clone, Debug)]
-pub struct Gentle {
+pub struct LeastEffortMove {
     /// The move.
     pub travel: Travel,
     /// Time in motion (s): less than the duration of the move where waiting costs less than moving slowly.
@@ -170,7 +170,7 @@ pub struct Gentle {
     pub phases: Vec<Phase>,
 }
 
-impl Gentle {
+impl LeastEffortMove {
     /// (cost − bound)/cost.
     pub fn gap(&self) -> Option<f64> {
         let bound = self.bound?;
@@ -198,7 +198,11 @@ pub const GAP: f64 = 1e-4;
 ///
 /// # Errors
 /// See [`Fault`].
-pub fn gentlest(way: &Way, travel: &Travel, objective: Objective) -> Result<Gentle, Fault> {
+pub fn gentlest(
+    way: &PathDynamics,
+    travel: &Travel,
+    objective: Objective,
+) -> Result<LeastEffortMove, Fault> {
     of(way, travel, objective, true)
 }
 
@@ -206,11 +210,20 @@ pub fn gentlest(way: &Way, travel: &Travel, objective: Objective) -> Result<Gent
 ///
 /// # Errors
 /// See [`Fault`].
-pub(crate) fn unproved(way: &Way, travel: &Travel, objective: Objective) -> Result<Gentle, Fault> {
+pub(crate) fn unproved(
+    way: &PathDynamics,
+    travel: &Travel,
+    objective: Objective,
+) -> Result<LeastEffortMove, Fault> {
     of(way, travel, objective, false)
 }
 
-fn of(way: &Way, travel: &Travel, objective: Objective, prove: bool) -> Result<Gentle, Fault> {
+fn of(
+    way: &PathDynamics,
+    travel: &Travel,
+    objective: Objective,
+    prove: bool,
+) -> Result<LeastEffortMove, Fault> {
     let found = from_end_to_end(way, travel, objective, [false, prove]);
     let may_wait = match &found {
         Ok(gentle) => gentle.optimum != Optimum::Global,
@@ -225,11 +238,11 @@ fn of(way: &Way, travel: &Travel, objective: Objective, prove: bool) -> Result<G
 
 /// The gentlest motion that waits only at its ends, where they are at rest, and at one of them in any case if it must. With a lower bound on request.
 fn from_end_to_end(
-    way: &Way,
+    way: &PathDynamics,
     travel: &Travel,
     objective: Objective,
     [must_wait, prove]: [bool; 2],
-) -> Result<Gentle, Fault> {
+) -> Result<LeastEffortMove, Fault> {
     for (what, value) in [
         ("distance", travel.distance.abs()),
         ("duration", travel.duration),
@@ -246,7 +259,7 @@ fn from_end_to_end(
     if !(0.0..=0.25).contains(&travel.ramp) {
         return Err(Fault::Figure("ramp", travel.ramp));
     }
-    let task = Task {
+    let task = EffortTask {
         way,
         travel,
         objective,
@@ -302,6 +315,6 @@ fn from_end_to_end(
         };
         solved = next;
     }
-    let waits = Waits::new(travel.duration - moving, &held);
+    let waits = Wait::new(travel.duration - moving, &held);
     solved.finish(change, &waits, prove)
 }

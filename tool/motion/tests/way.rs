@@ -1,9 +1,9 @@
-//! `Way` against the duty, which counts in the drive link's own direction.
+//! `PathDynamics` against the duty, which counts in the drive link's own direction.
 
 use jred_analysis::checked;
 use jred_analysis::duty::Duty;
 use jred_file::model::machine::MachineFile;
-use jred_motion::way::{Actuator, Way};
+use jred_motion::way::{Actuator, PathDynamics};
 use jred_sizing::catalogue::Catalogue;
 use jred_sizing::motor::envelope::Envelope;
 
@@ -36,7 +36,7 @@ fn behaves_as_the_duty(file: &MachineFile) {
                 continue;
             }
             let direction = instant.omega.signum();
-            let way = Way::new(file, actuator.clone(), direction);
+            let way = PathDynamics::new(file, actuator.clone(), direction);
             let place = way.place(instant.phi).unwrap();
             let speed = instant.omega.abs();
             let acceleration = instant.alpha * direction;

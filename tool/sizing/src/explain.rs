@@ -8,8 +8,8 @@ mod remedy;
 mod seek;
 mod words;
 
-pub use altered::{Alteration, Altered};
+pub use altered::{Alteration, DutyModel};
 pub use breakdown::{Breakdown, InertiaShare, Share};
 pub use contributions::{Contribution, Contributions, Effect};
 pub use course::ratio_course;
-pub use remedy::{Edge, Lever, Miss, Remedies, Remedy};
+pub use remedy::{Edge, Lever, Remedies, Remedy, RuleViolation};

@@ -8,7 +8,7 @@ use crate::catalogue::{Amplifier, Drive, Resistor};
 use crate::cycle::Cycle;
 use crate::cycle::form::Coefficients;
 use crate::judge::check::Check;
-use crate::motor::envelope::Prepared;
+use crate::motor::envelope::MotorLimits;
 use jred_file::model::rule::Rule;
 use jred_file::model::rules::{Finding, RuleSet, Verdict};
 use jred_file::model::site::Site;
@@ -32,7 +32,7 @@ mod voltage;
 
 pub use bits::RuleBits;
 pub use cure::cure;
-pub use judged::Judged;
+pub use judged::Assessment;
 pub(crate) use judged::price;
 pub use outcome::Outcome;
 pub(crate) use screen::Screen;
@@ -98,7 +98,7 @@ pub struct Context<'a> {
     /// The drive.
     pub drive: Drive<'a>,
     /// Limits of its motor at this supply.
-    pub motor: &'a Prepared,
+    pub motor: &'a MotorLimits,
     /// Its ratio.
     pub ratio: f64,
     /// Its motor torque as a linear form.
@@ -109,7 +109,7 @@ pub struct Context<'a> {
 
 impl<'a> Context<'a> {
     /// The context of one drive.
-    pub fn new(cycle: &'a Cycle, site: &'a Site, drive: Drive<'a>, motor: &'a Prepared) -> Self {
+    pub fn new(cycle: &'a Cycle, site: &'a Site, drive: Drive<'a>, motor: &'a MotorLimits) -> Self {
         Self {
             cycle,
             site,

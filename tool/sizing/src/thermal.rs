@@ -24,12 +24,12 @@ use std::fmt::Display;
 use crate::catalogue::Motor;
 use crate::cycle::Cycle;
 use crate::cycle::form::Coefficients;
-use crate::motor::envelope::Prepared;
+use crate::motor::envelope::MotorLimits;
 use crate::motor::winding::{COPPER, REFERENCE_TEMPERATURE};
 use jred_analysis::duty::Panel;
 use jred_file::units::{Sentence, Vocabulary};
 
-use course::{Course, Hottest, MOST_PARTS, PART, Piece, Point};
+use course::{LossCurve, LossPiece, LossSample, MOST_PARTS, PART, PeakRise};
 use jred_file::model::operation::Operation;
 use jred_file::model::surroundings::Surroundings;
 use network::{Losses, Network};
@@ -81,14 +81,14 @@ pub struct Load<'a> {
     /// Its motor.
     pub motor: &'a Motor,
     /// Limits of the motor.
-    pub prepared: &'a Prepared,
+    pub prepared: &'a MotorLimits,
 }
 
 /// Result of a model.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Heating {
     /// The hottest rises; in K, or as shares of the rated rise.
-    pub hottest: Hottest,
+    pub hottest: PeakRise,
     /// Whether they are shares of the rated rise.
     pub relative: bool,
     /// Whether the housing's rise was computed.
@@ -101,7 +101,7 @@ impl Heating {
     /// The basis of the temperatures, if some data for the models are missing; `torque` is the word for the motor's effort.
     pub fn notes(&self, torque: impl Display) -> Vec<String> {
         let mut notes = Vec::new();
-        if self.hottest == Hottest::Runaway {
+        if self.hottest == PeakRise::Runaway {
             notes.push("thermal runaway: copper losses rise faster with temperature than the heat flow to the surroundings".to_owned());
         }
         if self.relative {
@@ -130,7 +130,7 @@ impl Model {
     /// The missing data, as a message.
     pub fn of(
         motor: &Motor,
-        prepared: &Prepared,
+        prepared: &MotorLimits,
         surroundings: &Surroundings,
         cycle_time: f64,
     ) -> Result<Self, Sentence> {
@@ -197,7 +197,7 @@ impl Model {
 
     /// The losses over a cycle: at every instant the torque's copper loss and the motor's friction, or shares of the rated
     /// losses.
-    pub fn course(&self, load: &Load) -> Course {
+    pub fn course(&self, load: &Load) -> LossCurve {
         let Load {
             cycle,
             coefficients,
@@ -221,25 +221,25 @@ impl Model {
             pieces.extend(pieces_of(panel, &known, &between, parts));
         });
         if is_known {
-            return Course::of_pieces(pieces, cycle.duration());
+            return LossCurve::of_pieces(pieces, cycle.duration());
         }
-        let points: Vec<Point> = (cycle.samples().iter())
+        let points: Vec<LossSample> = (cycle.samples().iter())
             .map(|sample| {
                 let torque = coefficients.torque(&sample.loads());
                 at(sample.t, [torque, sample.speed() * ratio])
             })
             .collect();
-        Course::new(&points, cycle.duration())
+        LossCurve::new(&points, cycle.duration())
     }
 
     /// The losses of a motor at a time (s), a torque (N·m) and a speed of its own (rad/s).
     pub fn point(
         &self,
         motor: &Motor,
-        prepared: &Prepared,
+        prepared: &MotorLimits,
         t: f64,
         [torque, signed]: [f64; 2],
-    ) -> Point {
+    ) -> LossSample {
         let [coulomb, viscous] = motor.friction;
         let speed = signed.abs();
         let other = match self {
@@ -249,7 +249,7 @@ impl Model {
                 (1.0 - s1 * s1).max(0.0)
             }
         };
-        Point {
+        LossSample {
             t,
             root: self.root(prepared, torque, signed),
             other,
@@ -266,7 +266,7 @@ impl Model {
     }
 
     /// Root of the copper loss (√W), or of its share of the rated one, with the sign of the torque.
-    fn root(&self, prepared: &Prepared, torque: f64, speed: f64) -> f64 {
+    fn root(&self, prepared: &MotorLimits, torque: f64, speed: f64) -> f64 {
         match self {
             Self::Bodies { copper, .. } | Self::Steady { copper, .. } => {
                 let current = prepared.current(torque, speed).unwrap_or(0.0);
@@ -277,7 +277,7 @@ impl Model {
     }
 
     /// The losses while the motor holds the machine at rest with `torque` (N·m); zero: without current.
-    pub fn at_rest(&self, prepared: &Prepared, torque: f64) -> Losses {
+    pub fn at_rest(&self, prepared: &MotorLimits, torque: f64) -> Losses {
         let root = self.root(prepared, torque, 0.0);
         Losses {
             copper: root * root,
@@ -305,7 +305,7 @@ impl Model {
     /// The missing data, as a message.
     pub fn heated(
         &self,
-        course: impl Fn() -> Course,
+        course: impl Fn() -> LossCurve,
         mean: impl Fn() -> Losses,
         operation: &Operation,
         rest: Losses,
@@ -321,8 +321,8 @@ impl Model {
         };
         let hottest = |network: &Network| course().hottest(network, operation, rest);
         let steady = |resistances, growth| match network::steady(resistances, mean(), growth) {
-            Some(rise) => Hottest::Rise(rise),
-            None => Hottest::Runaway,
+            Some(rise) => PeakRise::Rise(rise),
+            None => PeakRise::Runaway,
         };
         let (hottest, ripple) = match *self {
             Self::Bodies {
@@ -375,7 +375,7 @@ fn pieces_of(
     known: &[[f64; 2]],
     between: &impl Fn(f64) -> [f64; 2],
     parts: f64,
-) -> Vec<Piece> {
+) -> Vec<LossPiece> {
     let rule = panel.rule();
     let values = |which: usize| -> Vec<f64> { known.iter().map(|losses| losses[which]).collect() };
     let estimates = [0, 1].map(|which| rule.estimate(&values(which)));
@@ -407,7 +407,7 @@ fn pieces_of(
             })
         };
         let time = panel.half() * (b - a);
-        pieces.push(Piece::of_moments(time, moments(0), moments(1)));
+        pieces.push(LossPiece::of_moments(time, moments(0), moments(1)));
         k += 1.0;
     }
     pieces

@@ -3,7 +3,7 @@
 use miette::{Result, miette};
 
 use crate::commands::core_error::core_report;
-use crate::options::plan::{Form, PlanFile};
+use crate::options::plan::{PlanFile, PlanFormat};
 use crate::output::{self, Files};
 use jred::machine::Reducible as _;
 use jred_export::{plan_c_source, plan_source};
@@ -38,13 +38,13 @@ pub(super) fn write(
     }
     let says = list::plan::text(&plan, trace);
     let title = format!("{}: {says}", file.title);
-    let bytes = match Form::of(path) {
-        Some(Form::Rust) => plan_source(&title, machine, &plan.words).into_bytes(),
-        Some(Form::C) => {
+    let bytes = match PlanFormat::of(path) {
+        Some(PlanFormat::Rust) => plan_source(&title, machine, &plan.words).into_bytes(),
+        Some(PlanFormat::C) => {
             let name = path.file_name().unwrap_or_default().to_string_lossy();
             plan_c_source(&title, &name, machine, &plan.words).into_bytes()
         }
-        Some(Form::Image) | None => plan.bytes(),
+        Some(PlanFormat::Image) | None => plan.bytes(),
     };
     files.add(path, &bytes)?;
     Ok(Some(format!(

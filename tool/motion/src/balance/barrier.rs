@@ -30,7 +30,7 @@ pub(super) enum Bound {
 
 /// The problem.
 #[derive(Clone, Debug)]
-pub(super) struct Problem {
+pub(super) struct QuadraticProgram {
     /// H, row by row.
     pub(super) curvature: Vec<Vec<f64>>,
     /// g.
@@ -68,7 +68,7 @@ impl Bound {
     }
 }
 
-impl Problem {
+impl QuadraticProgram {
     /// f.
     pub(super) fn value(&self, x: &[f64]) -> f64 {
         let rows = self.curvature.iter().zip(x).zip(&self.slope);
@@ -171,7 +171,7 @@ impl Problem {
 
 #[cfg(test)]
 mod tests {
-    use super::{Bound, Problem};
+    use super::{Bound, QuadraticProgram};
 
     /// The point of a disc of radius 1 nearest to (3, 4): a cone with two unknowns fixed at 1.
     #[test]
@@ -184,7 +184,7 @@ mod tests {
             Bound::Linear(1.0, vec![(0, 1.0)]),
             Bound::Linear(1.0, vec![(3, 1.0)]),
         ];
-        let problem = Problem {
+        let problem = QuadraticProgram {
             curvature,
             slope: vec![0.0, -6.0, -8.0, 0.0],
             bounds,
@@ -206,7 +206,7 @@ mod tests {
             Bound::Linear(-2.0, vec![(0, -1.0), (1, -2.0)]),
             Bound::Linear(-2.0, vec![(0, -2.0), (1, -1.0)]),
         ];
-        let problem = Problem {
+        let problem = QuadraticProgram {
             curvature: vec![vec![0.0; 2]; 2],
             slope: vec![1.0; 2],
             bounds,

@@ -3,7 +3,7 @@
 //! The torque is piecewise linear in the load R at the drive link. It bends where the power at a stage changes direction. Newton's method needs a
 //! second derivative there, so the torque is averaged over R ± r, which makes each bend a parabola.
 
-use crate::way::{Demand, Place, Way};
+use crate::way::{Demand, PathDynamics, Place};
 
 /// The torque for a place, a speed and an acceleration.
 #[derive(Clone, Copy, Debug, Default)]
@@ -28,7 +28,7 @@ const MOST_BENDS: u32 = 8;
 
 impl Torque {
     /// Without rounding.
-    pub(crate) fn exact(way: &Way, place: &Place, speed: f64, acceleration: f64) -> Self {
+    pub(crate) fn exact(way: &PathDynamics, place: &Place, speed: f64, acceleration: f64) -> Self {
         Self::of(place, acceleration, |place| {
             way.demand(place, speed, acceleration)
         })
@@ -63,7 +63,7 @@ impl Torque {
 
     /// Averaged over the loads R ± `range`.
     pub(crate) fn rounded(
-        way: &Way,
+        way: &PathDynamics,
         place: &Place,
         [speed, acceleration]: [f64; 2],
         range: f64,

@@ -4,7 +4,7 @@ use jred::machine::motion::State;
 
 use super::NoMotion;
 use super::field::Field;
-use super::sweep::Piece;
+use super::sweep::SweepPiece;
 use super::track::{Ends, Survey, Track};
 use crate::trace::{Node, Trace};
 
@@ -57,7 +57,7 @@ fn felt(a: &Node, b: &Node, share: f64, roundings: f64) -> State<f64> {
 const MADE: f64 = 64.0;
 
 /// Where the limits leave no acceleration on a motion.
-pub(super) struct Closed {
+pub(super) struct BlockedMotion {
     /// The first such place, as an error.
     pub(super) why: NoMotion,
     /// Distances at which cells must be split so that the machine is known better there.
@@ -93,14 +93,14 @@ pub(super) fn check(
     field: &Field,
     ends: &Ends,
     track: &Track,
-    pieces: &[Piece],
-) -> Result<(), Box<Closed>> {
+    pieces: &[SweepPiece],
+) -> Result<(), Box<BlockedMotion>> {
     if !field.may_be_empty() {
         return Ok(());
     }
     let forces = field.limits.forces.is_some();
-    let mut closed: Option<Closed> = None;
-    for Piece { cell, step, .. } in pieces {
+    let mut closed: Option<BlockedMotion> = None;
+    for SweepPiece { cell, step, .. } in pieces {
         let cell = &track.cells[*cell];
         for end in [0, 1] {
             let (place, z) = (cell.spot(step.u[end]), step.z[end]);
@@ -114,7 +114,7 @@ pub(super) fn check(
             if low <= high + known {
                 continue;
             }
-            let found = closed.get_or_insert_with(|| Closed {
+            let found = closed.get_or_insert_with(|| BlockedMotion {
                 why: NoMotion::empty(field, &place, z),
                 places: Vec::new(),
             });
@@ -135,7 +135,7 @@ pub(super) fn check(
 pub(super) fn largest_excess(
     survey: &Survey,
     ends: &Ends,
-    (track, pieces): (&Track, &[Piece]),
+    (track, pieces): (&Track, &[SweepPiece]),
     trace: &Trace,
     within: f64,
 ) -> Result<((f64, f64), Vec<f64>), NoMotion> {

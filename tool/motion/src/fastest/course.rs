@@ -3,11 +3,11 @@
 use std::cell::Cell;
 
 use crate::trace::{Node, Trace};
-use crate::way::Way;
+use crate::way::PathDynamics;
 
 use super::field::{Field, speed};
 use super::leg::Step;
-use super::sweep::{self, Obstacle, Piece};
+use super::sweep::{self, Obstacle, SweepPiece};
 use super::track::{Ends, Survey, Track};
 use super::{
     Fastest, NoMotion, Task, between, corners, joint_force, least_cells, phases, slivers, slowed,
@@ -39,7 +39,7 @@ const MOST_CHANGE: f64 = 1e-6;
 const ENOUGH: usize = 4096;
 
 /// A path with its limits, for motions with different end speeds.
-pub(super) struct Course<'f, 'w, 'a> {
+pub(super) struct PathSearch<'f, 'w, 'a> {
     survey: Survey<'f, 'w, 'a>,
     from: f64,
     length: f64,
@@ -48,7 +48,7 @@ pub(super) struct Course<'f, 'w, 'a> {
     first: Cell<usize>,
 }
 
-impl<'f, 'w, 'a> Course<'f, 'w, 'a> {
+impl<'f, 'w, 'a> PathSearch<'f, 'w, 'a> {
     /// The path of a task.
     ///
     /// # Errors
@@ -161,7 +161,7 @@ impl<'f, 'w, 'a> Course<'f, 'w, 'a> {
 /// The motion of a round.
 struct Round {
     track: Track,
-    pieces: Vec<Piece>,
+    pieces: Vec<SweepPiece>,
     times: Vec<f64>,
     trace: Trace,
     time: f64,
@@ -223,10 +223,16 @@ impl Round {
 }
 
 /// The motion over time.
-fn trace(way: &Way, ends: &Ends, track: &Track, pieces: &[Piece], times: &[f64]) -> Trace {
+fn trace(
+    way: &PathDynamics,
+    ends: &Ends,
+    track: &Track,
+    pieces: &[SweepPiece],
+    times: &[f64],
+) -> Trace {
     let mut nodes: Vec<Node> = Vec::with_capacity(pieces.len() + 1);
     let mut t = 0.0;
-    let mut push = |t: f64, step: f64, piece: &Piece, end: usize| {
+    let mut push = |t: f64, step: f64, piece: &SweepPiece, end: usize| {
         let Step { u, z, a, .. } = &piece.step;
         let cell = &track.cells[piece.cell];
         let alpha = a[end] * way.direction;

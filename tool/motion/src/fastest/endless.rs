@@ -5,7 +5,7 @@
 
 use jred_file::model::machine::MachineFile;
 
-use super::course::Course;
+use super::course::PathSearch;
 use super::field::Field;
 use super::{Fastest, NoMotion, Task, way};
 use crate::trace::Trace;
@@ -38,7 +38,7 @@ pub(super) fn solve(
     if !top.is_finite() {
         return Err(NoMotion::NoSpeedLimit);
     }
-    let course = Course::new(&field, task)?;
+    let course = PathSearch::new(&field, task)?;
     let at = |speed: f64, within: f64| course.fastest([speed; 2], within);
     // Bracket: at `high` the speed is too fast to repeat; at `low` it repeats, or the machine stops.
     let (mut high, mut low) = (top, 0.0);

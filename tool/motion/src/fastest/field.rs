@@ -10,12 +10,12 @@ use super::joint_force::{JointForces, Spot};
 pub use super::reserve::Reserve;
 use super::sweep::Side;
 use super::tool_speed::ToolSpeeds;
-use super::track::Seen;
-use crate::way::{Place, Way};
+use super::track::PathPoint;
+use crate::way::{PathDynamics, Place};
 
 /// Limits in addition to the motor's torque-speed curve (SI, at the drive link unless noted); `None`: no limit.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Limits {
+pub struct MoveLimits {
     /// Largest speed (rad/s, or m/s).
     pub speed: Option<f64>,
     /// Largest speeds of the tool in parts of the path.
@@ -40,7 +40,7 @@ pub struct Limits {
     pub reserve: Reserve,
 }
 
-impl Limits {
+impl MoveLimits {
     /// Whether jerk or torque rate is limited.
     pub const fn has_rates(&self) -> bool {
         self.jerk.is_some() || self.torque_rate.is_some()
@@ -142,9 +142,9 @@ impl Binding {
 #[derive(Clone, Debug)]
 pub struct Field<'w, 'a> {
     /// Machine and drive.
-    pub way: &'w Way<'a>,
+    pub way: &'w PathDynamics<'a>,
     /// The other limits.
-    pub limits: Limits,
+    pub limits: MoveLimits,
 }
 
 /// The speed at z = ½·v².
@@ -155,7 +155,7 @@ pub fn speed(z: f64) -> f64 {
 impl Field<'_, '_> {
     /// Whether limits may leave no acceleration at a place and speed: limits of different kinds can conflict.
     pub fn may_be_empty(&self) -> bool {
-        let Limits {
+        let MoveLimits {
             acceleration,
             deceleration,
             gearbox_torque,
@@ -298,7 +298,7 @@ impl Field<'_, '_> {
 
     /// The largest share by which a state (speed and acceleration along the path) exceeds a limit, and which limit; negative if it exceeds none.
     /// Torques are measured by the motor's torque at rest, because the limit itself may be zero.
-    pub fn excess_by(&self, seen: &Seen, v: f64, acceleration: f64) -> (f64, Binding) {
+    pub fn excess_by(&self, seen: &PathPoint, v: f64, acceleration: f64) -> (f64, Binding) {
         let way = self.way;
         let place = &seen.place;
         let limits = self.motor_torques(v);
@@ -315,7 +315,7 @@ impl Field<'_, '_> {
             }),
             gearbox,
         );
-        let Limits {
+        let MoveLimits {
             acceleration: most,
             deceleration,
             ..

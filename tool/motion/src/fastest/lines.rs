@@ -1,6 +1,6 @@
 //! A torque-speed curve as the lower envelope of straight lines, each a smooth limit.
 
-use jred_sizing::motor::envelope::{Curve, Piece};
+use jred_sizing::motor::envelope::{LimitPiece, TorqueCurve};
 
 use super::field::Field;
 
@@ -15,8 +15,8 @@ impl Field<'_, '_> {
         let reserve = &self.limits.reserve;
         let (left, per_speed) = (reserve.leaves(reserve.torque), self.way.motor_speed(1.0));
         let lines = pieces.iter().map(|piece| match piece.curve {
-            Curve::Line { start, slope } => Some([start - slope * piece.from, slope]),
-            Curve::Winding { .. } => None,
+            TorqueCurve::Line { start, slope } => Some([start - slope * piece.from, slope]),
+            TorqueCurve::Winding { .. } => None,
         });
         let lines: Vec<[f64; 2]> = lines.collect::<Option<_>>()?;
         let scale = pieces.first()?.torque(0.0);
@@ -24,7 +24,7 @@ impl Field<'_, '_> {
             let each = lines.iter().map(|[torque, slope]| torque + slope * speed);
             each.fold(f64::INFINITY, f64::min)
         };
-        let is_lowest = |piece: &Piece| {
+        let is_lowest = |piece: &LimitPiece| {
             [piece.from, piece.to.min(self.motor_end())]
                 .iter()
                 .all(|speed| (piece.torque(*speed) - lowest(*speed)).abs() <= CONCAVE * scale)

@@ -10,7 +10,7 @@ use jred_file::number::quadrature::GAUSS_2;
 
 use super::field::Reserve;
 use crate::trace::{Node, Trace};
-use crate::way::{Actuator, BothWays};
+use crate::way::{Actuator, BothDirections};
 
 /// The load of a motor in a motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -41,7 +41,7 @@ pub(super) fn load(
     trace: &Trace,
     reserve: &Reserve,
 ) -> Result<MotorLoad, Error> {
-    let ways = BothWays::new(file, actuator);
+    let ways = BothDirections::new(file, actuator);
     let forwards = ways.forwards();
     let (mut squares, mut turns) = (0.0, 0.0);
     let mut peaks = [0.0_f64; 2];

@@ -5,7 +5,7 @@ use std::convert::Infallible;
 use jred_file::number::numerics::edge;
 
 use super::field::{Binding, Field, speed};
-use super::sweep::{Along, Piece};
+use super::sweep::{SweepCurve, SweepPiece};
 use super::track::{Ends, Track};
 
 /// A part of the motion that follows one limit.
@@ -38,7 +38,7 @@ pub(super) fn phases(
     field: &Field,
     ends: &Ends,
     track: &Track,
-    pieces: &[Piece],
+    pieces: &[SweepPiece],
     times: &[f64],
 ) -> Vec<Phase> {
     let mut phases: Vec<Phase> = Vec::new();
@@ -52,12 +52,12 @@ pub(super) fn phases(
         let binding = |s: f64| {
             let place = cell.spot(step.u[0] + s * width);
             match piece.along {
-                Along::Side(side) => field.side_by(side, &place, z(s)).1,
-                Along::Cap if tool_limits(field, place.phi, z(s)) => Binding::ToolSpeed,
-                Along::Cap if cell.caps[1] < 0.5 * field.top().0.powi(2) => {
+                SweepCurve::Side(side) => field.side_by(side, &place, z(s)).1,
+                SweepCurve::Cap if tool_limits(field, place.phi, z(s)) => Binding::ToolSpeed,
+                SweepCurve::Cap if cell.caps[1] < 0.5 * field.top().0.powi(2) => {
                     field.most_by(&place, z(s)).1
                 }
-                Along::Cap => top,
+                SweepCurve::Cap => top,
             }
         };
         // Inside the step, because two limits may be equal at its ends.

@@ -17,10 +17,10 @@ use jred_sizing::catalogue::Drive;
 use jred_sizing::judge::Context;
 use jred_sizing::judge::Findings;
 use jred_sizing::judge::check::Check;
-use jred_sizing::motor::envelope::Prepared;
+use jred_sizing::motor::envelope::MotorLimits;
 
 use super::cycle::Cycle;
-use super::field::Limits;
+use super::field::MoveLimits;
 use super::{NoMotion, Rms};
 use crate::trace::Trace;
 
@@ -93,7 +93,7 @@ impl Caps {
     }
 
     /// The limits with the caps applied.
-    fn on(&self, limits: &Limits) -> Limits {
+    fn on(&self, limits: &MoveLimits) -> MoveLimits {
         let least = |limit: Option<f64>, cap: f64| {
             let both = limit.map_or(cap, |limit| limit.min(cap));
             Some(both).filter(|limit| limit.is_finite())
@@ -122,7 +122,7 @@ impl Caps {
 pub struct Judge<'a> {
     file: &'a MachineFile,
     drive: Drive<'a>,
-    prepared: Prepared,
+    prepared: MotorLimits,
     sampling: Sampling,
 }
 
@@ -132,7 +132,7 @@ impl<'a> Judge<'a> {
         Self {
             file,
             drive,
-            prepared: Prepared::new(drive.motor, drive.amplifier, &file.site),
+            prepared: MotorLimits::new(drive.motor, drive.amplifier, &file.site),
             sampling,
         }
     }
@@ -179,7 +179,7 @@ impl<'a> Judge<'a> {
 
 /// The judgement of a motion, and the lowered caps.
 #[derive(Clone, Debug)]
-pub struct Judged {
+pub struct Judgement {
     /// All rules.
     pub checks: Vec<Check>,
     /// The rules that the search tries to satisfy.
@@ -188,7 +188,7 @@ pub struct Judged {
     pub caps: Vec<(Cap, f64)>,
 }
 
-impl Judged {
+impl Judgement {
     /// Rules of the search that are satisfied.
     pub fn kept(&self) -> impl Iterator<Item = &Check> {
         let sought = |check: &&Check| self.sought.contains(&check.id);
@@ -204,10 +204,10 @@ impl Judged {
 }
 
 /// Why there is no motion, with the index of the move.
-type Refused = (Option<usize>, NoMotion);
+type Refusal = (Option<usize>, NoMotion);
 
 /// A motion that was tried, with its accompanying result.
-struct Tried<W> {
+struct RuleTrial<W> {
     caps: Caps,
     cycle: Cycle,
     with: W,
@@ -215,7 +215,7 @@ struct Tried<W> {
 }
 
 /// The value in the motion of a quantity that a cap limits: a higher cap has no effect.
-fn has<W>(tried: &Tried<W>, cap: Cap) -> f64 {
+fn has<W>(tried: &RuleTrial<W>, cap: Cap) -> f64 {
     let value = |rule| tried.findings.get(rule).map_or(f64::INFINITY, |f| f.value);
     let own = match cap {
         Cap::MotorTorque => 1.0,
@@ -229,21 +229,21 @@ fn has<W>(tried: &Tried<W>, cap: Cap) -> f64 {
 /// The search for the fastest motion that the rules accept.
 struct Search<'s, W> {
     judge: &'s Judge<'s>,
-    limits: &'s Limits,
+    limits: &'s MoveLimits,
     rms: Option<Rms>,
     /// Whether the motor's heat is limited by rules.
     heat: bool,
-    make: &'s Make<'s, W>,
+    make: &'s MotionSource<'s, W>,
 }
 
 /// Makes the motion for some limits, with an accompanying result.
-type Make<'s, W> = dyn Fn(&Limits, Option<Rms>) -> Result<(Cycle, W), Refused> + 's;
+type MotionSource<'s, W> = dyn Fn(&MoveLimits, Option<Rms>) -> Result<(Cycle, W), Refusal> + 's;
 
 impl<W> Search<'_, W> {
-    fn at(&self, caps: Caps) -> Result<Tried<W>, Refused> {
+    fn at(&self, caps: Caps) -> Result<RuleTrial<W>, Refusal> {
         let (cycle, with) = (self.make)(&caps.on(self.limits), caps.rms(self.rms))?;
         let findings = self.judge.findings(&cycle.trace);
-        Ok(Tried {
+        Ok(RuleTrial {
             findings: findings.map_err(|error| (None, error.into()))?,
             caps,
             cycle,
@@ -251,20 +251,20 @@ impl<W> Search<'_, W> {
         })
     }
 
-    fn used(&self, tried: &Tried<W>, cap: Cap) -> f64 {
+    fn used(&self, tried: &RuleTrial<W>, cap: Cap) -> f64 {
         self.judge.used(&tried.findings, cap, self.heat)
     }
 
-    fn keeps_all(&self, tried: &Tried<W>, but: &[Cap]) -> bool {
+    fn keeps_all(&self, tried: &RuleTrial<W>, but: &[Cap]) -> bool {
         let sought = Cap::ALL.iter().filter(|cap| !but.contains(cap));
         sought.into_iter().all(|cap| self.used(tried, *cap) <= 1.0)
     }
 
     /// Lowers a cap until its rules are satisfied; `None` if lowering it does not satisfy them.
-    fn lowered(&self, cap: Cap, from: &Tried<W>) -> Option<Tried<W>> {
+    fn lowered(&self, cap: Cap, from: &RuleTrial<W>) -> Option<RuleTrial<W>> {
         // Cap and its use: too high, and low enough.
         let mut high = [has(from, cap), self.used(from, cap)];
-        let mut low: Option<([f64; 2], Tried<W>)> = None;
+        let mut low: Option<([f64; 2], RuleTrial<W>)> = None;
         // Largest value without a motion.
         let mut least = 0.0_f64;
         for round in 0..TRIES {
@@ -303,7 +303,7 @@ impl<W> Search<'_, W> {
     }
 
     /// Raises a cap that became too low when another one was lowered, as far as all rules stay satisfied.
-    fn raised(&self, cap: Cap, from: Tried<W>, but: &[Cap]) -> Tried<W> {
+    fn raised(&self, cap: Cap, from: RuleTrial<W>, but: &[Cap]) -> RuleTrial<W> {
         let mut best = from;
         for _ in 0..TRIES / 2 {
             let used = self.used(&best, cap);
@@ -330,7 +330,7 @@ impl<W> Search<'_, W> {
     }
 
     /// Lowers caps until all rules that can be satisfied are; caps that cannot are added to `lost`.
-    fn settled(&self, from: Tried<W>, lost: &mut Vec<Cap>) -> Tried<W> {
+    fn settled(&self, from: RuleTrial<W>, lost: &mut Vec<Cap>) -> RuleTrial<W> {
         let mut now = from;
         for _ in 0..ROUNDS {
             let mut changed = false;
@@ -364,16 +364,16 @@ fn between(low: [f64; 2], high: [f64; 2]) -> f64 {
 /// The fastest motion within `limits` and a limit of the RMS torque that the rules of a drive accept, with its accompanying result.
 ///
 /// `heat`: the rules of the motor's heat must be satisfied too. `make` makes the fastest motion within limits. Rules that no slower motion satisfies
-/// stay violated: see [`Judged::violated`].
+/// stay violated: see [`Judgement::violated`].
 ///
 /// # Errors
 /// Those of `make`.
 pub fn ruled<W>(
     judge: &Judge<'_>,
-    (limits, rms): (&Limits, Option<Rms>),
+    (limits, rms): (&MoveLimits, Option<Rms>),
     heat: bool,
-    make: impl Fn(&Limits, Option<Rms>) -> Result<(Cycle, W), Refused>,
-) -> Result<(Cycle, W, Judged), Refused> {
+    make: impl Fn(&MoveLimits, Option<Rms>) -> Result<(Cycle, W), Refusal>,
+) -> Result<(Cycle, W, Judgement), Refusal> {
     let search = |rms, heat| Search {
         judge,
         limits,
@@ -402,7 +402,7 @@ pub fn ruled<W>(
         let value = found.caps.get(cap);
         value.is_finite().then_some((cap, value))
     });
-    let judged = Judged {
+    let judged = Judgement {
         sought: sought.collect(),
         caps: capped.collect(),
         checks,

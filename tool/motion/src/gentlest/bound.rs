@@ -184,7 +184,7 @@ fn with(
             let [w, change] = mesh.pace(&found.x, &mesh.stations[station]);
             let root = w.sqrt();
             let [p, p1] = p[station];
-            let line = Line {
+            let line = StationBound {
                 p: p - c / (2.0 * root),
                 p1: p1 - c1 / (2.0 * root) + c * change / (4.0 * w * root),
                 c,
@@ -259,7 +259,7 @@ fn of_rest(problem: &Problem, u: f64) -> Result<f64, Fault> {
 }
 
 /// V and its change at a station.
-struct Line {
+struct StationBound {
     p: f64,
     p1: f64,
     c: f64,
@@ -267,7 +267,7 @@ struct Line {
     multiplier: f64,
 }
 
-impl Line {
+impl StationBound {
     /// The infimum over all w and w′.
     fn least(&self, problem: &Problem, x: &[f64], station: usize) -> f64 {
         let [own, _] = problem.mesh.pace(x, &problem.mesh.stations[station]);

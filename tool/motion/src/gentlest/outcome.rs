@@ -7,18 +7,18 @@ use jred_file::number::quadrature::GAUSS_5;
 use super::cost::Cost;
 use super::mesh::Mesh;
 use super::solve;
-use super::task::{Solved, Stage};
-use super::{Fault, GAP, Gentle, Objective, Optimum, Reason, bound};
+use super::task::{Solution, Stage};
+use super::{Fault, GAP, LeastEffortMove, Objective, Optimum, Reason, bound};
 
 /// A wait that costs less than moving slowly.
-pub(super) struct Waits {
+pub(super) struct Wait {
     duration: f64,
     at_end: bool,
     /// Holding torque there (N·m).
     torque: f64,
 }
 
-impl Waits {
+impl Wait {
     pub(super) fn new(duration: f64, held: &[f64; 2]) -> Self {
         let at_end = held[1].abs() <= held[0].abs();
         Self {
@@ -34,9 +34,14 @@ impl Waits {
     }
 }
 
-impl Solved<'_> {
+impl Solution<'_> {
     /// The result, with the relative change of the cost at the last mesh, and a lower bound on request.
-    pub(super) fn finish(self, change: f64, waits: &Waits, prove: bool) -> Result<Gentle, Fault> {
+    pub(super) fn finish(
+        self,
+        change: f64,
+        waits: &Wait,
+        prove: bool,
+    ) -> Result<LeastEffortMove, Fault> {
         let Self {
             task,
             moving,
@@ -115,7 +120,7 @@ impl Solved<'_> {
             let place = if waits.at_end { phases.len() } else { 0 };
             phases.insert(place, still);
         }
-        Ok(Gentle {
+        Ok(LeastEffortMove {
             travel: *task.travel,
             moving,
             waits_at: task.travel.start
@@ -147,11 +152,11 @@ const HALVINGS: u32 = 16;
 fn phases(distance: f64, duration: f64, mesh: &Mesh, x: &[f64]) -> Vec<Phase> {
     let mut parts = Vec::with_capacity(mesh.cells.len());
     for &(index, ends) in &mesh.cells {
-        let mut open = vec![(Part::new(mesh, x, index, ends), ends, 0)];
+        let mut open = vec![(MotionSpan::new(mesh, x, index, ends), ends, 0)];
         while let Some((part, [from, to], depth)) = open.pop() {
             let middle = from.midpoint(to);
             let [first, second] = [[from, middle], [middle, to]]
-                .map(|ends| (Part::new(mesh, x, index, ends), ends, depth + 1));
+                .map(|ends| (MotionSpan::new(mesh, x, index, ends), ends, depth + 1));
             if depth < HALVINGS && !part.meets([&first.0, &second.0]) {
                 open.extend([second, first]);
             } else {
@@ -161,7 +166,7 @@ fn phases(distance: f64, duration: f64, mesh: &Mesh, x: &[f64]) -> Vec<Phase> {
     }
     // With smaller parts the integral of the time changes.
     let time: f64 = parts.iter().map(|part| part.time).sum();
-    let phase = |part: &Part| {
+    let phase = |part: &MotionSpan| {
         let [first, last] = part.states.map(|[_, speed, acceleration]| {
             let pace = time / duration;
             End::new(
@@ -180,13 +185,13 @@ fn phases(distance: f64, duration: f64, mesh: &Mesh, x: &[f64]) -> Vec<Phase> {
 }
 
 /// A cell or a part of it: shares of the path and of the time.
-struct Part {
+struct MotionSpan {
     time: f64,
     /// Position, speed and acceleration at both ends.
     states: [[f64; 3]; 2],
 }
 
-impl Part {
+impl MotionSpan {
     fn new(mesh: &Mesh, x: &[f64], cell: usize, [from, to]: [f64; 2]) -> Self {
         let h = to - from;
         let time = GAUSS_5.iter().map(|[z, weight]| {

@@ -1,12 +1,12 @@
 //! Scales of a move: the unit of its numbers, and the load of which a share rounds the bends.
 //!
 //! Both come from a constant pace along the path, w = 1. At a moving end the pace differs; the effort for that change is added. Whether the torque
-//! bends at all depends on the machine: [`Way::bends`].
+//! bends at all depends on the machine: [`PathDynamics::bends`].
 
 use super::mesh::Mesh;
 use super::{Fault, Travel};
 use crate::collocation::torque::Torque;
-use crate::way::Way;
+use crate::way::PathDynamics;
 
 /// Scales of a move in a given time.
 #[derive(Clone, Copy, Debug)]
@@ -22,7 +22,7 @@ impl Scale {
     ///
     /// # Errors
     /// A torque is not finite, or nothing in motion has inertia.
-    pub(super) fn new(way: &Way, travel: &Travel, mesh: &Mesh) -> Result<Self, Fault> {
+    pub(super) fn new(way: &PathDynamics, travel: &Travel, mesh: &Mesh) -> Result<Self, Fault> {
         let change = change(travel);
         let (mut squares, mut load) = (0.0, 0.0f64);
         for station in &mesh.stations {

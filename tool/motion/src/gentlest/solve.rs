@@ -7,7 +7,7 @@ use super::cost::Cost;
 use super::mesh::Mesh;
 use crate::collocation::pieces::{Value, dot, hermite};
 use crate::collocation::torque::Torque;
-use crate::way::{Place, Way};
+use crate::way::{PathDynamics, Place};
 use jred::error::Error;
 
 /// Most steps of Newton's method.
@@ -26,7 +26,7 @@ const MOST_IDLE: u32 = 3;
 /// The problem.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Problem<'a> {
-    pub(super) way: &'a Way<'a>,
+    pub(super) way: &'a PathDynamics<'a>,
     pub(super) mesh: &'a Mesh,
     /// Duration of the move (s).
     pub(super) duration: f64,

@@ -11,7 +11,7 @@ use super::scale::Scale;
 use super::solve::{self, Minimum, Problem};
 use super::{FIRST, Fault, MOST, Objective, PEAK_POWER, Travel};
 use crate::memo::Memo;
-use crate::way::{Place, Way};
+use crate::way::{PathDynamics, Place};
 
 /// Search for the best time: most steps down to times that are too short, the factor of each, the number of evaluations, and halvings after that.
 const LONGEST: u32 = 60;
@@ -43,7 +43,7 @@ const PLAIN: Cost = Cost {
 };
 
 /// Shares of the path, without its ends, at which a load begins or ends or a cam's segments meet.
-pub(super) fn edges(way: &Way, travel: &Travel) -> Vec<f64> {
+pub(super) fn edges(way: &PathDynamics, travel: &Travel) -> Vec<f64> {
     let machine = &way.file.machine;
     let mut shares = Vec::new();
     for edge in (0..).map_while(|k| machine.edge(k)) {
@@ -79,8 +79,8 @@ fn refined(mesh: &Mesh, x: &[f64], finer: &Mesh) -> Vec<f64> {
 
 /// A move with its objective.
 #[derive(Clone)]
-pub(super) struct Task<'a> {
-    pub(super) way: &'a Way<'a>,
+pub(super) struct EffortTask<'a> {
+    pub(super) way: &'a PathDynamics<'a>,
     pub(super) travel: &'a Travel,
     pub(super) objective: Objective,
     pub(super) edges: Vec<f64>,
@@ -106,8 +106,8 @@ impl Stage {
 }
 
 /// A solution on a mesh.
-pub(super) struct Solved<'t> {
-    pub(super) task: &'t Task<'t>,
+pub(super) struct Solution<'t> {
+    pub(super) task: &'t EffortTask<'t>,
     /// s
     pub(super) moving: f64,
     pub(super) scale: Scale,
@@ -125,7 +125,7 @@ pub(super) struct Start {
     x: Vec<f64>,
 }
 
-impl Solved<'_> {
+impl Solution<'_> {
     /// The solution as the start of another search.
     pub(super) fn start(&self) -> Start {
         Start {
@@ -137,7 +137,7 @@ impl Solved<'_> {
     }
 }
 
-impl Task<'_> {
+impl EffortTask<'_> {
     /// Torques (N·m) that hold the machine at rest at both ends, as the duty counts them in a dwell: friction is not deducted. Infinite at a moving
     /// end, where it cannot wait.
     pub(super) fn held(&self) -> Result<[f64; 2], Fault> {
@@ -156,16 +156,16 @@ impl Task<'_> {
     }
 
     /// The motion in the time beyond which waiting is better than moving: one more second of motion costs as much as a second of holding.
-    pub(super) fn shorter(&self, held: &[f64; 2]) -> Result<Solved<'_>, Fault> {
-        let is_short = |solved: &Solved| solved.cost_above_holding(held) <= 0.0;
+    pub(super) fn shorter(&self, held: &[f64; 2]) -> Result<Solution<'_>, Fault> {
+        let is_short = |solved: &Solution| solved.cost_above_holding(held) <= 0.0;
         // Down to times that are too short, where only one motion exists: in a long time the search may be caught in a crawling one.
         let mut time = self.travel.duration;
-        let mut last: Option<Solved> = None;
+        let mut last: Option<Solution> = None;
         let mut shorts = 0;
         for _ in 0..LONGEST {
             time *= STEP;
             // A short one is not a crawling one.
-            let start = last.as_ref().map(Solved::start);
+            let start = last.as_ref().map(Solution::start);
             let solved = self.solve(time, FIRST, start.as_ref())?;
             let short = solved.filter(is_short);
             shorts = if short.is_some() { shorts + 1 } else { 0 };
@@ -253,7 +253,7 @@ impl Task<'_> {
         moving: f64,
         parts: usize,
         from: Option<&Start>,
-    ) -> Result<Option<Solved<'t>>, Fault> {
+    ) -> Result<Option<Solution<'t>>, Fault> {
         let travel = Travel {
             duration: moving,
             ..*self.travel
@@ -301,7 +301,7 @@ impl Task<'_> {
             let converged = false;
             (stage, Minimum { converged, ..found })
         });
-        Ok(kept.or(rough).map(|(stage, found)| Solved {
+        Ok(kept.or(rough).map(|(stage, found)| Solution {
             task: self,
             moving,
             scale,
@@ -365,7 +365,7 @@ impl Task<'_> {
     }
 }
 
-impl Solved<'_> {
+impl Solution<'_> {
     /// Whether it replaces the solution of a coarser mesh.
     pub(super) fn follows(&self, before: &Self) -> bool {
         let peak = |solved: &Self| {

@@ -10,8 +10,8 @@ use jred::machine::motion::{End, Polynomial};
 use jred_file::model::motion::Phase;
 use jred_file::number::numerics::{least, zero};
 
-use super::{Fault, GAP, Gentle, Objective, Optimum, Reason, Travel, from_end_to_end};
-use crate::way::Way;
+use super::{Fault, GAP, LeastEffortMove, Objective, Optimum, Reason, Travel, from_end_to_end};
+use crate::way::PathDynamics;
 
 /// Places at which the holding torque is evaluated.
 const HOLDING_PLACES: u32 = 360;
@@ -33,11 +33,11 @@ const CLOSE: f64 = 1e-15;
 /// # Errors
 /// Those of the given motion, if no other motion is found.
 pub(super) fn on_the_way(
-    way: &Way,
+    way: &PathDynamics,
     travel: &Travel,
     objective: Objective,
-    found: Result<Gentle, Fault>,
-) -> Result<Gentle, Fault> {
+    found: Result<LeastEffortMove, Fault>,
+) -> Result<LeastEffortMove, Fault> {
     let per_square = match objective {
         Objective::Rms => 1.0,
         Objective::Energy { copper } => copper,
@@ -65,7 +65,7 @@ pub(super) fn on_the_way(
 }
 
 /// The motion with a bound of all motions, and its optimum. `of_other` is the optimum of the motion from end to end.
-fn judged(made: Gentle, bound: Option<f64>, of_other: Optimum) -> Gentle {
+fn judged(made: LeastEffortMove, bound: Option<f64>, of_other: Optimum) -> LeastEffortMove {
     // A cost below a bound refutes the bound.
     let bound = bound.filter(|bound| *bound <= made.cost * (1.0 + ROUNDED));
     let proved = bound.is_some_and(|bound| made.cost - bound <= GAP * made.cost);
@@ -74,7 +74,7 @@ fn judged(made: Gentle, bound: Option<f64>, of_other: Optimum) -> Gentle {
         Optimum::Global => Optimum::Local(Reason::LongTime),
         local @ Optimum::Local(_) => local,
     };
-    Gentle {
+    LeastEffortMove {
         bound,
         optimum,
         ..made
@@ -82,7 +82,7 @@ fn judged(made: Gentle, bound: Option<f64>, of_other: Optimum) -> Gentle {
 }
 
 /// Positions of least holding torque, with the torque (N·m): zeros, local minima, and the better end, where there are ends.
-fn places(way: &Way, travel: &Travel) -> Result<Vec<(f64, f64)>, Fault> {
+fn places(way: &PathDynamics, travel: &Travel) -> Result<Vec<(f64, f64)>, Fault> {
     let at = |k: u32| travel.start + travel.distance * f64::from(k) / f64::from(HOLDING_PLACES);
     let torques: Vec<f64> = (0..=HOLDING_PLACES)
         .map(|k| way.holding_at(at(k)))
@@ -145,11 +145,11 @@ fn is(place: f64, other: f64) -> bool {
 
 /// The motion that waits at a place where a second costs this much; `None` where it takes longer than the time of the move.
 fn waiting_at(
-    way: &Way,
+    way: &PathDynamics,
     travel: &Travel,
     objective: Objective,
     (place, rate): (f64, f64),
-) -> Option<Gentle> {
+) -> Option<LeastEffortMove> {
     let end = travel.start + travel.distance;
     // The whole has the bound of all motions; its parts need no bound.
     let part = |ends: [f64; 2], duration: f64, must_wait: bool| {
@@ -196,8 +196,8 @@ fn waiting_at(
         });
     }
     phases.extend_from_slice(moving(&from, (place, near), false)?);
-    let cost = |part: &Gentle| part.cost - rate * (part.travel.duration - part.moving);
-    Some(Gentle {
+    let cost = |part: &LeastEffortMove| part.cost - rate * (part.travel.duration - part.moving);
+    Some(LeastEffortMove {
         travel: *travel,
         moving: travel.duration - rest.max(0.0),
         waits_at: place,
@@ -214,7 +214,12 @@ fn waiting_at(
 }
 
 /// The endlessly turning motion that waits at a place once in its period.
-fn turning_from(way: &Way, travel: &Travel, objective: Objective, place: f64) -> Option<Gentle> {
+fn turning_from(
+    way: &PathDynamics,
+    travel: &Travel,
+    objective: Objective,
+    place: f64,
+) -> Option<LeastEffortMove> {
     let turn = Travel {
         start: place,
         ramp: 0.0,
@@ -224,7 +229,7 @@ fn turning_from(way: &Way, travel: &Travel, objective: Objective, place: f64) ->
     let made = from_end_to_end(way, &turn, objective, [true, false]).ok()?;
     let offset = (travel.start - place) / travel.distance;
     let phases = begun_at(&made.phases, offset.rem_euclid(1.0) * travel.distance)?;
-    Some(Gentle {
+    Some(LeastEffortMove {
         travel: *travel,
         waits_at: place,
         phases,
@@ -277,7 +282,7 @@ fn halves(phase: &Phase, at: f64) -> [Phase; 2] {
 }
 
 /// The motion of a part without the wait at its end, or at its start; `None` if it waits elsewhere.
-fn moving(part: &Gentle, (place, near): (f64, f64), at_end: bool) -> Option<&[Phase]> {
+fn moving(part: &LeastEffortMove, (place, near): (f64, f64), at_end: bool) -> Option<&[Phase]> {
     let phases = part.phases.as_slice();
     if part.moving >= part.travel.duration {
         return Some(phases);

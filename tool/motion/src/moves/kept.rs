@@ -15,7 +15,7 @@ const OFF: f64 = 1e-9;
 
 /// A part of a motion, with position, speed and acceleration over time.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Kept {
+pub struct KeptMotion {
     /// Index of its segment in the file, from 0.
     pub segment: usize,
     /// Start position (rad, or m of the drive link).
@@ -29,7 +29,7 @@ pub struct Kept {
     course: Vec<Node>,
 }
 
-impl Kept {
+impl KeptMotion {
     /// The part of a motion between two times (s). `further` (rad, or m) is added to the positions, for a later cycle.
     pub(super) fn new(
         motion: &Motion,

@@ -5,7 +5,7 @@ use std::convert::Infallible;
 use jred_file::model::motion::{Motion, Overshoot, Steady};
 use jred_file::number::numerics::edge;
 
-use super::{Chain, Kept, Move, NoMoves, POINT, Part, Passing};
+use super::{Chain, EndStates, KeptMotion, Move, NoMoves, POINT, Part};
 
 /// Parts of a smooth stretch at whose ends the direction is evaluated.
 const SAMPLES: u32 = 256;
@@ -258,7 +258,7 @@ impl<'a> Timeline<'a> {
             ];
             Part::Passing(
                 step,
-                Passing {
+                EndStates {
                     speeds: [first[0], last[0]].map(|speed| (direction * speed).max(0.0)),
                     accelerations: [first[1], last[1]].map(|a| direction * a),
                 },
@@ -268,12 +268,12 @@ impl<'a> Timeline<'a> {
     }
 
     /// The kept part of a span; `None` if the span is not kept.
-    fn kept(&self, span: &Span, [from, to]: [f64; 2]) -> Option<Kept> {
+    fn kept(&self, span: &Span, [from, to]: [f64; 2]) -> Option<KeptMotion> {
         let steady = self.process.get(span.kept?)?;
         let duration = self.motion.duration();
         let shift = if from >= duration { duration } else { 0.0 };
         let further = if shift > 0.0 { self.advance() } else { 0.0 };
-        Some(Kept::new(
+        Some(KeptMotion::new(
             self.motion,
             steady,
             [from - shift, to - shift],

@@ -13,7 +13,7 @@ use jred::error::Error;
 use jred_file::model::machine::MachineFile;
 
 use crate::trace::{Node, Trace};
-use crate::way::{Actuator, Way};
+use crate::way::{Actuator, PathDynamics};
 
 /// Places per step, its ends included, and rates at which the change is evaluated.
 const PLACES: u32 = 8;
@@ -30,14 +30,14 @@ const AT_REST: f64 = 1e-9;
 const NOTHING: f64 = 1e-9;
 
 /// A motion under a drive, for the allowed change of the rate at a place.
-struct Motion<'a> {
-    ways: [Way<'a>; 2],
+struct RateLimits<'a> {
+    ways: [PathDynamics<'a>; 2],
     gearbox: Option<f64>,
     /// The greatest speed and acceleration.
     most: [f64; 2],
 }
 
-impl Motion<'_> {
+impl RateLimits<'_> {
     /// The greatest change of the rate (1/s), up or down, that the drive allows at a share of a step and a rate.
     fn change(&self, [a, b]: [&Node; 2], share: f64, rate: f64) -> Result<f64, Error> {
         let state = b.after(a, share);
@@ -80,8 +80,8 @@ pub fn least_ramp(
     }
     let nodes = trace.nodes();
     let most = |of: &dyn Fn(&Node) -> f64| nodes.iter().map(of).fold(0.0, f64::max);
-    let motion = Motion {
-        ways: [1.0, -1.0].map(|direction| Way::new(file, actuator.clone(), direction)),
+    let motion = RateLimits {
+        ways: [1.0, -1.0].map(|direction| PathDynamics::new(file, actuator.clone(), direction)),
         gearbox,
         most: [
             most(&|node| node.omega.abs()),
@@ -118,7 +118,7 @@ pub fn least_ramp(
 }
 
 /// The least change near a place and a rate of a step: by thirds along one, then the other.
-fn lowest(motion: &Motion, step: [&Node; 2], place: [f64; 2]) -> Result<f64, Error> {
+fn lowest(motion: &RateLimits, step: [&Node; 2], place: [f64; 2]) -> Result<f64, Error> {
     let mut place = place;
     let mut wide = [1.0 / f64::from(PLACES), 1.0 / f64::from(RATES)];
     let mut least = motion.change(step, place[0], place[1])?;

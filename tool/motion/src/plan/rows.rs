@@ -6,7 +6,7 @@ use jred::Domain;
 use jred::axis::plan::Knot;
 use jred::machine::motion::State;
 
-use super::course::Course;
+use super::course::MotionPolynomial;
 use super::polynomial::TIGHT;
 use crate::trace::Node;
 
@@ -62,7 +62,7 @@ impl Bounds {
     }
 
     /// Errors by rounding in a row of this length (s), with this polynomial of its acceleration.
-    fn rounding(&self, length: f64, course: &Course, unit: f64) -> [f64; 3] {
+    fn rounding(&self, length: f64, course: &MotionPolynomial, unit: f64) -> [f64; 3] {
         let [speed, acceleration] = self.most;
         let rounded = ROUNDING * unit / length;
         // Of the coefficients over the window 29 bits are left below the greatest sum.
@@ -117,7 +117,7 @@ pub(super) fn apart(nodes: &[Node], close: f64) -> Vec<Node> {
 /// A part of the motion between two jumps of the acceleration, or a jump and an end, that is too short for a row: rounding of positions would exceed
 /// the allowed error of the acceleration.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Sliver {
+pub(super) struct TinyStep {
     /// Start and end time (s).
     t: [f64; 2],
     /// Error of the speed without it (rad/s, or m/s).
@@ -134,7 +134,7 @@ pub(super) fn without_slivers(
     mut nodes: Vec<Node>,
     bounds: [f64; 3],
     domain: Domain,
-) -> (Vec<Node>, Vec<Sliver>) {
+) -> (Vec<Node>, Vec<TinyStep>) {
     let [_, speed, acceleration] = bounds;
     let short = shortest(bounds, domain);
     let end = nodes.len().saturating_sub(1);
@@ -166,7 +166,7 @@ pub(super) fn without_slivers(
             stays[from + 1..=to].fill(false);
             nodes[from].alpha[1] = instead;
         }
-        slivers.push(Sliver {
+        slivers.push(TinyStep {
             t: [first.t, last.t],
             speed: missed,
         });
@@ -192,18 +192,18 @@ fn joined(nodes: &mut [Node]) {
 }
 
 /// Requirements of a plan.
-pub(super) struct Asked<'s> {
+pub(super) struct PlanRequirements<'s> {
     /// Allowed errors of position, speed and acceleration.
     pub(super) bounds: Bounds,
     pub(super) domain: Domain,
     /// Parts omitted from the motion, in order of time.
-    pub(super) slivers: &'s [Sliver],
+    pub(super) slivers: &'s [TinyStep],
 }
 
-impl Asked<'_> {
+impl PlanRequirements<'_> {
     /// Error of the speed at an end of a row between these times, from an omitted sliver.
     fn missed(&self, [from, to]: [f64; 2]) -> f64 {
-        let beside = |sliver: &&Sliver| {
+        let beside = |sliver: &&TinyStep| {
             sliver.t[0].total_cmp(&from).is_eq() || sliver.t[1].total_cmp(&to).is_eq()
         };
         let missed = self.slivers.iter().filter(beside);
@@ -218,7 +218,7 @@ impl Asked<'_> {
 
     /// Allowed error of a row's polynomial between these times: the bounds less rounding, or the rounding itself where that takes more than half;
     /// more beside an omitted sliver.
-    fn of_row(&self, ends: [f64; 2], course: &Course) -> [f64; 3] {
+    fn of_row(&self, ends: [f64; 2], course: &MotionPolynomial) -> [f64; 3] {
         let length = ends[1] - ends[0];
         let rounding = self.bounds.rounding(length, course, unit(self.domain));
         let missed = self.missed(ends);
@@ -274,7 +274,7 @@ impl Asked<'_> {
         let [Some(first), Some(last)] = [nodes.first(), nodes.last()] else {
             return true;
         };
-        let through = Course::between(first, last);
+        let through = MotionPolynomial::between(first, last);
         let length = last.t - first.t;
         let range = match self.domain {
             Domain::Turn => f64::NEG_INFINITY..=f64::INFINITY,
@@ -293,7 +293,7 @@ impl Asked<'_> {
             let middle: f64 = own.position.iter().zip(middle).map(|(c, s)| c * s).sum();
             let end: f64 = own.position.iter().sum();
             let inside = [middle, end].map(|x| range.contains(&(before.phi + x)));
-            inside == [true; 2] && own.keeps_to(&Course::step(before, after), bounds)
+            inside == [true; 2] && own.keeps_to(&MotionPolynomial::step(before, after), bounds)
         })
     }
 }

@@ -6,13 +6,13 @@ use jred_file::model::motion::Phase;
 use jred_file::number::numerics::gauss;
 
 use crate::moves::Move;
-use crate::way::{Place, Way};
+use crate::way::{PathDynamics, Place};
 
 /// Parts of a turn at constant kinetic energy.
 const PARTS: usize = 512;
 
 /// ω ∝ 1/√J, where J includes rotor, gearbox and drive train, because one torque moves them all.
-pub(super) fn constant_energy(way: &Way, step: &Move) -> Result<Vec<Phase>, Error> {
+pub(super) fn constant_energy(way: &PathDynamics, step: &Move) -> Result<Vec<Phase>, Error> {
     let distance = step.to - step.from;
     // Inertia and its slope along the path.
     let inertia = |share: f64| -> Result<[f64; 2], Error> {

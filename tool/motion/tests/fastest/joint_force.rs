@@ -3,7 +3,7 @@
 use jred_analysis::reduce::joints_with_force;
 use jred_file::model::machine::MachineFile;
 use jred_motion::fastest::joint_force::reached;
-use jred_motion::fastest::{Binding, Fastest, JointForces, Limits, NoMotion, Task, solve};
+use jred_motion::fastest::{Binding, Fastest, JointForces, MoveLimits, NoMotion, Task, solve};
 use jred_motion::trace::Trace;
 
 use super::{close, fastest, machine, motor, task};
@@ -52,7 +52,7 @@ fn within(file: &MachineFile, limits: &[(&str, f64)], asked: &Task) -> Task {
             all.with(joint(file, name), *force)
         });
     Task {
-        limits: Limits {
+        limits: MoveLimits {
             forces,
             ..asked.limits
         },
@@ -208,7 +208,7 @@ fn a_force_that_needs_no_motion() {
 fn neither_jerk_nor_torque_rate_beside_it() {
     let file = press();
     let asked = within(&file, &[("slider pin", 5000.0)], &task(3.0, 4.0));
-    let limits = Limits {
+    let limits = MoveLimits {
         jerk: Some(1e4),
         ..asked.limits
     };

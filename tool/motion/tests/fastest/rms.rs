@@ -3,10 +3,10 @@
 use std::f64::consts::{PI, TAU};
 
 use jred_motion::fastest::cycle::{cycle, single};
-use jred_motion::fastest::{Limits, NoMotion, Rms, Task};
+use jred_motion::fastest::{MoveLimits, NoMotion, Rms, Task};
 use jred_motion::gentlest::{Objective, Travel, gentlest};
 use jred_motion::moves::{Move, Part};
-use jred_motion::way::Way;
+use jred_motion::way::PathDynamics;
 
 use super::{close, motor, table, task};
 use crate::support::{edited_press, press_file};
@@ -50,7 +50,7 @@ fn a_torque_that_falls_in_a_straight_line() {
     let found = cycle(
         &file,
         &motor([100.0; 2], 1e3),
-        Limits::default(),
+        MoveLimits::default(),
         Some(Rms::Torque(2.0)),
         &parts,
     )
@@ -102,7 +102,7 @@ fn moves_share_the_heat() {
     let found = cycle(
         &file,
         &motor([100.0; 2], 1e3),
-        Limits::default(),
+        MoveLimits::default(),
         Some(Rms::Torque(2.0)),
         &parts,
     )
@@ -136,10 +136,10 @@ fn friction_above_the_limit_is_refused() {
 #[test]
 fn with_a_limited_jerk() {
     let file = table(2.0, "");
-    let limits = Limits {
+    let limits = MoveLimits {
         jerk: Some(20.0),
         level_ends: true,
-        ..Limits::default()
+        ..MoveLimits::default()
     };
     let asked = Task {
         limits,
@@ -209,7 +209,7 @@ fn a_torque_that_does_not_bind_changes_nothing() {
         found.unwrap().trace.duration()
     });
     // The least RMS torque in that time, by the other search.
-    let way = Way::new(&file, motor([60.0; 2], 942.0), 1.0);
+    let way = PathDynamics::new(&file, motor([60.0; 2], 942.0), 1.0);
     let travel = Travel {
         start: PI,
         distance: TAU,

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use jred_analysis::checked;
 use jred_file::model::machine::MachineFile;
 use jred_motion::fastest::field::Reserve;
-use jred_motion::fastest::{Limits, Task, solve};
+use jred_motion::fastest::{MoveLimits, Task, solve};
 use jred_motion::plan::ramp::least_ramp;
 use jred_motion::trace::Trace;
 use jred_motion::way::Actuator;
@@ -34,7 +34,7 @@ fn planned(file: &MachineFile, motor: &Actuator, way: [f64; 2], reserve: f64) ->
         from: way[0],
         to: way[1],
         speeds: [0.0; 2],
-        limits: Limits::default().with_reserve(reserve),
+        limits: MoveLimits::default().with_reserve(reserve),
         endless: false,
     };
     solve(file, motor, &task)

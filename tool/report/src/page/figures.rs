@@ -173,17 +173,21 @@ fn label(head: &Column) -> String {
 }
 
 /// The abscissa and its axis.
-pub(super) type Along<'a> = (Quantity, Axis<'a>);
+pub(super) type Abscissa<'a> = (Quantity, Axis<'a>);
 
 /// Figures of those of the quantities that exist, each with its label and caption.
-pub(super) fn among(columns: &Columns, along: Along, of: &[(&str, Quantity, &str)]) -> Vec<Figure> {
+pub(super) fn among(
+    columns: &Columns,
+    along: Abscissa,
+    of: &[(&str, Quantity, &str)],
+) -> Vec<Figure> {
     let figures = of.iter().filter_map(|(y, quantity, caption)| {
         Some(Figure::new(over(columns, along, (y, *quantity))?, *caption))
     });
     figures.collect()
 }
 
-fn efforts(columns: &Columns, along: Along) -> Vec<Figure> {
+fn efforts(columns: &Columns, along: Abscissa) -> Vec<Figure> {
     let Some((_, head)) = columns.of(Quantity::EffortTerm).next() else {
         return Vec::new();
     };
@@ -203,7 +207,7 @@ fn unit(head: &Column) -> &'static str {
 }
 
 /// Positions, speeds and accelerations of points and links.
-pub(super) fn motions(columns: &Columns, along: Along) -> Vec<Figure> {
+pub(super) fn motions(columns: &Columns, along: Abscissa) -> Vec<Figure> {
     let of = [
         (
             "speed [m/s]",
@@ -230,7 +234,7 @@ pub(super) fn motions(columns: &Columns, along: Along) -> Vec<Figure> {
 }
 
 /// Drive, joints, shaking force.
-pub(super) fn forces(columns: &Columns, along: Along) -> Vec<Figure> {
+pub(super) fn forces(columns: &Columns, along: Abscissa) -> Vec<Figure> {
     if columns.of(Quantity::Force).next().is_none() {
         return Vec::new();
     }

@@ -14,7 +14,7 @@ use super::fault::Text;
 use super::files::is_toml;
 use super::load::{Group, Loader};
 use super::pairing::Keys;
-use super::row::{Form, Read, Row};
+use super::row::{CatalogueRow, RowResult, Syntax};
 
 /// One line of a compatibility table.
 #[derive(Debug)]
@@ -144,16 +144,16 @@ impl Loader {
 }
 
 /// The format of a file.
-fn form_of(text: &Text) -> Form {
+fn form_of(text: &Text) -> Syntax {
     if is_toml(Path::new(&text.name)) {
-        Form::Toml
+        Syntax::Toml
     } else {
-        Form::Csv
+        Syntax::Csv
     }
 }
 
 /// A line of jred's own compatibility table.
-pub(super) fn listing(row: &Row) -> Read<Listing> {
+pub(super) fn listing(row: &CatalogueRow) -> RowResult<Listing> {
     let keys = |column| {
         let words = row.words(column).unwrap_or_default();
         let keys = words.split([';', ' ']).filter(|key| !key.is_empty());

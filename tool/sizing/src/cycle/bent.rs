@@ -12,13 +12,13 @@ const SHARE: f64 = 1e-10;
 const OF_WHOLE: f64 = 1e-10;
 
 /// A torque over the samples of a cycle.
-pub(crate) struct Bent<'c> {
+pub(crate) struct TorqueIntegrals<'c> {
     stretches: Stretches<'c>,
     c: &'c Coefficients,
     ratio: f64,
 }
 
-impl<'c> Bent<'c> {
+impl<'c> TorqueIntegrals<'c> {
     pub(super) const fn new(stretches: Stretches<'c>, c: &'c Coefficients, ratio: f64) -> Self {
         Self {
             stretches,

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 use std::ops::Range;
 
-use super::Sample;
+use super::LoadSample;
 use super::front::Front;
 use super::tree::Tree;
 use crate::cycle::form::LOADS;
@@ -33,7 +33,11 @@ pub(super) struct Distinct {
 
 impl Distinct {
     /// The cycle without repeats; `None` if little is repeated.
-    pub(super) fn of(samples: &[Sample], smooth: &Smooth, largest: &[f64; LOADS]) -> Option<Self> {
+    pub(super) fn of(
+        samples: &[LoadSample],
+        smooth: &Smooth,
+        largest: &[f64; LOADS],
+    ) -> Option<Self> {
         let left = left(samples, smooth);
         let count: usize = left.iter().map(Range::len).sum();
         if count as f64 > WORTH * samples.len() as f64 {
@@ -48,8 +52,8 @@ impl Distinct {
 }
 
 /// The samples without the panels that repeat an earlier one.
-fn left(samples: &[Sample], smooth: &Smooth) -> Vec<Range<usize>> {
-    let values = |s: &Sample| [s.alpha, s.output_torque, s.speed];
+fn left(samples: &[LoadSample], smooth: &Smooth) -> Vec<Range<usize>> {
+    let values = |s: &LoadSample| [s.alpha, s.output_torque, s.speed];
     let mut largest = [0.0_f64; 3];
     for sample in samples {
         for (most, value) in largest.iter_mut().zip(values(sample)) {
@@ -58,11 +62,11 @@ fn left(samples: &[Sample], smooth: &Smooth) -> Vec<Range<usize>> {
     }
     // At constant speed the acceleration is only rounding.
     largest[0] = largest[0].max(largest[2] * largest[2]);
-    let shares = |sample: &Sample| {
+    let shares = |sample: &LoadSample| {
         let values = values(sample);
         std::array::from_fn::<f64, 3, _>(|k| values[k] / largest[k].max(f64::MIN_POSITIVE))
     };
-    let are_one = |a: &Sample, b: &Sample| {
+    let are_one = |a: &LoadSample, b: &LoadSample| {
         let pairs = shares(a).into_iter().zip(shares(b));
         pairs.fold(0.0, |most, (a, b)| f64::max(most, (a - b).abs())) < SAME
     };

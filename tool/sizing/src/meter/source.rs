@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use super::{Bound, Entry, Field, MeterLimits, below};
+use super::{Bound, Field, MeterLimit, MeterLimits, below};
 
 impl MeterLimits<'_> {
     /// The source. `machine`: description of the machine that the drive was sized for.
@@ -72,7 +72,7 @@ impl MeterLimits<'_> {
     }
 
     /// A limit's constant, or a comment with the reason why there is no limit.
-    fn constant(&self, entry: &Entry, text: &mut String) {
+    fn constant(&self, entry: &MeterLimit, text: &mut String) {
         let (name, words) = (entry.field.word().to_uppercase(), &entry.words);
         let unit = self.unit(entry.field);
         let _ = match &entry.bound {

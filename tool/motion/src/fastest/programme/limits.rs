@@ -7,7 +7,7 @@
 //! with t the unit of time. Limits of the squared speed and of the acceleration are linear in w and w′. So is the torque, except for viscous friction
 //! (√w). The jerk is limited as |g‴·w + …| ≤ t³·j/(L·√w). Every limit is divided by itself: c ≤ 0, and c = −1 where the limited quantity is zero.
 
-use super::effort::{Effort, State, mix};
+use super::effort::{Effort, StationState, mix};
 use super::interior::{Programme, Term};
 use super::mesh::{Local, Mesh, Station, VALUES};
 use super::rate::{Rate, smooth_slopes};
@@ -50,7 +50,7 @@ impl Price {
 }
 
 /// A programme on a mesh.
-pub(super) struct Problem<'a> {
+pub(super) struct MeshProblem<'a> {
     pub(super) field: &'a Field<'a, 'a>,
     pub(super) mesh: &'a Mesh,
     /// Unit of time (s).
@@ -71,14 +71,14 @@ pub(super) struct Problem<'a> {
 
 const NONE: (f64, Local) = (0.0, [0.0; VALUES]);
 
-impl Problem<'_> {
-    pub(super) fn state(&self, station: &Station, values: &Local) -> State {
+impl MeshProblem<'_> {
+    pub(super) fn state(&self, station: &Station, values: &Local) -> StationState {
         let [slope, bend, _] = station.path;
         let [own, change, _] = &station.basis;
         let t = self.unit;
         let w = dot(own, values);
         let by = mix((bend / (t * t), own), (0.5 * slope / (t * t), change));
-        State {
+        StationState {
             speed: slope / t * w.max(0.0).sqrt(),
             acceleration: dot(&by, values),
             w,
@@ -93,14 +93,14 @@ impl Problem<'_> {
         way.actuator.coefficients.0[3] * way.file.drive_train.ratio().abs()
     }
 
-    fn motor(&self, station: &Station, state: &State) -> Effort {
+    fn motor(&self, station: &Station, state: &StationState) -> Effort {
         let way = self.field.way;
         Effort::of(station, state, self.friction(), self.range, |place| {
             way.demand(place, state.speed, state.acceleration)
         })
     }
 
-    fn gearbox(&self, station: &Station, state: &State) -> Effort {
+    fn gearbox(&self, station: &Station, state: &StationState) -> Effort {
         let way = self.field.way;
         Effort::of(station, state, 0.0, self.range, |place| {
             way.gearbox_demand(place, state.speed, state.acceleration)
@@ -112,7 +112,7 @@ impl Problem<'_> {
     fn torque_limits(
         &self,
         station: &Station,
-        state: &State,
+        state: &StationState,
         torque: &Effort,
         rows: &mut Vec<Term>,
     ) {
@@ -161,7 +161,7 @@ impl Problem<'_> {
         &self,
         station: &Station,
         values: &Local,
-        state: &State,
+        state: &StationState,
         torque: &Effort,
         rows: &mut Vec<Term>,
     ) {
@@ -261,7 +261,7 @@ impl Problem<'_> {
     }
 
     /// Time and heat of a station.
-    fn cost(&self, station: &Station, state: &State, torque: &Effort) -> Term {
+    fn cost(&self, station: &Station, state: &StationState, torque: &Effort) -> Term {
         let w = state.w;
         let root = w.sqrt();
         let t = torque.value;
@@ -290,7 +290,7 @@ impl Problem<'_> {
     }
 }
 
-impl Problem<'_> {
+impl MeshProblem<'_> {
     /// Whether a motion satisfies the limits of jerk and torque rate.
     pub(super) fn keeps_rates(&self, x: &[f64]) -> bool {
         let is_kept = |row: &Term| {
@@ -325,7 +325,7 @@ impl Problem<'_> {
     }
 }
 
-impl Programme for Problem<'_> {
+impl Programme for MeshProblem<'_> {
     fn mesh(&self) -> &Mesh {
         self.mesh
     }

@@ -1,13 +1,13 @@
 //! The square of the pace in pieces of fifth degree, and the stations at which limits are imposed.
 //!
-//! Along the path s = L·g(u) of [`Shape`], w = (du/dτ)², with τ the time in the programme's own unit. w and w′ are continuous, and so is the
+//! Along the path s = L·g(u) of [`Parametrization`], w = (du/dτ)², with τ the time in the programme's own unit. w and w′ are continuous, and so is the
 //! acceleration. w″, and with it the jerk, may jump where two pieces meet. With the fifth degree w″ is a cubic in each piece, which follows an arc of
 //! constant jerk or of constant torque with an error of order 4.
 
 use jred::error::Error;
 
 use crate::collocation::pieces::{Value, dot, first_columns, hermite};
-use crate::collocation::shape::Shape;
+use crate::collocation::shape::Parametrization;
 use crate::fastest::field::Field;
 use crate::fastest::track::INSIDE;
 use crate::skyline::Skyline;
@@ -24,7 +24,7 @@ const NEAR: f64 = 1e-13;
 
 /// Conditions at the ends of the motion, and jumps that are allowed inside.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Form {
+pub(super) struct BoundaryConditions {
     /// Whether each end is at rest.
     pub(super) rest: [bool; 2],
     /// w at an end that moves.
@@ -68,12 +68,12 @@ pub(super) struct Station {
     /// Coefficients of the piece's values in w, w′, w″.
     pub(super) basis: [Local; 3],
     /// Slopes of the machine by u.
-    pub(super) change: Change,
+    pub(super) change: Slopes,
 }
 
 /// Slopes of the machine by u.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Change {
+pub(super) struct Slopes {
     pub(super) inertia: f64,
     pub(super) inertia_slope: f64,
     /// Slope of the load with Coulomb friction.
@@ -93,7 +93,7 @@ pub(super) const SHARES: [[f64; 2]; 7] = [
 ];
 
 /// Slopes at the stations of a piece of length h, from the polynomial through the values at all stations.
-fn changes(places: &[Place], h: f64) -> impl Iterator<Item = Change> {
+fn changes(places: &[Place], h: f64) -> impl Iterator<Item = Slopes> {
     let at = move |k: usize, value: fn(&Place) -> f64| {
         let each = (0..SHARES.len()).filter(|j| *j != k).map(|j| {
             let [zk, zj] = [SHARES[k][0], SHARES[j][0]];
@@ -106,7 +106,7 @@ fn changes(places: &[Place], h: f64) -> impl Iterator<Item = Change> {
         });
         each.sum::<f64>() / h
     };
-    (0..places.len()).map(move |k| Change {
+    (0..places.len()).map(move |k| Slopes {
         inertia: at(k, |place| place.inertia),
         inertia_slope: at(k, |place| place.inertia_slope),
         load: at(k, |place| place.load + place.coulomb),
@@ -152,8 +152,8 @@ impl Mesh {
     pub(super) fn new(
         field: &Field,
         course: [f64; 2],
-        shape: &Shape,
-        form: Form,
+        shape: &Parametrization,
+        form: BoundaryConditions,
         borders: &[Border],
     ) -> Result<Self, Error> {
         let (elements, unknowns) = elements(shape, form, borders);
@@ -177,7 +177,7 @@ impl Mesh {
                     tool: field.tool_speed(place.phi)?,
                     path: [slope, bend, jerk].map(|derivative| derivative * distance.abs()),
                     basis: basis(z, h),
-                    change: Change::default(),
+                    change: Slopes::default(),
                 });
             }
             if form.smooth {
@@ -283,7 +283,11 @@ impl Mesh {
     }
 }
 
-fn elements(shape: &Shape, form: Form, borders: &[Border]) -> (Vec<Element>, usize) {
+fn elements(
+    shape: &Parametrization,
+    form: BoundaryConditions,
+    borders: &[Border],
+) -> (Vec<Element>, usize) {
     let mut unknowns = 0;
     let mut next = || {
         unknowns += 1;

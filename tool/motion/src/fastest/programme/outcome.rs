@@ -3,14 +3,14 @@
 use jred::error::Error;
 use jred_file::number::quadrature::GAUSS_5;
 
-use super::borders::{Met, strongest};
+use super::borders::{ActiveConstraint, strongest};
 use super::limits::Margins;
 use super::mesh::SHARES;
-use super::{Asked, Found, PROGRAMME_EXCESS};
-use crate::collocation::shape::Shape;
+use super::{MeshMotion, MoveRequest, PROGRAMME_EXCESS};
+use crate::collocation::shape::Parametrization;
 use crate::fastest::between::{BETWEEN_NODES, within_step};
 use crate::fastest::field::Binding;
-use crate::fastest::track::Seen;
+use crate::fastest::track::PathPoint;
 use crate::fastest::{NoMotion, Phase};
 use crate::trace::{Node, Trace};
 use crate::way::Place;
@@ -29,13 +29,13 @@ const TIED: f64 = 1e-6;
 
 /// The most exceeded limit between the nodes, the share of the excess, and the position.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Worst {
+pub(super) struct LargestExcess {
     pub(super) excess: f64,
     pub(super) limit: Option<Binding>,
     pub(super) phi: f64,
 }
 
-impl Worst {
+impl LargestExcess {
     /// Not checked.
     pub(super) const NONE: Self = Self {
         excess: f64::INFINITY,
@@ -79,9 +79,9 @@ fn greatest([first, middle, last]: [f64; 3]) -> f64 {
         .fold(0.0, f64::max)
 }
 
-impl Asked<'_> {
+impl MoveRequest<'_> {
     /// The motion over time.
-    pub(super) fn trace(&self, shape: &Shape, found: &Found) -> Trace {
+    pub(super) fn trace(&self, shape: &Parametrization, found: &MeshMotion) -> Trace {
         let direction = self.field.way.direction;
         let problem = self.problem(&found.mesh, &[], found.range);
         let mut nodes: Vec<Node> = Vec::new();
@@ -126,7 +126,7 @@ impl Asked<'_> {
     }
 
     /// The time (s) from one station of a piece to another.
-    pub(super) fn step(&self, found: &Found, element: usize, stations: [usize; 2]) -> f64 {
+    pub(super) fn step(&self, found: &MeshMotion, element: usize, stations: [usize; 2]) -> f64 {
         let [from, to] = stations.map(|k| SHARES[k][0]);
         let [start, end] = found.mesh.elements[element].span;
         let each = GAUSS_5.into_iter().map(|[z, weight]| {
@@ -143,13 +143,13 @@ impl Asked<'_> {
         &self,
         trace: &Trace,
         pieces: usize,
-    ) -> Result<(Worst, Vec<[f64; 3]>), NoMotion> {
+    ) -> Result<(LargestExcess, Vec<[f64; 3]>), NoMotion> {
         let way = self.field.way;
         let direction = way.direction;
         let limits = self.limits();
-        let mut worst = Worst {
+        let mut worst = LargestExcess {
             excess: f64::NEG_INFINITY,
-            ..Worst::NONE
+            ..LargestExcess::NONE
         };
         let near = self.ends.inside(0.0);
         let distance = |phi: f64| (phi - self.ends.from) * direction;
@@ -164,7 +164,7 @@ impl Asked<'_> {
                 let all = &mut own[piece][kind];
                 *all = all.max(excess);
                 if excess > worst.excess {
-                    worst = Worst {
+                    worst = LargestExcess {
                         excess,
                         limit: Some(limit),
                         phi: a.phi,
@@ -182,7 +182,7 @@ impl Asked<'_> {
             };
             for share in BETWEEN_NODES {
                 let state = within_step(a, b, share);
-                let seen = Seen::new(self.field, place(state.phi)?.phi)?;
+                let seen = PathPoint::new(self.field, place(state.phi)?.phi)?;
                 let (v, alpha) = (state.omega * direction, state.alpha * direction);
                 let (excess, limit) = self.field.excess_by(&seen, v, alpha);
                 look(0, excess, limit);
@@ -242,7 +242,7 @@ impl Asked<'_> {
     }
 
     /// The active limit of each part of the motion.
-    pub(super) fn phases(&self, found: &Found, trace: &Trace) -> Vec<Phase> {
+    pub(super) fn phases(&self, found: &MeshMotion, trace: &Trace) -> Vec<Phase> {
         let met = self.all_met(found);
         let count = SHARES.len();
         let mut phases: Vec<Phase> = Vec::new();
@@ -261,7 +261,9 @@ impl Asked<'_> {
             // Where two limits are met together, the one that was active before is kept.
             let limit = limit.map(|(at, own)| {
                 let before = phases.last().map(|phase| phase.limit);
-                let goes_on = |met: &Met| Some(met.limit) == before && met.value > own.value - TIED;
+                let goes_on = |met: &ActiveConstraint| {
+                    Some(met.limit) == before && met.value > own.value - TIED
+                };
                 at.iter()
                     .find(|met| goes_on(met))
                     .map_or(own.limit, |met| met.limit)

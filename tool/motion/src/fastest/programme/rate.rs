@@ -7,7 +7,7 @@
 //!
 //! with slopes by u. Times √w/t they are rates by time: |da/du| ≤ t·j/√w.
 
-use super::effort::{State, mix};
+use super::effort::{StationState, mix};
 use super::mesh::{Local, Station, VALUES};
 use crate::collocation::pieces::dot;
 use crate::collocation::torque::{STRAIGHT, Torque};
@@ -75,7 +75,7 @@ impl Rate {
     pub(super) fn of_torque(
         station: &Station,
         values: &Local,
-        state: &State,
+        state: &StationState,
         torque: &Torque,
         friction: f64,
         t: f64,

@@ -11,7 +11,7 @@ const MOST_LOOKS: usize = 8 * PIECES;
 
 /// A straight piece of the torque over the acceleration, in units of the problem.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Piece {
+pub(super) struct TorquePiece {
     pub(super) at: f64,
     pub(super) start: f64,
     pub(super) rise: f64,
@@ -21,12 +21,12 @@ pub(super) struct Piece {
 
 /// A few pieces, without heap memory.
 pub(super) struct Pieces {
-    all: [Piece; PIECES],
+    all: [TorquePiece; PIECES],
     count: usize,
 }
 
 impl Pieces {
-    pub(super) fn iter(&self) -> impl Iterator<Item = &Piece> {
+    pub(super) fn iter(&self) -> impl Iterator<Item = &TorquePiece> {
         self.all[..self.count].iter()
     }
 }
@@ -35,7 +35,7 @@ impl Pieces {
 pub(super) fn pieces(problem: &Problem, place: &Place, speed: f64) -> Pieces {
     let line = |a: f64| {
         let demand = problem.way.demand(place, speed, a);
-        Piece {
+        TorquePiece {
             at: a,
             start: demand.torque / problem.unit,
             rise: demand.per_acceleration / problem.unit,
@@ -71,7 +71,7 @@ pub(super) fn pieces(problem: &Problem, place: &Place, speed: f64) -> Pieces {
             / (left.rise - right.rise);
         let there = line(meet);
         let expected = left.start + left.rise * (meet - left.at);
-        let own = |side: Piece| (there.rise - side.rise).abs() <= 1e-9 * side.rise;
+        let own = |side: TorquePiece| (there.rise - side.rise).abs() <= 1e-9 * side.rise;
         if own(left)
             || own(right)
             || (there.start - expected).abs() <= 1e-9 * (1.0 + expected.abs())
@@ -89,7 +89,7 @@ pub(super) fn pieces(problem: &Problem, place: &Place, speed: f64) -> Pieces {
                 / (own.rise - next.rise);
             own.start + own.rise * (meet - own.at)
         });
-        pieces.all[pieces.count] = Piece {
+        pieces.all[pieces.count] = TorquePiece {
             torques: [from, to],
             ..*own
         };

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use jred_file::number::rounding::{percent, short, shown};
 use jred_file::units::Vocabulary;
-use jred_motion::fastest::joint_force::Reached;
+use jred_motion::fastest::joint_force::JointForcePeak;
 use jred_motion::fastest::winding::Temperatures;
 use jred_motion::fastest::{KeptPart, Reserve};
 
@@ -15,7 +15,7 @@ use crate::answer::Answer;
 const ROUNDED: f64 = 1e-5;
 
 /// Temperatures of the motor winding.
-pub struct Warmth {
+pub struct WindingHeat {
     /// Ambient temperature (°C).
     pub ambient: f64,
     /// Its temperatures.
@@ -121,7 +121,7 @@ impl FastestView<'_> {
     }
 
     /// The largest force in a joint, and where.
-    pub(super) fn force(&self, force: &Reached) -> String {
+    pub(super) fn force(&self, force: &JointForcePeak) -> String {
         format!(
             "{}: {} N at the most, at {} after {} s{}; limit {} N",
             force.name(self.file),
@@ -134,8 +134,8 @@ impl FastestView<'_> {
     }
 
     /// The temperature of the winding, and the cost of its limit.
-    pub(super) fn winding(&self, warmth: &Warmth, answer: &mut Answer) {
-        let Warmth {
+    pub(super) fn winding(&self, warmth: &WindingHeat, answer: &mut Answer) {
+        let WindingHeat {
             ambient,
             temperatures,
             limit,

@@ -7,7 +7,7 @@ use crate::catalogue::{Gearbox, Motor};
 use crate::cycle::Cycle;
 use crate::judge::broken;
 use crate::judge::{Context, Findings};
-use crate::motor::envelope::Prepared;
+use crate::motor::envelope::MotorLimits;
 use jred_file::model::rule::Rule;
 use jred_file::model::rules::RuleSet;
 use jred_file::model::site::Site;
@@ -31,7 +31,7 @@ pub(super) fn tried(best: Option<f64>) -> Vec<f64> {
 
 /// A range of ratios, and the rules that limit it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Found {
+pub struct RatioRange {
     /// The ratios.
     pub range: Range,
     /// The rule that is violated below; `None`: the range continues.
@@ -52,7 +52,7 @@ pub struct Trial<'a> {
     /// The motor.
     pub motor: &'a Motor,
     /// Its limits.
-    pub prepared: &'a Prepared,
+    pub prepared: &'a MotorLimits,
     /// Data of the gearbox.
     pub gear: Gear,
 }
@@ -78,9 +78,9 @@ impl Trial<'_> {
     }
 
     /// The ranges without a violation; `best` is tried in addition to the grid.
-    pub fn ranges(&self, best: Option<f64>) -> Vec<Found> {
-        let mut found: Vec<Found> = Vec::new();
-        let mut open: Option<Found> = None;
+    pub fn ranges(&self, best: Option<f64>) -> Vec<RatioRange> {
+        let mut found: Vec<RatioRange> = Vec::new();
+        let mut open: Option<RatioRange> = None;
         let mut before: Option<(f64, Option<Rule>)> = None;
         for ratio in tried(best) {
             let broken = self.broken(ratio);
@@ -90,7 +90,7 @@ impl Trial<'_> {
                         Some((last, rule)) => (self.edge(ratio, last), rule),
                         None => (ratio, None),
                     };
-                    open = Some(Found {
+                    open = Some(RatioRange {
                         range: [start, ratio],
                         below,
                         above: None,
