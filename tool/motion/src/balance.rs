@@ -31,7 +31,7 @@ mod unknowns;
 const POSITIONS: usize = 1440;
 
 /// Share by which the RMS over the motion may rise for another goal before it is reported.
-const HEATS: f64 = 0.1;
+const RMS_RISE: f64 = 0.1;
 
 /// Share of the largest value below which a value counts as rounding error.
 const ROUNDING: f64 = 1e-9;
@@ -137,7 +137,7 @@ impl BalanceResult {
         let [Some([was, _]), Some([is, _])] = [self.before.torque, self.after.torque] else {
             return None;
         };
-        (is > (1.0 + HEATS) * was).then(|| is / was - 1.0)
+        (is > (1.0 + RMS_RISE) * was).then(|| is / was - 1.0)
     }
 }
 

@@ -15,7 +15,7 @@ use crate::trace::Trace;
 const SHARES: [f64; 5] = [0.0, 0.25, 0.5, 0.75, 1.0];
 
 /// Share of the contact-keeping acceleration that is suggested as a limit: between the checked places it may be slightly smaller.
-const LEFT: f64 = 0.98;
+const LIMIT_MARGIN: f64 = 0.98;
 
 /// A contact that a motion loses, and limits that keep it.
 #[derive(Clone, Debug)]
@@ -81,6 +81,6 @@ fn limits(file: &MachineFile, trace: &Trace) -> Result<Option<[Option<f64>; 2]>,
             }
         }
     }
-    let kept = [0, 1].map(|kind| exceeded[kind].then_some(LEFT * most[kind]));
+    let kept = [0, 1].map(|kind| exceeded[kind].then_some(LIMIT_MARGIN * most[kind]));
     Ok((kept != [None; 2]).then_some(kept))
 }

@@ -10,7 +10,6 @@
 mod between;
 pub mod corners;
 mod costs;
-mod course;
 pub mod cycle;
 mod endless;
 pub mod field;
@@ -20,15 +19,16 @@ pub mod leg;
 mod lines;
 mod motor_load;
 mod obstacle;
+mod path_search;
 mod phases;
 pub mod plane;
 mod programme;
 mod reserve;
 mod rms;
 pub mod ruled;
-mod slivers;
-mod slowed;
+mod settable_limit;
 pub mod sweep;
+mod tiny_steps;
 pub mod tool_speed;
 pub mod track;
 pub mod winding;
@@ -39,18 +39,18 @@ use jred::Domain;
 use jred::machine::Reducible as _;
 use jred_file::model::machine::MachineFile;
 
+use crate::path_dynamics::{Actuator, PathDynamics};
 use crate::trace::Trace;
-use crate::way::{Actuator, PathDynamics};
-use course::{CELLS, PathSearch, SWEEP_EXCESS};
 use field::Field;
 pub use field::{Binding, MoveLimits, Reserve};
 pub use joint_force::JointForces;
 pub use kept::KeptPart;
 pub use obstacle::NoMotion;
+use path_search::{CELLS, PathSearch, SWEEP_EXCESS};
 pub use phases::Phase;
 pub use programme::{Price, Start, WarmStart};
 pub use rms::Rms;
-pub use slowed::SettableLimit;
+pub use settable_limit::SettableLimit;
 pub use tool_speed::{ToolSpeed, ToolSpeeds};
 use track::Ends;
 
@@ -125,9 +125,9 @@ pub fn priced(
         ..*task
     };
     let bound = refine(file, actuator, &free, f64::INFINITY)?;
-    let way = way(file, actuator, task)?;
+    let dynamics = dynamics(file, actuator, task)?;
     let field = Field {
-        way: &way,
+        dynamics: &dynamics,
         limits: task.limits,
     };
     let length = (task.to - task.from).abs();
@@ -155,10 +155,11 @@ fn rise(field: &Field, trace: &Trace) -> Result<f64, NoMotion> {
     };
     let mut most = 0.0_f64;
     for (node, alpha) in [(first, first.alpha[1]), (last, last.alpha[0])] {
-        let place = field.way.place(node.phi)?;
-        let demand = field
-            .way
-            .demand(&place, node.omega.abs(), alpha * field.way.direction);
+        let place = field.dynamics.place(node.phi)?;
+        let demand =
+            field
+                .dynamics
+                .demand(&place, node.omega.abs(), alpha * field.dynamics.direction);
         let limits = &field.limits;
         let own = |limit: Option<f64>, change: f64| limit.map_or(0.0, |limit| change.abs() / limit);
         most = most.max(own(limits.jerk, alpha));
@@ -190,13 +191,20 @@ fn refine(
     task: &Task,
     within: f64,
 ) -> Result<Fastest, NoMotion> {
-    let way = way(file, actuator, task)?;
+    let dynamics = dynamics(file, actuator, task)?;
     let limits = task.limits;
-    PathSearch::new(&Field { way: &way, limits }, task)?.fastest(task.speeds, within)
+    PathSearch::new(
+        &Field {
+            dynamics: &dynamics,
+            limits,
+        },
+        task,
+    )?
+    .fastest(task.speeds, within)
 }
 
 /// The path of a task, if its ends are valid.
-fn way<'a>(
+fn dynamics<'a>(
     file: &'a MachineFile,
     actuator: &Actuator,
     task: &Task,
@@ -219,7 +227,7 @@ fn way<'a>(
 
 /// The least number of cells for a path of many turns. The cells must resolve changes within a turn, and corners are borders of cells.
 fn least_cells(field: &Field, from: f64, length: f64) -> Result<usize, NoMotion> {
-    let Domain::Turn = field.way.file.machine.domain() else {
+    let Domain::Turn = field.dynamics.file.machine.domain() else {
         return Ok(0);
     };
     let turns = length / TAU;

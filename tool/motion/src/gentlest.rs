@@ -24,8 +24,8 @@ use jred_file::model::motion::Phase;
 
 use self::outcome::Wait;
 use self::task::{EffortTask, edges};
-use crate::way::PathDynamics;
-pub use crate::way::without_drive;
+use crate::path_dynamics::PathDynamics;
+pub use crate::path_dynamics::without_drive;
 
 mod bound;
 mod cost;
@@ -187,7 +187,7 @@ const FIRST: usize = 32;
 const MOST: usize = 512;
 
 /// The mesh is fine enough when halving it changes the cost by less than this share.
-const FINE: f64 = 1e-9;
+const MESH_TOLERANCE: f64 = 1e-9;
 
 /// Largest gap of an optimum that counts as global.
 pub const GAP: f64 = 1e-4;
@@ -199,11 +199,11 @@ pub const GAP: f64 = 1e-4;
 /// # Errors
 /// See [`Fault`].
 pub fn gentlest(
-    way: &PathDynamics,
+    dynamics: &PathDynamics,
     travel: &Travel,
     objective: Objective,
 ) -> Result<LeastEffortMove, Fault> {
-    of(way, travel, objective, true)
+    of(dynamics, travel, objective, true)
 }
 
 /// The same without the lower bound, which takes most of the time: a motion that is not convex counts as local.
@@ -211,26 +211,26 @@ pub fn gentlest(
 /// # Errors
 /// See [`Fault`].
 pub(crate) fn unproved(
-    way: &PathDynamics,
+    dynamics: &PathDynamics,
     travel: &Travel,
     objective: Objective,
 ) -> Result<LeastEffortMove, Fault> {
-    of(way, travel, objective, false)
+    of(dynamics, travel, objective, false)
 }
 
 fn of(
-    way: &PathDynamics,
+    dynamics: &PathDynamics,
     travel: &Travel,
     objective: Objective,
     prove: bool,
 ) -> Result<LeastEffortMove, Fault> {
-    let found = from_end_to_end(way, travel, objective, [false, prove]);
+    let found = from_end_to_end(dynamics, travel, objective, [false, prove]);
     let may_wait = match &found {
         Ok(gentle) => gentle.optimum != Optimum::Global,
         Err(fault) => *fault == Fault::NotFound,
     };
     if may_wait {
-        waiting::on_the_way(way, travel, objective, found)
+        waiting::on_the_way(dynamics, travel, objective, found)
     } else {
         found
     }
@@ -238,7 +238,7 @@ fn of(
 
 /// The gentlest motion that waits only at its ends, where they are at rest, and at one of them in any case if it must. With a lower bound on request.
 fn from_end_to_end(
-    way: &PathDynamics,
+    dynamics: &PathDynamics,
     travel: &Travel,
     objective: Objective,
     [must_wait, prove]: [bool; 2],
@@ -260,10 +260,10 @@ fn from_end_to_end(
         return Err(Fault::Figure("ramp", travel.ramp));
     }
     let task = EffortTask {
-        way,
+        dynamics,
         travel,
         objective,
-        edges: edges(way, travel),
+        edges: edges(dynamics, travel),
         ramps: [travel.ramp; 2],
         places: Rc::default(),
     };
@@ -294,7 +294,7 @@ fn from_end_to_end(
     }
     let mut change = f64::INFINITY;
     let mut parts = FIRST;
-    while parts < MOST && change > FINE {
+    while parts < MOST && change > MESH_TOLERANCE {
         parts *= 2;
         let Some(next) = solved.task.solve(moving, parts, Some(&solved.start()))? else {
             break;

@@ -16,16 +16,16 @@
 #![forbid(unsafe_code)]
 
 pub mod balance;
+pub mod co_design;
 mod collocation;
 pub mod contact;
-pub mod driven;
+pub mod drive_simulation;
 pub mod fastest;
 pub mod gentlest;
 mod memo;
 pub mod moves;
+pub mod path_dynamics;
 pub mod plan;
 pub mod retime;
 mod skyline;
-pub mod suited;
 pub mod trace;
-pub mod way;

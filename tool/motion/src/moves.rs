@@ -10,10 +10,10 @@ pub use kept::KeptMotion;
 use timeline::Timeline;
 
 /// A pause that is shorter than this share of the whole motion counts as an instant of rest, not as a pause.
-const POINT: f64 = 1e-9;
+const INSTANT_SHARE: f64 = 1e-9;
 
 /// Share by which the speeds at the start and at the end of an endless motion may differ.
-const CLOSED: f64 = 1e-6;
+const CLOSURE_TOLERANCE: f64 = 1e-6;
 
 /// One part of a motion.
 #[derive(Clone, Debug, PartialEq)]
@@ -132,10 +132,11 @@ pub enum NoMoves {
 pub fn chain(motion: &Motion, process: &[Steady]) -> Result<Chain, NoMoves> {
     let duration = motion.duration();
     let kept: f64 = process.iter().map(Steady::duration).sum();
-    let all = kept >= duration * (1.0 - POINT);
+    let all = kept >= duration * (1.0 - INSTANT_SHARE);
     let ends = [0.0, duration].map(|t| motion.at(t).omega);
-    let turns =
-        motion.cyclic && ends[0] != 0.0 && (ends[1] - ends[0]).abs() <= CLOSED * ends[0].abs();
+    let turns = motion.cyclic
+        && ends[0] != 0.0
+        && (ends[1] - ends[0]).abs() <= CLOSURE_TOLERANCE * ends[0].abs();
     if all && !turns {
         return Err(NoMoves::AllKept);
     }

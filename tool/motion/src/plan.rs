@@ -1,6 +1,6 @@
 //! A motion as the plan that firmware follows: the fewest rows that keep within a share of its acceleration.
 
-mod course;
+mod motion_polynomial;
 mod polynomial;
 pub mod ramp;
 mod rows;
@@ -9,14 +9,14 @@ use jred::Domain;
 use jred::axis::plan::{Errors, Knot, PlanError, encode, image_len, with_ramp};
 
 use crate::trace::Trace;
-use course::MotionPolynomial;
+use motion_polynomial::MotionPolynomial;
 use rows::{Bounds, PlanRequirements, apart, halve, without_slivers};
 
 /// Default error of a plan, as a share of the greatest acceleration and speed.
 pub const SHARE: f64 = 1e-3;
 
 /// Least distance of row times, as a share of the whole, except at the end of the motion: twice the resolution of a plan.
-const CLOSE: f64 = 1.0 / 536_870_912.0;
+const LEAST_SPACING: f64 = 1.0 / 536_870_912.0;
 
 /// Most rows that are halved because they leave the stroke between two checks, before that is an error.
 const HALVED: usize = 256;
@@ -77,7 +77,7 @@ impl Plan {
     /// The motion is too long, leaves the stroke, or needs more than 65,535 rows.
     pub fn new(trace: &Trace, domain: Domain, machine: u32, share: f64) -> Result<Self, PlanError> {
         let bounds = Bounds::of(trace.nodes(), share);
-        let close = CLOSE * trace.duration();
+        let close = LEAST_SPACING * trace.duration();
         let (nodes, slivers) = without_slivers(apart(trace.nodes(), close), bounds.asked, domain);
         let asked = PlanRequirements {
             bounds,
@@ -108,7 +108,7 @@ impl Plan {
         };
         Ok(Self {
             rows: knots.len(),
-            most: course::greatest(&draft),
+            most: motion_polynomial::greatest(&draft),
             words: write(&knots, errors)?,
             errors,
             ramp: None,
@@ -169,7 +169,7 @@ fn measure(
     asked: &PlanRequirements,
     close: f64,
 ) -> [LargestError; 3] {
-    let rows = course::rows(words, asked.domain);
+    let rows = motion_polynomial::rows(words, asked.domain);
     let mut all = [LargestError::default(); 3];
     let mut later = rows.iter().peekable();
     for pair in trace.nodes().windows(2) {

@@ -8,14 +8,14 @@ use jred_file::model::motion::Motion;
 
 use crate::gentlest::{self, Fault, LeastEffortMove, Optimum, Reason};
 use crate::moves::{self, Chain, Move, NoMoves, Part};
+use crate::path_dynamics::Actuator;
 use crate::trace::Trace;
-use crate::way::Actuator;
 
-use self::asked::Comparison;
+use self::comparison::Comparison;
 use self::course::trace;
 pub use self::figures::{Figures, Goal, WINDING, copper};
 
-mod asked;
+mod comparison;
 mod course;
 mod even;
 mod figures;
@@ -146,7 +146,7 @@ impl From<duty::Fault> for Obstacle {
 }
 
 /// Share by which the motion's cost may exceed the one that the search computed.
-const AGREES: f64 = 1e-3;
+const COST_TOLERANCE: f64 = 1e-3;
 
 /// The gentlest motion of a file, compared with the laws.
 ///
@@ -182,7 +182,7 @@ pub fn retime(
     // The cost of the search must agree with the cost of the motion.
     let cost = gentle.iter().map(|gentle| gentle.cost).sum::<f64>() + fixed[0];
     let counted = figure(cost, duration, request.goal);
-    let differs = figures.of(request.goal) - counted > AGREES * counted;
+    let differs = figures.of(request.goal) - counted > COST_TOLERANCE * counted;
     if request.goal != Goal::Peak && differs {
         for gentle in &mut gentle {
             if gentle.optimum == Optimum::Global {

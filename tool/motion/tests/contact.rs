@@ -8,7 +8,7 @@ use jred_motion::contact::broken;
 use jred_motion::fastest::MoveLimits;
 use jred_motion::fastest::cycle::{Cycle, cycle};
 use jred_motion::moves;
-use jred_motion::way::Actuator;
+use jred_motion::path_dynamics::Actuator;
 use jred_sizing::catalogue::Motor;
 use jred_sizing::cycle::form::Coefficients;
 use jred_sizing::motor::envelope::Envelope;

@@ -7,8 +7,8 @@ use jred_analysis::checked;
 use jred_analysis::simulate::Together;
 use jred_file::model::machine::MachineFile;
 use jred_file::units::RPM;
-use jred_motion::driven::{DriveSimulation, EASE, UnfitDrive, driven};
-use jred_motion::way::{Actuator, BothDirections};
+use jred_motion::drive_simulation::{DriveSimulation, EASE, UnfitDrive, driven};
+use jred_motion::path_dynamics::{Actuator, BothDirections};
 use jred_sizing::catalogue::{Catalogue, Commutation, Drive, Gearbox, Motor, Thermal, Winding};
 use jred_sizing::motor::envelope::Envelope;
 

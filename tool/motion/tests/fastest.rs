@@ -22,7 +22,7 @@ use std::collections::BTreeMap;
 use jred_analysis::checked;
 use jred_file::model::machine::MachineFile;
 use jred_motion::fastest::{Fastest, MoveLimits, Task, solve};
-use jred_motion::way::Actuator;
+use jred_motion::path_dynamics::Actuator;
 use jred_sizing::catalogue::Motor;
 use jred_sizing::cycle::form::Coefficients;
 use jred_sizing::motor::envelope::Envelope;

@@ -11,7 +11,7 @@
 //! is not given. While the motor brakes, I is the current of the torque alone, because the rise of the bus voltage and the remaining field weakening
 //! are unknown. While it drives, I includes the field-weakening current.
 
-pub mod answer;
+pub mod analysis;
 pub mod axes;
 pub mod conflict;
 pub mod cure;

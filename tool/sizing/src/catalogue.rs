@@ -11,6 +11,7 @@ mod derating;
 #[cfg(feature = "fs")]
 mod disk;
 mod drive;
+mod duplicates;
 mod entry;
 mod fault;
 mod files;
@@ -25,7 +26,6 @@ mod plausible;
 mod row;
 mod table;
 mod toml_table;
-mod twins;
 mod voltage;
 
 pub use amplifier::{Amplifier, Resistor};

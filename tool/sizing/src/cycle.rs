@@ -20,26 +20,26 @@ use jred_analysis::duty::mechanics::Mechanics;
 use jred_analysis::duty::{Duty, Panel, Smooth, Values};
 use jred_file::number::figures::Figures;
 
-mod against;
-mod bent;
 mod beyond;
 mod extremes;
 mod factor;
 mod floor;
 pub mod form;
 mod front;
+mod peak_check;
 mod power;
 mod repeats;
 pub(crate) mod speeds;
+mod torque_integrals;
 mod tree;
 
-pub(crate) use against::PeakCheck;
-pub(crate) use bent::TorqueIntegrals;
 use extremes::Stretches;
 use factor::Factor;
 use front::Front;
+pub(crate) use peak_check::PeakCheck;
 use repeats::Distinct;
 use speeds::Speeds;
+pub(crate) use torque_integrals::TorqueIntegrals;
 use tree::Tree;
 
 /// Exponent of the mean torque for roller bearings.

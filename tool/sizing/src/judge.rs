@@ -14,13 +14,13 @@ use jred_file::model::rules::{Finding, RuleSet, Verdict};
 use jred_file::model::site::Site;
 use jred_file::units::Vocabulary;
 
+mod assessment;
 mod bits;
 mod brake;
 pub mod check;
 mod cure;
 mod electric;
 mod gearbox;
-mod judged;
 mod motor;
 mod outcome;
 pub mod overload;
@@ -30,10 +30,10 @@ mod stiffness;
 mod thermal;
 mod voltage;
 
+pub use assessment::Assessment;
+pub(crate) use assessment::price;
 pub use bits::RuleBits;
 pub use cure::cure;
-pub use judged::Assessment;
-pub(crate) use judged::price;
 pub use outcome::Outcome;
 pub(crate) use screen::Screen;
 

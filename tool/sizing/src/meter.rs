@@ -5,10 +5,10 @@
 //! are rounded down to single precision, so the meter allows nothing that `jred size` does not. A rule that is off or lacks its rating gives no
 //! limit, and the source says so.
 
-mod below;
+mod lower_curve;
 mod source;
 
-pub use below::{LowerCurve, below};
+pub use lower_curve::{LowerCurve, below};
 
 use crate::catalogue::Drive;
 use crate::judge::Assessment;
@@ -21,7 +21,7 @@ use jred_file::number::rounding::{short, significant};
 use jred_file::units::Vocabulary;
 
 /// Largest shortfall that counts as rounding and is not reported.
-const EXACT: f64 = 1e-5;
+const SHORTFALL_ROUNDING: f64 = 1e-5;
 
 /// Form of a limit.
 #[derive(Clone, Debug, PartialEq)]
@@ -151,7 +151,7 @@ fn figure(
         }
     }
     let (bound, words) = match least {
-        Some((limit, words)) => (Bound::Figure(below::rounded_down(limit)), words),
+        Some((limit, words)) => (Bound::Figure(lower_curve::rounded_down(limit)), words),
         None if open.is_empty() => (Bound::Open, "not applicable to this drive".to_owned()),
         None => (Bound::Open, open.join("; ")),
     };
@@ -175,7 +175,7 @@ fn curve(
             None => (Bound::Open, format!("no data for the {rating}")),
             Some(curve) => {
                 let mut words = share.words(rating);
-                if curve.shortfall > EXACT {
+                if curve.shortfall > SHORTFALL_ROUNDING {
                     let shortfall = significant(100.0 * curve.shortfall, 2);
                     words = format!("{words}, up to {shortfall} % of its largest value below it");
                 }

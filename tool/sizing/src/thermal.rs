@@ -15,7 +15,7 @@
 //! constants only the mean losses count: [`mean`].
 
 pub mod classify;
-pub mod course;
+pub mod loss_curve;
 pub mod mean;
 pub mod network;
 
@@ -29,13 +29,13 @@ use crate::motor::winding::{COPPER, REFERENCE_TEMPERATURE};
 use jred_analysis::duty::Panel;
 use jred_file::units::{Sentence, Vocabulary};
 
-use course::{LossCurve, LossPiece, LossSample, MOST_PARTS, PART, PeakRise};
 use jred_file::model::operation::Operation;
 use jred_file::model::surroundings::Surroundings;
+use loss_curve::{LossCurve, LossPiece, LossSample, MOST_PARTS, PART, PeakRise};
 use network::{Losses, Network};
 
 /// Housing time constant assumed when none is given, as a multiple of the longest other one.
-const SLOW: f64 = 1e6;
+const SLOW_FACTOR: f64 = 1e6;
 
 /// A thermal model of a motor.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -157,7 +157,7 @@ impl Model {
                     bodies(Network::two([w, h], [tw, th], growth), copper, true)
                 }
                 (Some((w, h)), [Some(tw), None]) => {
-                    let th = SLOW * tw.max(cycle_time);
+                    let th = SLOW_FACTOR * tw.max(cycle_time);
                     bodies(Network::two([w, h], [tw, th], growth), copper, false)
                 }
                 (_, [None, None]) => Self::Steady {
@@ -366,7 +366,7 @@ impl Model {
 }
 
 /// Allowed error of the moments of the losses over a panel from its samples, as a share of the losses.
-const KNOWN: f64 = 1e-10;
+const MOMENT_TOLERANCE: f64 = 1e-10;
 
 /// The losses over a panel in a number of pieces. Their moments come from the panel's quadrature, with the losses at its samples or `between` them. A
 /// piece in which they bend is halved.
@@ -379,7 +379,7 @@ fn pieces_of(
     let rule = panel.rule();
     let values = |which: usize| -> Vec<f64> { known.iter().map(|losses| losses[which]).collect() };
     let estimates = [0, 1].map(|which| rule.estimate(&values(which)));
-    let least = KNOWN * (estimates[0].size + estimates[1].size);
+    let least = MOMENT_TOLERANCE * (estimates[0].size + estimates[1].size);
     let constant =
         (known.windows(2)).all(|two| two[0].map(f64::to_bits) == two[1].map(f64::to_bits));
     let parts = if constant { 1.0 } else { parts };
@@ -403,7 +403,7 @@ fn pieces_of(
             }
             [0, 1, 2].map(|power| {
                 let f = |x: f64| between(x)[which] * share(x).powi(power);
-                rule.adaptive([a, b], (KNOWN, least), &f) / (b - a)
+                rule.adaptive([a, b], (MOMENT_TOLERANCE, least), &f) / (b - a)
             })
         };
         let time = panel.half() * (b - a);

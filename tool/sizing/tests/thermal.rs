@@ -11,7 +11,7 @@ use crate::brute;
 use crate::support::{budget, near, within};
 use jred_file::model::operation::Operation;
 use jred_sizing::judge::overload;
-use jred_sizing::thermal::course::{LossCurve, LossSample, PeakRise};
+use jred_sizing::thermal::loss_curve::{LossCurve, LossSample, PeakRise};
 use jred_sizing::thermal::network::{Losses, Network, Transition, steady};
 
 const COLD: Losses = Losses {

@@ -17,7 +17,7 @@ use jred_file::model::supply::Supply;
 use jred_file::model::variator;
 use jred_file::plain;
 use jred_report::list::{self, listing};
-use jred_sizing::bus::answer::{BusAnalysis, BusAxis};
+use jred_sizing::bus::analysis::{BusAnalysis, BusAxis};
 use jred_sizing::bus::supply::BusData;
 use jred_sizing::bus::{Watch, power};
 use jred_sizing::catalogue::Catalogue;

@@ -31,8 +31,8 @@ use jred_motion::fastest::joint_force::reached;
 use jred_motion::fastest::ruled::{Judge, ruled};
 use jred_motion::fastest::winding::{Winding, cooled};
 use jred_motion::fastest::{KeptPart, MoveLimits, NoMotion, Reserve, Rms, Task};
+use jred_motion::path_dynamics::{Actuator, PathDynamics};
 use jred_motion::trace::Trace;
-use jred_motion::way::{Actuator, PathDynamics};
 use jred_report::list;
 use jred_report::list::fastest::WindingHeat;
 use jred_report::page;
@@ -241,9 +241,9 @@ fn task(options: &Options, file: &MachineFile) -> Result<Option<Task>> {
 
 /// Refuses end speeds above the limit of motor and options, which no distance can reach.
 fn passable(options: &Options, file: &MachineFile, actuator: &Actuator, task: &Task) -> Result<()> {
-    let way = &PathDynamics::new(file, actuator.clone(), 1.0);
+    let dynamics = &PathDynamics::new(file, actuator.clone(), 1.0);
     let limits = task.limits;
-    let (top, limit) = Field { way, limits }.top();
+    let (top, limit) = Field { dynamics, limits }.top();
     let given = [
         ("from-speed", &options.from_speed),
         ("to-speed", &options.to_speed),

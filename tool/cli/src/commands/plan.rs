@@ -9,10 +9,10 @@ use jred::machine::Reducible as _;
 use jred_export::{plan_c_source, plan_source};
 use jred_file::model::machine::MachineFile;
 use jred_file::plain;
+use jred_motion::path_dynamics::Actuator;
 use jred_motion::plan::Plan;
 use jred_motion::plan::ramp::least_ramp;
 use jred_motion::trace::Trace;
-use jred_motion::way::Actuator;
 use jred_report::list;
 
 /// Writes the plan, if requested; returns a sentence about it. `gearbox`: largest torque at the gearbox output (N·m).

@@ -19,7 +19,7 @@ use jred_file::model::variator;
 use jred_file::number::words::counted;
 use jred_file::plain;
 use jred_file::text::key::SPEED;
-use jred_motion::driven::{Loads, UnfitDrive, driven};
+use jred_motion::drive_simulation::{Loads, UnfitDrive, driven};
 use jred_report::list;
 use jred_report::page;
 use jred_sizing::study::chosen::ChosenDrive;

@@ -19,7 +19,7 @@ use jred_file::model::{drive_train, variator};
 use jred_file::number::words::counted;
 use jred_file::plain;
 use jred_file::read;
-use jred_motion::suited::CoDesignInput;
+use jred_motion::co_design::CoDesignInput;
 use jred_report::list;
 use jred_report::list::listing;
 use jred_report::page;

@@ -14,10 +14,10 @@ const GROWTH: f64 = 10.0;
 /// Most steps of Newton's method to one minimum.
 const MOST_STEPS: usize = 200;
 /// Half the square of Newton's decrement at which a minimum counts as reached.
-const REACHED: f64 = 1e-6;
+const MINIMUM_DECREMENT: f64 = 1e-6;
 
 /// The same where rounding stops the descent. It is large against rounding, but hardly widens the gap.
-const LOST: f64 = 1e-2;
+const ROUNDING_DECREMENT: f64 = 1e-2;
 
 /// A constraint.
 #[derive(Clone, Debug)]
@@ -145,7 +145,7 @@ impl QuadraticProgram {
         let mut height = self.height(s, &x)?;
         for _ in 0..MOST_STEPS {
             let (step, falls) = self.step(s, &x)?;
-            if falls <= REACHED {
+            if falls <= MINIMUM_DECREMENT {
                 return Some(x);
             }
             let mut share = 1.0;
@@ -161,7 +161,7 @@ impl QuadraticProgram {
                 share *= 0.5;
                 if share < 1e-12 {
                     // The gain of the step is lost in the rounding of the height.
-                    return (falls < LOST).then_some(x);
+                    return (falls < ROUNDING_DECREMENT).then_some(x);
                 }
             }
         }

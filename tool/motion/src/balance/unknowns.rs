@@ -16,7 +16,7 @@ const MOST_TORQUE: f64 = 1e3;
 const MOST_FREE: f64 = 3.0;
 
 /// Share of the goal below which a change is ignored.
-const NOTHING: f64 = 1e-5;
+const IGNORED_CHANGE: f64 = 1e-5;
 
 /// Gap at which the search ends, as a share of the square (or of the peak) without counterweights and springs.
 const GAP: f64 = 1e-13;
@@ -54,10 +54,10 @@ fn highest(values: &[f64], bound: f64) -> Vec<usize> {
 }
 
 /// Penalty for a body as large as allowed, or a spring as stiff as allowed, relative to the torque that it relieves.
-const DISLIKE: f64 = 1e-10;
+const SIZE_PENALTY: f64 = 1e-10;
 
 /// A length below this share of its reference length is residue of the search and becomes zero.
-const ROUNDED: f64 = 1e-6;
+const LENGTH_RESIDUE: f64 = 1e-6;
 
 /// Bodies and springs, in the order of the request; `None`: no body or spring.
 pub(super) struct BalanceParts {
@@ -128,14 +128,14 @@ impl<'a> Unknowns<'a> {
     /// Penalty of each unknown. Of several equal optima it selects the lightest body and the softest spring.
     fn dislike(&self) -> impl Iterator<Item = f64> {
         let bodies = self.request.counterweights.iter();
-        let bodies = bodies.flat_map(|_| [DISLIKE, 0.0, 0.0, DISLIKE]);
+        let bodies = bodies.flat_map(|_| [SIZE_PENALTY, 0.0, 0.0, SIZE_PENALTY]);
         let springs = self.springs.iter();
-        bodies.chain(springs.flat_map(|_| [DISLIKE / MOST_TORQUE, 0.0]))
+        bodies.chain(springs.flat_map(|_| [SIZE_PENALTY / MOST_TORQUE, 0.0]))
     }
 
     /// Largest possible penalty.
     fn most_disliked(&self) -> f64 {
-        DISLIKE * (2 * self.request.counterweights.len() + self.springs.len()) as f64
+        SIZE_PENALTY * (2 * self.request.counterweights.len() + self.springs.len()) as f64
     }
 
     fn least_squares(&self, scaled: &ScaledProblem, weights: &[f64]) -> (Vec<f64>, f64) {
@@ -255,7 +255,7 @@ impl<'a> Unknowns<'a> {
                     .sum::<f64>()
             };
             let most = (0..rows.base.len()).fold(0.0, |most: f64, k| most.max(effect(k).abs()));
-            most > NOTHING * largest(&rows.base)
+            most > IGNORED_CHANGE * largest(&rows.base)
         };
         let masses = counterweights
             .zip(bodies.chunks(4))
@@ -270,7 +270,7 @@ impl<'a> Unknowns<'a> {
             }
             // A free length that is small against the spring is residue of the search.
             let free = preload / k;
-            let free = if free.abs() < ROUNDED * longest {
+            let free = if free.abs() < LENGTH_RESIDUE * longest {
                 0.0
             } else {
                 free
@@ -326,7 +326,7 @@ fn body(bound: &Counterweight, columns: &[Vec<f64>], p: &[f64]) -> Option<Attach
     // A coordinate that is small against the reach is residue of the search.
     let coordinate = |moment: f64| {
         let at = moment / mass;
-        if at.abs() < ROUNDED * bound.reach {
+        if at.abs() < LENGTH_RESIDUE * bound.reach {
             0.0
         } else {
             at

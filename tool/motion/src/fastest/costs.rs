@@ -6,7 +6,7 @@ use super::cycle::FastestMove;
 use super::field::{Binding, MoveLimits};
 use super::tool_speed::ToolSpeeds;
 use super::{Task, time};
-use crate::way::Actuator;
+use crate::path_dynamics::Actuator;
 
 /// Share by which torque and speed of the motor are raised to measure their cost.
 pub const MORE: f64 = 0.1;

@@ -12,8 +12,8 @@ use super::obstacle::input;
 use super::rms::{Continuation, Rms, RmsError, slowest, within};
 use super::{Fastest, NoMotion, Task, priced, solve};
 use crate::moves::{EndStates, Move, Part};
+use crate::path_dynamics::{Actuator, PathDynamics};
 use crate::trace::Trace;
-use crate::way::{Actuator, PathDynamics};
 
 /// A move made as fast as possible.
 #[derive(Clone, Debug)]

@@ -23,8 +23,8 @@ use jred_file::model::schedule::Now;
 use super::NoMotion;
 use super::field::{Field, speed};
 use super::track::Track;
+use crate::path_dynamics::Place;
 use crate::trace::Trace;
-use crate::way::Place;
 
 /// Share of the largest speed that counts as speed zero but keeps the friction of the motion.
 const CREEP: f64 = 1e-100;
@@ -303,10 +303,10 @@ impl Field<'_, '_> {
         if !forces.is_some() {
             return Ok(Vec::new());
         }
-        let way = self.way;
-        let machine = way.file.machine_at(&way.now(), phi)?;
+        let dynamics = self.dynamics;
+        let machine = dynamics.file.machine_at(&dynamics.now(), phi)?;
         let reactions = |v: f64, a: f64| {
-            let found = machine.forces(phi, v * way.direction, a * way.direction)?;
+            let found = machine.forces(phi, v * dynamics.direction, a * dynamics.direction)?;
             Ok::<_, Error>(found.reactions)
         };
         // Each term is evaluated where it dominates, so that it is not lost in another term.

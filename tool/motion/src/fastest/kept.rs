@@ -6,7 +6,7 @@ use jred_file::model::machine::MachineFile;
 use super::field::{Binding, Field, MoveLimits};
 use super::track::PathPoint;
 use crate::moves::KeptMotion;
-use crate::way::{Actuator, PathDynamics};
+use crate::path_dynamics::{Actuator, PathDynamics};
 
 /// Share by which a kept part may exceed a limit (rounding).
 const ROUNDING: f64 = 1e-6;
@@ -35,15 +35,15 @@ impl KeptPart {
         limits: &MoveLimits,
         kept: &KeptMotion,
     ) -> Result<Self, Error> {
-        let way = &PathDynamics::new(file, actuator.clone(), (kept.to - kept.from).signum());
+        let dynamics = &PathDynamics::new(file, actuator.clone(), (kept.to - kept.from).signum());
         let limits = *limits;
-        let field = Field { way, limits };
+        let field = Field { dynamics, limits };
         let mut excess = (f64::NEG_INFINITY, Binding::Driving);
         for pair in kept.nodes().windows(2) {
             let [a, b] = [&pair[0], &pair[1]];
             for share in STEP_SHARES {
                 let state = b.after(a, share);
-                let (v, alpha) = (state.omega.abs(), state.alpha * way.direction);
+                let (v, alpha) = (state.omega.abs(), state.alpha * dynamics.direction);
                 let own = field.excess_by(&PathPoint::new(&field, state.phi)?, v, alpha);
                 if own.0 > excess.0 {
                     excess = own;

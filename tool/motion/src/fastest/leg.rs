@@ -25,7 +25,7 @@ const PART_HALVINGS: u32 = 44;
 const MOST_TRIALS: u32 = 12;
 
 /// Relative error of a step's end with which they stop.
-const CLOSE: f64 = 1e-14;
+const END_TOLERANCE: f64 = 1e-14;
 
 /// A step, in the direction of the motion.
 #[derive(Clone, Copy, Debug)]
@@ -45,21 +45,21 @@ impl Step {
     pub fn time(&self, length: f64) -> f64 {
         self.time.unwrap_or_else(|| {
             let [v0, v1] = self.z.map(speed);
-            let way = (self.u[1] - self.u[0]) * length;
+            let dynamics = (self.u[1] - self.u[0]) * length;
             let (sum, rise) = (v0 + v1, v1 - v0);
             // At the places of constant acceleration, where dx/v is constant.
             let part = |[s, weight]: [f64; 2]| {
                 let place = s * (2.0 * v0 + rise * s) / sum;
-                weight * (v0 + rise * s) / speed(self.hermite(place, way))
+                weight * (v0 + rise * s) / speed(self.hermite(place, dynamics))
             };
-            2.0 * way / sum * GAUSS_3.into_iter().map(part).sum::<f64>()
+            2.0 * dynamics / sum * GAUSS_3.into_iter().map(part).sum::<f64>()
         })
     }
 
     /// z at a share of the step: the cubic through both ends and slopes.
-    pub fn hermite(&self, s: f64, way: f64) -> f64 {
+    pub fn hermite(&self, s: f64, dynamics: f64) -> f64 {
         let [z0, z1] = self.z;
-        let [a0, a1] = self.a.map(|a| a * way);
+        let [a0, a1] = self.a.map(|a| a * dynamics);
         let rise = z1 - z0;
         z0 + s * (a0 + s * (3.0 * rise - 2.0 * a0 - a1 + s * (a0 + a1 - 2.0 * rise)))
     }
@@ -253,15 +253,15 @@ impl Leg<'_> {
     fn over_time(&self, from: PhasePoint, to: f64) -> Option<StepResult> {
         let length = self.cell.length;
         let heading = (to - from.u).signum();
-        let way = (to - from.u).abs() * length;
+        let dynamics = (to - from.u).abs() * length;
         let start = speed(from.z);
         let a0 = heading * from.a;
-        let square = start * start + 2.0 * a0 * way;
+        let square = start * start + 2.0 * a0 * dynamics;
         if square <= 0.0 {
             return None;
         }
         let at = |x: f64, v: f64| heading * self.at(from.u + heading * x / length, 0.5 * v * v);
-        let mut t = 2.0 * way / (start + square.sqrt());
+        let mut t = 2.0 * dynamics / (start + square.sqrt());
         for _ in 0..MOST_TRIALS {
             let half = 0.5 * t;
             let v2 = start + half * a0;
@@ -275,8 +275,8 @@ impl Leg<'_> {
             if v <= 0.0 {
                 return None;
             }
-            let missing = way - x;
-            if missing.abs() <= CLOSE * way {
+            let missing = dynamics - x;
+            if missing.abs() <= END_TOLERANCE * dynamics {
                 let z = 0.5 * v * v;
                 let end = self.point(to, z);
                 let error = (t / 6.0 * (a4 - heading * end.a)).abs() * v;

@@ -5,15 +5,18 @@ use jred_sizing::motor::envelope::{LimitPiece, TorqueCurve};
 use super::field::Field;
 
 /// Share of the torque at rest by which straight lines may differ from a torque-speed curve.
-const CONCAVE: f64 = 1e-12;
+const LINE_TOLERANCE: f64 = 1e-12;
 
 impl Field<'_, '_> {
     /// The motor's torque as the lowest of straight lines, each given by its torque at rest and its slope by the drive link's speed; `None` if the
     /// curve has no such form.
     pub fn torque_lines(&self, braking: bool) -> Option<Vec<[f64; 2]>> {
-        let pieces = self.way.actuator.envelope.limit(braking).pieces();
+        let pieces = self.dynamics.actuator.envelope.limit(braking).pieces();
         let reserve = &self.limits.reserve;
-        let (left, per_speed) = (reserve.leaves(reserve.torque), self.way.motor_speed(1.0));
+        let (left, per_speed) = (
+            reserve.leaves(reserve.torque),
+            self.dynamics.motor_speed(1.0),
+        );
         let lines = pieces.iter().map(|piece| match piece.curve {
             TorqueCurve::Line { start, slope } => Some([start - slope * piece.from, slope]),
             TorqueCurve::Winding { .. } => None,
@@ -27,7 +30,9 @@ impl Field<'_, '_> {
         let is_lowest = |piece: &LimitPiece| {
             [piece.from, piece.to.min(self.motor_end())]
                 .iter()
-                .all(|speed| (piece.torque(*speed) - lowest(*speed)).abs() <= CONCAVE * scale)
+                .all(|speed| {
+                    (piece.torque(*speed) - lowest(*speed)).abs() <= LINE_TOLERANCE * scale
+                })
         };
         let scaled = |[torque, slope]: &[f64; 2]| [left * torque, left * slope * per_speed];
         (pieces.iter().all(is_lowest)).then(|| lines.iter().map(scaled).collect())

@@ -9,8 +9,8 @@ use jred_file::number::numerics;
 use jred_file::number::quadrature::GAUSS_2;
 
 use super::field::Reserve;
+use crate::path_dynamics::{Actuator, BothDirections};
 use crate::trace::{Node, Trace};
-use crate::way::{Actuator, BothDirections};
 
 /// The load of a motor in a motion.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -22,15 +22,15 @@ pub struct Phase {
 }
 
 /// Share of the total time below which a phase between two phases of one limit is dropped.
-const BLINK: f64 = 1e-6;
+const SHORTEST_PHASE: f64 = 1e-6;
 
 /// Share of z within which a motion is at a limit of its speed.
-const AT: f64 = 1e-6;
+const LIMIT_TOLERANCE: f64 = 1e-6;
 
 /// Whether z is at the tool's speed limit.
 fn tool_limits(field: &Field, phi: f64, z: f64) -> bool {
     let tool = field.tool_speed(phi).unwrap_or(f64::INFINITY);
-    z >= 0.5 * tool.powi(2) * (1.0 - AT)
+    z >= 0.5 * tool.powi(2) * (1.0 - LIMIT_TOLERANCE)
 }
 
 /// The phases of a motion.
@@ -65,7 +65,7 @@ pub(super) fn phases(
         let mut add = |limit: Binding, from: f64, to: f64| {
             let phi = |s: f64| {
                 let x = cell.x + (step.u[0] + s * width) * cell.length;
-                ends.from + field.way.direction * x
+                ends.from + field.dynamics.direction * x
             };
             let end = (phi(to), t + to * time, speed(z(to)));
             if let Some(phase) = phases.last_mut().filter(|phase| phase.limit == limit) {
@@ -96,7 +96,7 @@ fn without_blinks(phases: Vec<Phase>, whole: f64) -> Vec<Phase> {
     let mut kept: Vec<Phase> = Vec::with_capacity(phases.len());
     for mut phase in phases {
         if let [.., before, blink] = kept.as_mut_slice()
-            && blink.t[1] - blink.t[0] <= BLINK * whole
+            && blink.t[1] - blink.t[0] <= SHORTEST_PHASE * whole
         {
             if before.limit == phase.limit {
                 (before.phi[1], before.t[1], before.speed[1]) =

@@ -8,7 +8,7 @@ use super::cycle::FastestMove;
 use super::field::Field;
 use super::joint_force::Spot;
 use super::sweep::Side;
-use crate::way::{Actuator, PathDynamics};
+use crate::path_dynamics::{Actuator, PathDynamics};
 
 /// Positions at which the limits are evaluated.
 const POSITIONS: usize = 361;
@@ -38,9 +38,9 @@ impl Plane {
     pub fn of(file: &MachineFile, actuator: &Actuator, made: &FastestMove) -> Result<Self, Error> {
         let [from, to] = [made.task.from, made.task.to];
         let direction = (to - from).signum();
-        let way = PathDynamics::new(file, actuator.clone(), direction);
+        let dynamics = PathDynamics::new(file, actuator.clone(), direction);
         let field = Field {
-            way: &way,
+            dynamics: &dynamics,
             limits: made.task.limits,
         };
         let mut plane = Self {
@@ -56,7 +56,7 @@ impl Plane {
             let forces: Vec<_> = (field.forces(phi)?.iter())
                 .map(|force| [*force; 3])
                 .collect();
-            let place = Spot::new(way.place(phi)?, &forces, [1.0, 0.0, 0.0]);
+            let place = Spot::new(dynamics.place(phi)?, &forces, [1.0, 0.0, 0.0]);
             let z = |v: f64| 0.5 * v * v;
             let top = top.min(field.tool_speed(phi)?);
             let closed = if field.may_be_empty() {

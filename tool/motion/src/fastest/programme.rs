@@ -182,7 +182,7 @@ impl MoveRequest<'_> {
                 widen(&mut warm.margins, &each, 2 * round > WIDENED);
             }
         }
-        if worst.excess > super::course::MOST_EXCESS {
+        if worst.excess > super::path_search::MOST_EXCESS {
             return Err(self.not_found(worst.limit, worst.phi, worst.excess));
         }
         let time = trace.duration();
@@ -208,8 +208,8 @@ impl MoveRequest<'_> {
             phi,
             missed,
             rates: [self.limits().jerk, self.limits().torque_rate].map(|limit| limit.is_some()),
-            unit: input(self.field.way.file),
-            axis: self.field.way.file.axis(),
+            unit: input(self.field.dynamics.file),
+            axis: self.field.dynamics.file.axis(),
         }
     }
 
@@ -239,7 +239,10 @@ impl MoveRequest<'_> {
 
     /// Start and signed length of the path.
     fn course(&self) -> [f64; 2] {
-        [self.ends.from, self.ends.length * self.field.way.direction]
+        [
+            self.ends.from,
+            self.ends.length * self.field.dynamics.direction,
+        ]
     }
 
     fn mesh(&self, shape: &Parametrization, borders: &[Border]) -> Result<Mesh, NoMotion> {
@@ -372,20 +375,20 @@ impl MoveRequest<'_> {
         if self.limits().torque_rate.is_none() {
             return Ok(());
         }
-        let way = self.field.way;
+        let dynamics = self.field.dynamics;
         let scale = self.field.motor_torques(0.0).map(f64::abs)[1];
         let near = self.ends.inside(1e-3 * self.ends.length);
         for x in &self.ends.corners {
-            let place = |x: f64| way.place(self.ends.from + way.direction * x);
+            let place = |x: f64| dynamics.place(self.ends.from + dynamics.direction * x);
             let sides = [place(x - near)?, place(x + near)?];
             let speed = self.ends.length / self.bound;
-            let [before, after] = sides.map(|place| way.demand(&place, speed, 0.0).torque);
+            let [before, after] = sides.map(|place| dynamics.demand(&place, speed, 0.0).torque);
             if (after - before).abs() > 1e-6 * scale {
                 return Err(NoMotion::LoadJumps {
-                    phi: self.ends.from + way.direction * x,
+                    phi: self.ends.from + dynamics.direction * x,
                     torques: [before, after],
-                    unit: input(way.file),
-                    axis: way.file.axis(),
+                    unit: input(dynamics.file),
+                    axis: dynamics.file.axis(),
                 });
             }
         }

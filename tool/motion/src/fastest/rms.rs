@@ -20,7 +20,7 @@ use jred_file::model::machine::MachineFile;
 use super::NoMotion;
 use super::cycle::{Cycle, MotorLoad};
 use super::programme::{Price, Start, WarmStart};
-use crate::way::{Actuator, PathDynamics};
+use crate::path_dynamics::{Actuator, PathDynamics};
 
 /// A limit of the RMS torque over a motion with its pauses.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -118,10 +118,10 @@ pub(super) fn slowest(
 ) -> Result<f64, Error> {
     let mut least = f64::INFINITY;
     for [from, to] in ways {
-        let way = PathDynamics::new(file, actuator.clone(), (to - from).signum());
+        let dynamics = PathDynamics::new(file, actuator.clone(), (to - from).signum());
         for k in 0..=PLACES {
-            let place = way.place(from + (to - from) * f64::from(k) / f64::from(PLACES))?;
-            least = least.min(way.demand(&place, 0.0, 0.0).torque.abs());
+            let place = dynamics.place(from + (to - from) * f64::from(k) / f64::from(PLACES))?;
+            least = least.min(dynamics.demand(&place, 0.0, 0.0).torque.abs());
         }
     }
     Ok(least)

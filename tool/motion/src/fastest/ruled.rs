@@ -25,17 +25,17 @@ use super::{NoMotion, Rms};
 use crate::trace::Trace;
 
 /// Share of a limit that a motion may use. A reserve leaves a millionth less than all of it, and a profile that is read back has other last digits.
-const ALLOWED: f64 = 1.0 - 5e-7;
+const USABLE_SHARE: f64 = 1.0 - 5e-7;
 
 /// Share by which the final use of a limit may stay below it.
-const NEAR: f64 = 1e-3;
+const USE_TOLERANCE: f64 = 1e-3;
 
 /// Most motions for one cap, and most rounds over all caps.
 const TRIES: u32 = 10;
 const ROUNDS: u32 = 4;
 
 /// If the use falls by a smaller share than this while the cap falls by more, the use does not depend on the cap.
-const FOLLOWS: f64 = 1e-3;
+const LEAST_RESPONSE: f64 = 1e-3;
 
 /// A quantity that is lowered at every instant to satisfy a rule of the whole motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -173,7 +173,7 @@ impl<'a> Judge<'a> {
             .iter()
             .filter(|(rule, _)| Cap::of(*rule, heat) == Some(cap));
         let used = own.map(|(rule, finding)| self.file.rules.use_of_limit(rule, finding));
-        used.fold(0.0, f64::max) / ALLOWED
+        used.fold(0.0, f64::max) / USABLE_SHARE
     }
 }
 
@@ -278,7 +278,7 @@ impl<W> Search<'_, W> {
             } else {
                 least.midpoint(high[0])
             };
-            if !next.is_finite() || next <= 0.0 || high[0] - least <= NEAR * high[0] {
+            if !next.is_finite() || next <= 0.0 || high[0] - least <= USE_TOLERANCE * high[0] {
                 break;
             }
             let Ok(tried) = self.at(from.caps.with(cap, next)) else {
@@ -288,12 +288,12 @@ impl<W> Search<'_, W> {
             let used = self.used(&tried, cap);
             if used <= 1.0 {
                 low = Some(([next, used], tried));
-                if used >= 1.0 - NEAR {
+                if used >= 1.0 - USE_TOLERANCE {
                     break;
                 }
             } else {
-                let falls = used < high[1] * (1.0 - FOLLOWS);
-                if !falls && next < high[0] * (1.0 - 10.0 * FOLLOWS) {
+                let falls = used < high[1] * (1.0 - LEAST_RESPONSE);
+                if !falls && next < high[0] * (1.0 - 10.0 * LEAST_RESPONSE) {
                     break;
                 }
                 high = [next, used];
@@ -307,7 +307,7 @@ impl<W> Search<'_, W> {
         let mut best = from;
         for _ in 0..TRIES / 2 {
             let used = self.used(&best, cap);
-            if !best.caps.get(cap).is_finite() || used <= 0.0 || used >= 1.0 - NEAR {
+            if !best.caps.get(cap).is_finite() || used <= 0.0 || used >= 1.0 - USE_TOLERANCE {
                 break;
             }
             let next = best.caps.get(cap) / used.max(0.5);
@@ -356,7 +356,7 @@ impl<W> Search<'_, W> {
 
 /// The cap at which the use would be slightly below its limit, by a power law through two points.
 fn between(low: [f64; 2], high: [f64; 2]) -> f64 {
-    let aim = 1.0 - 0.5 * NEAR;
+    let aim = 1.0 - 0.5 * USE_TOLERANCE;
     let share = (high[1] / aim).ln() / (high[1] / low[1]).ln();
     high[0] * (low[0] / high[0]).powf(share.clamp(0.02, 0.98))
 }

@@ -18,10 +18,10 @@ use super::leg::{Leg, MOST_STEPS, PhasePoint, Stall, Step};
 use super::track::{PathCell, Track};
 
 /// Relative difference of z below which two curves coincide.
-const ON: f64 = 1e-12;
+const CURVE_TOLERANCE: f64 = 1e-12;
 
 /// Accuracy of a crossing as a share of its place.
-const CROSSING: f64 = 1e-15;
+const CROSSING_TOLERANCE: f64 = 1e-15;
 
 /// Most changes of the state within a cell. More are rounding where two curves touch; then the motion stays on the upper curve.
 const MOST_CHANGES: u32 = 16;
@@ -81,7 +81,7 @@ pub fn fastest(
 ) -> Result<Vec<SweepPiece>, Obstacle> {
     let upper = upper(field, track, ends[1])?;
     let first = upper.last().map_or(0.0, |piece| piece.step.z[0]);
-    if ends[0] > first * (1.0 + ON) {
+    if ends[0] > first * (1.0 + CURVE_TOLERANCE) {
         return Err(Obstacle::StartTooFast(first));
     }
     forwards(field, track, &upper, ends)
@@ -95,7 +95,7 @@ pub fn times(track: &Track, pieces: &[SweepPiece]) -> Vec<f64> {
 
 fn zero_of(f: impl Fn(f64) -> f64, between: [f64; 2], values: [f64; 2]) -> f64 {
     let sure = |u: f64| Ok::<_, Infallible>(f(u));
-    let Ok(u) = zero(sure, between, values, CROSSING);
+    let Ok(u) = zero(sure, between, values, CROSSING_TOLERANCE);
     u
 }
 
@@ -217,7 +217,7 @@ fn push(pieces: &mut Vec<SweepPiece>, cell: usize, steps: impl Iterator<Item = S
 
 /// The first step (backwards) that rises above the speed limit, and where it does.
 fn above_cap(cell: &PathCell, leg: &Leg, steps: &[Step]) -> Option<(usize, f64)> {
-    let is_above = |u: f64, z: f64| z > cell.cap(u) * (1.0 + ON);
+    let is_above = |u: f64, z: f64| z > cell.cap(u) * (1.0 + CURVE_TOLERANCE);
     let k = steps
         .iter()
         .position(|step| is_above(step.u[0], step.z[0]))?;
@@ -271,7 +271,7 @@ fn forwards(
             cell,
         };
         let mut u = 0.0;
-        let mut on_upper = z >= above.z(0.0) * (1.0 - ON);
+        let mut on_upper = z >= above.z(0.0) * (1.0 - CURVE_TOLERANCE);
         let mut start = border.take().filter(|_| !on_upper);
         let mut changes = 0;
         while u < 1.0 {
@@ -362,7 +362,7 @@ impl UpperCurve<'_> {
 
     /// The first step that rises above the upper curve, and where.
     fn crossed(&self, leg: &Leg, steps: &[Step]) -> Option<(usize, f64)> {
-        let is_above = |step: &Step| step.z[1] > self.z(step.u[1]) * (1.0 + ON);
+        let is_above = |step: &Step| step.z[1] > self.z(step.u[1]) * (1.0 + CURVE_TOLERANCE);
         let k = steps.iter().position(is_above)?;
         let step = steps[k];
         let left = leg.point(step.u[0], step.z[0]);

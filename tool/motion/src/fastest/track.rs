@@ -7,7 +7,7 @@ use jred::error::Error;
 use super::field::Field;
 use super::joint_force::{JointForce, Spot};
 use crate::memo::Memo;
-use crate::way::Place;
+use crate::path_dynamics::Place;
 
 /// Factor of z from one trial to the next where nothing limits the speed, and the most trials.
 const RISE: f64 = 16.0;
@@ -17,13 +17,13 @@ const RISES: i32 = 40;
 const TRIED_SPEEDS: u32 = 24;
 
 /// Share of a cell, or of a piece, by which a place at a corner is moved inside: a quantity that jumps there then has the value of its own side.
-pub(super) const INSIDE: f64 = 1e-9;
+pub(super) const CORNER_INSET: f64 = 1e-9;
 
 /// Largest relative change of the tool's speed limit within that distance, unless it jumps there.
-const GOES_ON: f64 = 1e-6;
+const CONTINUITY: f64 = 1e-6;
 
 /// Places closer than this share of the largest position are the same within rounding.
-const SAME: f64 = 16.0 * f64::EPSILON;
+const PLACE_TOLERANCE: f64 = 16.0 * f64::EPSILON;
 
 /// A cell of the path. Between its three places every quantity is the parabola through them.
 #[derive(Clone, Debug)]
@@ -131,12 +131,12 @@ pub struct Ends {
 impl Ends {
     /// Distance below which two places are one.
     fn near(&self) -> f64 {
-        SAME * (self.from.abs() + self.length)
+        PLACE_TOLERANCE * (self.from.abs() + self.length)
     }
 
     /// Distance from the border of a cell of this length at which the machine has the values of the cell's own side.
     pub fn inside(&self, length: f64) -> f64 {
-        (INSIDE * length).max(self.near()).min(0.25 * length)
+        (CORNER_INSET * length).max(self.near()).min(0.25 * length)
     }
 }
 
@@ -158,7 +158,7 @@ impl PathPoint {
     /// The mechanism cannot be placed there.
     pub fn new(field: &Field, phi: f64) -> Result<Self, Error> {
         Ok(Self {
-            place: field.way.place(phi)?,
+            place: field.dynamics.place(phi)?,
             tool: field.tool_speed(phi)?,
             forces: field.forces(phi)?,
         })
@@ -194,7 +194,7 @@ impl<'f, 'w, 'a> Survey<'f, 'w, 'a> {
     /// # Errors
     /// The mechanism cannot be placed there.
     pub fn seen(&self, x: f64) -> Result<PathPoint, Error> {
-        let position = self.from + self.field.way.direction * x;
+        let position = self.from + self.field.dynamics.direction * x;
         self.seen
             .of(x.to_bits(), || PathPoint::new(self.field, position))
     }
@@ -210,7 +210,7 @@ impl<'f, 'w, 'a> Survey<'f, 'w, 'a> {
             if (x - border).abs() > 0.0 {
                 // A limit that continues beyond the border has no jump there.
                 let there = self.seen(border)?.tool;
-                if tool.is_finite() && (there - tool).abs() <= GOES_ON * tool {
+                if tool.is_finite() && (there - tool).abs() <= CONTINUITY * tool {
                     tool = there;
                 }
             }

@@ -19,20 +19,20 @@ use jred_file::model::surroundings::{REFERENCE, Surroundings};
 use jred_file::units::Sentence;
 use jred_sizing::catalogue::{DeratingBasis, Drive, Motor};
 use jred_sizing::motor::envelope::MotorLimits;
-use jred_sizing::thermal::course::{LossCurve, PeakRise};
+use jred_sizing::thermal::loss_curve::{LossCurve, PeakRise};
 use jred_sizing::thermal::{Heating, Model};
 
 use super::cycle::{Cost, Cycle};
 use super::{Binding, NoMotion, Rms};
+use crate::path_dynamics::{Actuator, BothDirections};
 use crate::trace::Trace;
-use crate::way::{Actuator, BothDirections};
 
 /// Share of the allowed rise by which the greatest temperature may lie below its limit.
-const COOLER: f64 = 1e-4;
+const TEMPERATURE_TOLERANCE: f64 = 1e-4;
 
 /// Relative accuracy of the limit of the RMS torque, and the one with which it is decided that no motion is cool enough.
-const FOUND: f64 = 1e-4;
-const COARSE: f64 = 0.02;
+const RMS_TOLERANCE: f64 = 1e-4;
+const COARSE_RMS_TOLERANCE: f64 = 0.02;
 
 /// Most motions that are tried.
 const TRIES: u32 = 24;
@@ -284,7 +284,7 @@ pub fn cooled(
     at: impl Fn(Option<Rms>) -> Result<Cycle, (Option<usize>, NoMotion)>,
 ) -> Result<ThermalResult, (Option<usize>, NoMotion)> {
     let free = at(rms)?;
-    let margin = COOLER * (limit - winding.ambient());
+    let margin = TEMPERATURE_TOLERANCE * (limit - winding.ambient());
     let aim = limit - 0.5 * margin;
     let look = |cycle: &Cycle| {
         let found = winding.temperatures(file, actuator, cycle, aim);
@@ -346,7 +346,11 @@ pub fn cooled(
             next = low.midpoint(high);
         }
         // If every motion is too warm, less accuracy is enough.
-        let near = if best.is_some() { FOUND } else { COARSE };
+        let near = if best.is_some() {
+            RMS_TOLERANCE
+        } else {
+            COARSE_RMS_TOLERANCE
+        };
         if high - low <= near * high {
             break;
         }

@@ -10,8 +10,8 @@ use jred_file::number::quadrature::GAUSS_5;
 use super::{EndConditions, Travel};
 use crate::collocation::pieces::{Value, dot, first_columns, hermite};
 use crate::collocation::shape::Parametrization;
+use crate::path_dynamics::Place;
 use crate::skyline::Skyline;
-use crate::way::Place;
 
 /// A piece of the path: w, w′ at its start, w, w′ at its end.
 #[derive(Clone, Copy, Debug)]
@@ -200,13 +200,13 @@ impl Mesh {
 }
 
 /// Shortest distance of an edge from another node, as a share of u.
-const APART: f64 = 1e-7;
+const EDGE_SPACING: f64 = 1e-7;
 
 /// About `parts` equal pieces, cut at marks.
 fn nodes(mut marks: Vec<f64>, parts: usize) -> Vec<(f64, Continuity)> {
     marks.extend([0.0, 1.0]);
     marks.sort_by(f64::total_cmp);
-    marks.dedup_by(|a, b| *a - *b < APART);
+    marks.dedup_by(|a, b| *a - *b < EDGE_SPACING);
     let mut nodes = Vec::new();
     for pair in marks.windows(2) {
         let [from, to] = [pair[0], pair[1]];
@@ -227,7 +227,7 @@ fn cells(elements: &[Element], fine: &[(f64, Continuity)]) -> Vec<(usize, [f64; 
     for (index, element) in elements.iter().enumerate() {
         let [mut from, to] = element.span;
         for (u, _) in fine {
-            if *u > from + APART && *u < to - APART {
+            if *u > from + EDGE_SPACING && *u < to - EDGE_SPACING {
                 cells.push((index, [from, *u]));
                 from = *u;
             }

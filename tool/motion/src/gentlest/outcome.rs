@@ -50,7 +50,7 @@ impl Solution<'_> {
             mesh,
             found,
         } = self;
-        let way = task.way;
+        let dynamics = task.dynamics;
         // The exact problem, without rounding.
         let exact = Stage {
             range: 0.0,
@@ -71,7 +71,7 @@ impl Solution<'_> {
         let [holding, ..] = exact.cost.torque(waits.torque / scale.unit);
         let held = size * holding * waits.duration;
         let viscous = mesh.stations.iter().any(|s| s.place.viscous > 0.0)
-            || way.actuator.coefficients.0[3] > 0.0;
+            || dynamics.actuator.coefficients.0[3] > 0.0;
         // A wait that costs nothing has a multiplier of zero.
         let waiting = waits.duration > 0.0;
         let multiplier = if waiting { -holding } else { found.multiplier };
@@ -87,7 +87,7 @@ impl Solution<'_> {
         let cost = size * moving * cost + held;
         // It may exceed the cost by rounding; more is refuted.
         let bound = bound.map(|bound| bound.min(cost));
-        let bends = way.bends();
+        let bends = dynamics.bends();
         let convex = !viscous && !bends && !refuted && multiplier >= -1e-9 * found.cost;
         let proved =
             found.converged && convex || bound.is_some_and(|bound| cost - bound <= GAP * cost);
@@ -143,7 +143,7 @@ impl Solution<'_> {
 }
 
 /// Allowed error of a polynomial at half its time, for positions as a share of the path, for speeds as a share of the mean speed.
-const OFF: f64 = 1e-8;
+const POLYNOMIAL_ERROR: f64 = 1e-8;
 
 /// Most halvings of a cell.
 const HALVINGS: u32 = 16;
@@ -216,8 +216,8 @@ impl MotionSpan {
             Polynomial::between(end - start, self.time, End::new(v, a), End::new(w, b));
         let [way, speed, ..] = polynomial.at(first.time);
         let [middle, exact, _] = first.states[1];
-        (first.time + second.time - self.time).abs() <= OFF
-            && (start + way - middle).abs() <= OFF
-            && (speed - exact).abs() <= OFF
+        (first.time + second.time - self.time).abs() <= POLYNOMIAL_ERROR
+            && (start + way - middle).abs() <= POLYNOMIAL_ERROR
+            && (speed - exact).abs() <= POLYNOMIAL_ERROR
     }
 }

@@ -11,7 +11,7 @@ use jred_file::model::motion::Phase;
 use jred_file::number::numerics::{least, zero};
 
 use super::{Fault, GAP, LeastEffortMove, Objective, Optimum, Reason, Travel, from_end_to_end};
-use crate::way::PathDynamics;
+use crate::path_dynamics::PathDynamics;
 
 /// Places at which the holding torque is evaluated.
 const HOLDING_PLACES: u32 = 360;
@@ -20,20 +20,20 @@ const HOLDING_PLACES: u32 = 360;
 const MOST: usize = 4;
 
 /// Share by which a wait must be better.
-const BETTER: f64 = 1e-6;
+const LEAST_GAIN: f64 = 1e-6;
 
 /// Share of the time, or of the path, that is rounding.
 const ROUNDED: f64 = 1e-9;
 
 /// Relative accuracy of a zero's position.
-const CLOSE: f64 = 1e-15;
+const ZERO_TOLERANCE: f64 = 1e-15;
 
 /// The given motion, or a better one that waits on its path.
 ///
 /// # Errors
 /// Those of the given motion, if no other motion is found.
 pub(super) fn on_the_way(
-    way: &PathDynamics,
+    dynamics: &PathDynamics,
     travel: &Travel,
     objective: Objective,
     found: Result<LeastEffortMove, Fault>,
@@ -45,18 +45,18 @@ pub(super) fn on_the_way(
         Objective::Peak => return found,
     };
     let mut best = found;
-    for (place, torque) in places(way, travel)? {
+    for (place, torque) in places(dynamics, travel)? {
         let rate = per_square * torque * torque;
         let made = if travel.ring {
-            turning_from(way, travel, objective, place)
+            turning_from(dynamics, travel, objective, place)
         } else {
-            waiting_at(way, travel, objective, (place, rate))
+            waiting_at(dynamics, travel, objective, (place, rate))
         };
         let Some(made) = made else {
             continue;
         };
         best = match best {
-            Ok(best) if made.cost >= best.cost * (1.0 - BETTER) => Ok(best),
+            Ok(best) if made.cost >= best.cost * (1.0 - LEAST_GAIN) => Ok(best),
             Ok(best) => Ok(judged(made, best.bound, best.optimum)),
             Err(_) => Ok(judged(made, None, Optimum::Local(Reason::LongTime))),
         };
@@ -82,10 +82,10 @@ fn judged(made: LeastEffortMove, bound: Option<f64>, of_other: Optimum) -> Least
 }
 
 /// Positions of least holding torque, with the torque (N·m): zeros, local minima, and the better end, where there are ends.
-fn places(way: &PathDynamics, travel: &Travel) -> Result<Vec<(f64, f64)>, Fault> {
+fn places(dynamics: &PathDynamics, travel: &Travel) -> Result<Vec<(f64, f64)>, Fault> {
     let at = |k: u32| travel.start + travel.distance * f64::from(k) / f64::from(HOLDING_PLACES);
     let torques: Vec<f64> = (0..=HOLDING_PLACES)
-        .map(|k| way.holding_at(at(k)))
+        .map(|k| dynamics.holding_at(at(k)))
         .collect::<Result<_, _>>()?;
     let mut found = Vec::new();
     let first = u32::from(!travel.ring);
@@ -95,14 +95,14 @@ fn places(way: &PathDynamics, travel: &Travel) -> Result<Vec<(f64, f64)>, Fault>
         let [before, here, after] = [before, k, k + 1].map(|k| torques[k as usize]);
         if here * after < 0.0 {
             let phi = zero(
-                |phi| way.holding_at(phi),
+                |phi| dynamics.holding_at(phi),
                 [at(k), at(k + 1)],
                 [here, after],
-                CLOSE,
+                ZERO_TOLERANCE,
             )?;
             found.push(phi);
         } else if here.abs() <= before.abs() && here.abs() < after.abs() && before * here >= 0.0 {
-            let size = |phi: f64| way.holding_at(phi).map(f64::abs);
+            let size = |phi: f64| dynamics.holding_at(phi).map(f64::abs);
             let aside = travel.distance / f64::from(HOLDING_PLACES);
             found.push(least(size, at(k) - aside, at(k + 1))?);
         }
@@ -123,7 +123,7 @@ fn places(way: &PathDynamics, travel: &Travel) -> Result<Vec<(f64, f64)>, Fault>
     };
     let mut all = Vec::with_capacity(found.len());
     for phi in found {
-        all.push((phi, way.holding_at(phi)?.abs()));
+        all.push((phi, dynamics.holding_at(phi)?.abs()));
     }
     // A place with more holding torque than an end is dropped.
     all.retain(|(_, torque)| *torque <= at_end);
@@ -134,7 +134,7 @@ fn places(way: &PathDynamics, travel: &Travel) -> Result<Vec<(f64, f64)>, Fault>
     } else if all.is_empty() && !travel.ring {
         // Where holding takes the same everywhere, any place will do.
         let middle = travel.start + 0.5 * travel.distance;
-        all.push((middle, way.holding_at(middle)?.abs()));
+        all.push((middle, dynamics.holding_at(middle)?.abs()));
     }
     Ok(all)
 }
@@ -145,7 +145,7 @@ fn is(place: f64, other: f64) -> bool {
 
 /// The motion that waits at a place where a second costs this much; `None` where it takes longer than the time of the move.
 fn waiting_at(
-    way: &PathDynamics,
+    dynamics: &PathDynamics,
     travel: &Travel,
     objective: Objective,
     (place, rate): (f64, f64),
@@ -165,7 +165,7 @@ fn waiting_at(
             accelerations: at(travel.accelerations),
             ..*travel
         };
-        from_end_to_end(way, &part, objective, [must_wait, false]).ok()
+        from_end_to_end(dynamics, &part, objective, [must_wait, false]).ok()
     };
     if is(place, travel.start) || is(place, end) {
         return part([travel.start, end], travel.duration, true);
@@ -215,7 +215,7 @@ fn waiting_at(
 
 /// The endlessly turning motion that waits at a place once in its period.
 fn turning_from(
-    way: &PathDynamics,
+    dynamics: &PathDynamics,
     travel: &Travel,
     objective: Objective,
     place: f64,
@@ -226,7 +226,7 @@ fn turning_from(
         ring: false,
         ..*travel
     };
-    let made = from_end_to_end(way, &turn, objective, [true, false]).ok()?;
+    let made = from_end_to_end(dynamics, &turn, objective, [true, false]).ok()?;
     let offset = (travel.start - place) / travel.distance;
     let phases = begun_at(&made.phases, offset.rem_euclid(1.0) * travel.distance)?;
     Some(LeastEffortMove {
@@ -248,7 +248,7 @@ fn begun_at(phases: &[Phase], offset: f64) -> Option<Vec<Phase>> {
         let ends = [0.0, phase.duration];
         let values = [beyond(ends[0]).ok()?, beyond(ends[1]).ok()?];
         if rise != 0.0 && values[1] >= 0.0 {
-            let at = zero(beyond, ends, values, CLOSE).ok()?;
+            let at = zero(beyond, ends, values, ZERO_TOLERANCE).ok()?;
             let short = ROUNDED * time;
             // No phase as short as rounding.
             let (before, behind) = if at <= short {

@@ -12,8 +12,8 @@
 use jred::error::Error;
 use jred_file::model::machine::MachineFile;
 
+use crate::path_dynamics::{Actuator, PathDynamics};
 use crate::trace::{Node, Trace};
-use crate::way::{Actuator, PathDynamics};
 
 /// Places per step, its ends included, and rates at which the change is evaluated.
 const PLACES: u32 = 8;
@@ -24,10 +24,10 @@ const ROUNDS: u32 = 6;
 const STEPS: u32 = 40;
 
 /// Share of the greatest speed below which a change of the rate needs no acceleration.
-const AT_REST: f64 = 1e-9;
+const REST_SPEED: f64 = 1e-9;
 
 /// Share of the greatest acceleration that counts as zero.
-const NOTHING: f64 = 1e-9;
+const ZERO_ACCELERATION: f64 = 1e-9;
 
 /// A motion under a drive, for the allowed change of the rate at a place.
 struct RateLimits<'a> {
@@ -42,19 +42,19 @@ impl RateLimits<'_> {
     fn change(&self, [a, b]: [&Node; 2], share: f64, rate: f64) -> Result<f64, Error> {
         let state = b.after(a, share);
         let speed = state.omega.abs();
-        if speed <= AT_REST * self.most[0] {
+        if speed <= REST_SPEED * self.most[0] {
             return Ok(f64::INFINITY);
         }
-        let way = &self.ways[usize::from(state.omega < 0.0)];
-        let place = way.place(state.phi)?;
+        let dynamics = &self.ways[usize::from(state.omega < 0.0)];
+        let place = dynamics.place(state.phi)?;
         let v = rate * speed;
-        let mut range = way.accelerations(&place, v);
+        let mut range = dynamics.accelerations(&place, v);
         if let Some(torque) = self.gearbox {
             let of_gearbox =
-                [-torque, torque].map(|torque| way.gearbox_acceleration(&place, v, torque));
+                [-torque, torque].map(|torque| dynamics.gearbox_acceleration(&place, v, torque));
             range = [range[0].max(of_gearbox[0]), range[1].min(of_gearbox[1])];
         }
-        let acceleration = rate * rate * state.alpha * way.direction;
+        let acceleration = rate * rate * state.alpha * dynamics.direction;
         let left = (range[1] - acceleration).min(acceleration - range[0]);
         Ok(left / speed)
     }
@@ -110,11 +110,13 @@ pub fn least_ramp(
     };
     let change = least.0.min(lowest(&motion, step, place)?);
     let [speed, acceleration] = motion.most;
-    Ok(Some(if change * speed <= NOTHING * acceleration {
-        f64::INFINITY
-    } else {
-        1.0 / change
-    }))
+    Ok(Some(
+        if change * speed <= ZERO_ACCELERATION * acceleration {
+            f64::INFINITY
+        } else {
+            1.0 / change
+        },
+    ))
 }
 
 /// The least change near a place and a rate of a step: by thirds along one, then the other.

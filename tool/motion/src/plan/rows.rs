@@ -6,22 +6,22 @@ use jred::Domain;
 use jred::axis::plan::Knot;
 use jred::machine::motion::State;
 
-use super::course::MotionPolynomial;
-use super::polynomial::TIGHT;
+use super::motion_polynomial::MotionPolynomial;
+use super::polynomial::BOUND_TOLERANCE;
 use crate::trace::Node;
 
 /// The allowed error of a position, as a share of the path, is this factor times the plan's share.
-const OF_WAY: f64 = 0.1;
+const POSITION_FACTOR: f64 = 0.1;
 
 /// Half a unit at both ends of a row is an acceleration of at most 6 units over its length squared: the quintic's 60·s·(1 − s)·(1 − 2s) is 5.8.
 const ROUNDING: f64 = 6.0;
 
 /// A missed speed at an end of a row is an acceleration of at most this many times itself over the row's length: the quintic's 3.9, and a margin for
 /// the missed position.
-const MISSED: f64 = 5.0;
+const MISS_FACTOR: f64 = 5.0;
 
 /// Share of the range by which a row may exceed an end of the stroke at the checked points: rounding.
-const BEYOND: f64 = 1e-9;
+const STROKE_ROUNDING: f64 = 1e-9;
 
 /// 2³²
 pub(super) const RANGE: f64 = 4_294_967_296.0;
@@ -56,7 +56,11 @@ impl Bounds {
         let acceleration = most(|node| node.alpha[0].abs().max(node.alpha[1].abs()));
         let acceleration = acceleration.max(speed / time);
         Self {
-            asked: [OF_WAY * share * way, share * speed, share * acceleration],
+            asked: [
+                POSITION_FACTOR * share * way,
+                share * speed,
+                share * acceleration,
+            ],
             most: [speed, acceleration],
         }
     }
@@ -73,7 +77,7 @@ impl Bounds {
         [
             4.0 * unit + PLACE * length * speed + 10.0 * window * window * fine,
             rounded + 8.0 * window * fine + DIGITS[0] * speed + PLACE * length * acceleration,
-            rounded / length + MISSED * PLACE * speed / length + DIGITS[1] * acceleration,
+            rounded / length + MISS_FACTOR * PLACE * speed / length + DIGITS[1] * acceleration,
         ]
     }
 }
@@ -222,9 +226,11 @@ impl PlanRequirements<'_> {
         let length = ends[1] - ends[0];
         let rounding = self.bounds.rounding(length, course, unit(self.domain));
         let missed = self.missed(ends);
-        let more = [0.0, missed, MISSED * missed / length];
+        let more = [0.0, missed, MISS_FACTOR * missed / length];
         let asked = self.bounds.asked;
-        std::array::from_fn(|k| (asked[k] * (1.0 - TIGHT) - rounding[k]).max(rounding[k]) + more[k])
+        std::array::from_fn(|k| {
+            (asked[k] * (1.0 - BOUND_TOLERANCE) - rounding[k]).max(rounding[k]) + more[k]
+        })
     }
 
     /// The knots of the plan: each row reaches as far as its polynomial keeps to the motion and to the stroke.
@@ -279,7 +285,7 @@ impl PlanRequirements<'_> {
         let range = match self.domain {
             Domain::Turn => f64::NEG_INFINITY..=f64::INFINITY,
             Domain::Stroke { from, to } => {
-                let beyond = BEYOND * (to - from);
+                let beyond = STROKE_ROUNDING * (to - from);
                 from - beyond..=to + beyond
             }
         };

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use jred_motion::fastest::cycle::{MORE, single};
 use jred_motion::fastest::{Binding, MoveLimits, Reserve, Task, time};
 
-use jred_motion::way::Actuator;
+use jred_motion::path_dynamics::Actuator;
 use jred_sizing::catalogue::Motor;
 use jred_sizing::motor::envelope::Envelope;
 

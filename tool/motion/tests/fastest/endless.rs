@@ -7,9 +7,9 @@ use jred::Domain;
 use jred_analysis::checked;
 use jred_motion::fastest::joint_force::reached;
 use jred_motion::fastest::{Binding, JointForces, MoveLimits, NoMotion, Task, solve};
+use jred_motion::path_dynamics::PathDynamics;
 use jred_motion::plan::{Plan, SHARE};
 use jred_motion::trace::Node;
-use jred_motion::way::PathDynamics;
 
 use super::{close, fastest, machine, motor, table, task};
 
@@ -60,8 +60,8 @@ fn a_crank_comes_round_with_its_speed() {
             };
             let at_top = first.omega > 60.0 * (1.0 - 1e-9);
             assert!(at_top || solve(&file, &motor, &faster).is_err());
-            let way = PathDynamics::new(&file, motor.clone(), 1.0);
-            let place = way.place(first.phi).unwrap();
+            let dynamics = PathDynamics::new(&file, motor.clone(), 1.0);
+            let place = dynamics.place(first.phi).unwrap();
             assert!(place.inertia > 0.0);
             found.time
         })
@@ -181,13 +181,13 @@ fn a_steep_turn_is_accurate() {
     assert!(found.excess <= 1e-9, "{:e}", found.excess);
     // It has 3000 rpm in the dead centres, where its inertia is smallest. Without a drive it would keep its energy from there; 10 N m make it
     // slightly faster.
-    let way = PathDynamics::new(&file, motor([10.0; 2], 314.159), 1.0);
-    let least = way.place(0.0).unwrap().inertia;
+    let dynamics = PathDynamics::new(&file, motor([10.0; 2], 314.159), 1.0);
+    let least = dynamics.place(0.0).unwrap().inertia;
     let parts = 3600;
     let free: f64 = (0..parts)
         .map(|k| {
             let phi = TAU * (f64::from(k) + 0.5) / f64::from(parts);
-            let inertia = way.place(phi).unwrap().inertia;
+            let inertia = dynamics.place(phi).unwrap().inertia;
             TAU / f64::from(parts) / (314.159 * (least / inertia).sqrt())
         })
         .sum();

@@ -6,8 +6,8 @@ use jred_motion::fastest::{
     Binding, Fastest, MoveLimits, NoMotion, Task, ToolSpeed, ToolSpeeds, solve,
 };
 
+use jred_motion::path_dynamics::Actuator;
 use jred_motion::trace::Node;
-use jred_motion::way::Actuator;
 use jred_sizing::cycle::form::Coefficients;
 
 use super::{close, motor, table, task};

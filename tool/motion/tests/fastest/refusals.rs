@@ -239,7 +239,7 @@ fn limits_that_leave_no_acceleration_are_named() {
 
 #[test]
 fn a_motor_without_a_known_peak_is_refused() {
-    let unknown = jred_motion::way::Actuator {
+    let unknown = jred_motion::path_dynamics::Actuator {
         envelope: Envelope::of(&Motor::default()),
         ..motor([1.0; 2], 1.0)
     };

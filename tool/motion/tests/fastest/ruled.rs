@@ -15,7 +15,7 @@ use jred_motion::fastest::field::Reserve;
 use jred_motion::fastest::ruled::{Cap, Judge, Judgement, ruled};
 use jred_motion::fastest::{MoveLimits, NoMotion, Rms};
 use jred_motion::moves::{Chain, Part, chain};
-use jred_motion::way::Actuator;
+use jred_motion::path_dynamics::Actuator;
 use jred_sizing::catalogue::{Catalogue, Drive, MotorKind};
 use jred_sizing::judge::Context;
 use jred_sizing::judge::check::Check;

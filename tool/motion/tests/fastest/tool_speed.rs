@@ -32,8 +32,8 @@ fn a_tool_is_slow_in_a_part_of_its_way() {
             ..task(0.0, end)
         };
         let found = fastest(&file, &motor([10.0; 2], 100.0), &asked);
-        let beside = |way: f64| {
-            let peak = (alpha * way + 0.5 * slow * slow).sqrt();
+        let beside = |dynamics: f64| {
+            let peak = (alpha * dynamics + 0.5 * slow * slow).sqrt();
             (2.0 * peak - slow) / alpha
         };
         close(
@@ -94,9 +94,9 @@ fn a_press_is_slow_through_the_work() {
             .iter()
             .filter(|phase| phase.limit == Binding::ToolSpeed)
         {
-            let way = x(phase.phi[1]).value - x(phase.phi[0]).value;
-            close(phase.t[1] - phase.t[0], way.abs() / speed, 1e-7);
-            slow += way.abs();
+            let dynamics = x(phase.phi[1]).value - x(phase.phi[0]).value;
+            close(phase.t[1] - phase.t[0], dynamics.abs() / speed, 1e-7);
+            slow += dynamics.abs();
         }
         assert!(
             slow > 0.8 * (x(between[1]).value - x(between[0]).value),
@@ -155,8 +155,8 @@ fn a_programme_of_speeds_over_two_turns() {
         ..task(0.0, end)
     };
     let found = fastest(&file, &motor([10.0; 2], 100.0), &asked);
-    let beside = |way: f64, speed: f64| {
-        let peak = (alpha * way + 0.5 * speed * speed).sqrt();
+    let beside = |dynamics: f64, speed: f64| {
+        let peak = (alpha * dynamics + 0.5 * speed * speed).sqrt();
         (2.0 * peak - speed) / alpha
     };
     // Before b it brakes from one to the other.

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use jred_file::model::machine::MachineFile;
 use jred_motion::fastest::{Fastest, MoveLimits, NoMotion, Task, solve};
-use jred_motion::way::{Actuator, PathDynamics};
+use jred_motion::path_dynamics::{Actuator, PathDynamics};
 use jred_sizing::cycle::form::Coefficients;
 
 use super::jerk::{NEAR, ROUNDING, WITHIN, cubic, seven, smooth};
@@ -58,14 +58,14 @@ fn a_press_with_a_torque_rate() {
 
 /// The torque rate throughout each step of the written profile: its speed is the cubic through both speeds and accelerations.
 fn keeps_the_rate(file: &MachineFile, motor: &Actuator, found: &Fastest, limit: f64) {
-    let way = PathDynamics::new(file, motor.clone(), 1.0);
+    let dynamics = PathDynamics::new(file, motor.clone(), 1.0);
     let parts = 16;
     for pair in found.trace.nodes().windows(2) {
         let [a, b] = [pair[0], pair[1]];
         let torque = |k: i32| {
             let [omega, alpha, way_gone] = cubic(&a, &b, f64::from(k) / f64::from(parts));
-            let place = way.place(a.phi + way_gone).unwrap();
-            way.demand(&place, omega, alpha)
+            let place = dynamics.place(a.phi + way_gone).unwrap();
+            dynamics.demand(&place, omega, alpha)
         };
         let part = b.step / f64::from(parts);
         for k in 1..=parts {
@@ -211,11 +211,15 @@ fn a_small_rate_follows_the_loads() {
         ratio: 4.0,
         ..motor([24.0, 12.0], 1200.0)
     };
-    let way = PathDynamics::new(&file, actuator.clone(), 1.0);
+    let dynamics = PathDynamics::new(&file, actuator.clone(), 1.0);
     let parts = 100_000;
     let torques: Vec<f64> = (0..=parts)
         .map(|k| 3.2 + 5.8 * f64::from(k) / f64::from(parts))
-        .map(|phi| way.demand(&way.place(phi).unwrap(), 0.0, 0.0).torque)
+        .map(|phi| {
+            dynamics
+                .demand(&dynamics.place(phi).unwrap(), 0.0, 0.0)
+                .torque
+        })
         .collect();
     let variation: f64 = torques
         .windows(2)

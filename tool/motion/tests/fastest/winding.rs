@@ -7,7 +7,7 @@ use jred_motion::fastest::winding::{
 };
 use jred_motion::fastest::{MoveLimits, NoMotion, Rms};
 use jred_motion::moves::{Move, Part};
-use jred_motion::way::{Actuator, BothDirections};
+use jred_motion::path_dynamics::{Actuator, BothDirections};
 use jred_sizing::catalogue::{self, Commutation, Drive, Motor, Thermal};
 use jred_sizing::motor::envelope::Envelope;
 

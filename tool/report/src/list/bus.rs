@@ -13,7 +13,7 @@ use crate::table::output::Format;
 use jred_file::number::columns::{Column, Columns};
 use jred_file::number::rounding::short;
 use jred_file::number::words::counted;
-use jred_sizing::bus::answer::BusAnalysis;
+use jred_sizing::bus::analysis::BusAnalysis;
 use jred_sizing::bus::axes::Bounds;
 use jred_sizing::bus::curve::PowerCurve;
 use jred_sizing::bus::store::BusFigures;

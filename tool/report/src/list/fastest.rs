@@ -24,15 +24,15 @@ use jred_motion::fastest::cycle::Cycle;
 use jred_motion::fastest::joint_force::JointForcePeak;
 use jred_motion::fastest::ruled::Judgement;
 use jred_motion::moves::Chain;
+use jred_motion::path_dynamics::{Actuator, BothDirections};
 use jred_motion::trace::Node;
-use jred_motion::way::{Actuator, BothDirections};
 use jred_sizing::select::fit::input_kind;
 
 pub(crate) use data::FastestData;
 pub use drive::WindingHeat;
 
 /// Durations that differ by a smaller share are shown as the same.
-const SAME: f64 = 5e-4;
+const DURATION_TOLERANCE: f64 = 5e-4;
 
 /// Duration ratios from this one on are printed as a multiple.
 const MANY: f64 = 3.0;
@@ -140,7 +140,7 @@ impl FastestView<'_> {
         if let Some(before) = cycle.before {
             let _ = write!(says, "; {} s in the file, ", short(before));
             let share = whole / before - 1.0;
-            if share.abs() < SAME {
+            if share.abs() < DURATION_TOLERANCE {
                 says += "the same";
             } else {
                 let _ = write!(says, "{}", more_or_less(whole / before));

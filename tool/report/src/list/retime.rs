@@ -23,7 +23,7 @@ use jred_sizing::select::fit::input_kind;
 use jred_sizing::study::cell::Cell;
 
 /// Figures that differ by less are shown as the same.
-const SAME: f64 = 5e-4;
+const FIGURE_TOLERANCE: f64 = 5e-4;
 
 /// The content of the listing.
 #[derive(Debug)]
@@ -215,7 +215,7 @@ fn violated<'a>(shown: &'a RetimeView) -> impl Iterator<Item = &'a Check> {
 /// `12 % less than`, or the other way round.
 fn less(value: f64, than: f64) -> String {
     let share = if than > 0.0 { value / than - 1.0 } else { 0.0 };
-    if share.abs() < SAME {
+    if share.abs() < FIGURE_TOLERANCE {
         return "the same as".to_owned();
     }
     let side = if share < 0.0 { "less" } else { "more" };

@@ -8,7 +8,7 @@ use serde::Serialize;
 use jred_file::model::machine::MachineFile;
 use jred_file::number::rounding::{percent, short};
 use jred_file::units::Vocabulary;
-use jred_motion::suited::{CoDesign, DriveWithMotion};
+use jred_motion::co_design::{CoDesign, DriveWithMotion};
 use jred_sizing::catalogue::Drive;
 use jred_sizing::study::cell::Cell;
 

@@ -13,8 +13,8 @@ use jred_file::number::rounding::short;
 use jred_motion::fastest::Binding;
 use jred_motion::fastest::cycle::FastestMove;
 use jred_motion::fastest::plane::Plane;
+use jred_motion::path_dynamics::{Actuator, BothDirections};
 use jred_motion::trace::Trace;
-use jred_motion::way::{Actuator, BothDirections};
 use jred_sizing::select::fit::input_kind;
 
 use super::figures::{dashed, line};

@@ -17,7 +17,7 @@ use super::store::{Bus, BusFigures};
 const EXACT: [usize; 2] = [100_000, 5_000];
 
 /// Error of the curves, as a share of their span, that a larger search accepts. Its results are computed again with all points.
-const OFF: f64 = 1e-4;
+const CURVE_ERROR: f64 = 1e-4;
 
 /// Axes on a bus.
 #[derive(Clone, Debug)]
@@ -159,7 +159,7 @@ impl Axes {
         let fewer = (points.sum::<usize>() > exact).then(|| {
             let curves = self.curves.iter().map(|curve| {
                 let [least, most] = curve.extremes();
-                curve.simplified(OFF * (most - least))
+                curve.simplified(CURVE_ERROR * (most - least))
             });
             self.common.repeated(&curves.collect::<Vec<_>>())
         });

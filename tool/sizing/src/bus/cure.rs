@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use super::answer::BusAnalysis;
+use super::analysis::BusAnalysis;
 use super::axes::WorstPhases;
 use super::conflict::Conflict;
 use super::store::{Bus, BusFigures};

@@ -32,7 +32,7 @@ const PARTS: u32 = 8;
 const HALVINGS: u32 = 12;
 
 /// If all values around a phase agree to this share, the search is not refined there.
-const FLAT: f64 = 1e-9;
+const FLATNESS: f64 = 1e-9;
 
 /// Starts of a one-phase-at-a-time search, besides the start with all largest powers fed back at once.
 const STARTS: u32 = 4;
@@ -82,7 +82,7 @@ impl PhaseSolution {
 
     /// Whether continuing cannot improve the result.
     fn is_flat(&self) -> bool {
-        self.value.is_infinite() || self.value - self.least <= FLAT * self.value.abs()
+        self.value.is_infinite() || self.value - self.least <= FLATNESS * self.value.abs()
     }
 }
 

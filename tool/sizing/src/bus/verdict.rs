@@ -1,6 +1,6 @@
 //! The checks of `jred bus`, and the reasons for those without data.
 
-use super::answer::BusAnalysis;
+use super::analysis::BusAnalysis;
 use super::conflict::Conflict;
 use super::curve::PowerCurve;
 use super::period::{Common, LOOKED_AT, MOST_CYCLES};

@@ -12,7 +12,7 @@ use super::Pairing;
 use super::column::Column;
 use super::fault::Text;
 use super::files::is_toml;
-use super::load::{Group, Loader};
+use super::load::{FileGroup, Loader};
 use super::pairing::Keys;
 use super::row::{CatalogueRow, RowResult, Syntax};
 
@@ -61,7 +61,7 @@ impl Loader {
     }
 
     /// Pairs the motors of one catalogue by its list.
-    pub(super) fn pair(&mut self, group: &Group, pairing: &mut Pairing) {
+    pub(super) fn pair(&mut self, group: &FileGroup, pairing: &mut Pairing) {
         let lists_gearboxes = group.listings.iter().any(|(_, l)| l.gearboxes.is_some());
         let gear_motors: HashSet<u32> = self.gear_motors.iter().map(|g| g.0).collect();
         if lists_gearboxes {

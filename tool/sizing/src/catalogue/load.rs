@@ -8,6 +8,7 @@ use jred_file::plain;
 use jred_file::text::problem::Problem;
 
 use super::column::{Column, Kind};
+use super::duplicates::Duplicates;
 use super::entry::Entry;
 use super::fault::{CatalogueError, Faults, Remarks, Text};
 use super::files::{FileFormat, unreadable};
@@ -15,7 +16,6 @@ use super::lists::Listing;
 use super::pairing::Partners;
 use super::row::{CatalogueRow, RowResult};
 use super::table::CatalogueTable;
-use super::twins::Duplicates;
 use super::{Catalogue, Pairing, mgdb, plausible, toml_table};
 use jred_file::number::words::counted;
 
@@ -33,7 +33,7 @@ fn rows(format: FileFormat, text: &str) -> usize {
 
 /// The files of one catalogue; they share a compatibility list.
 #[derive(Debug, Default)]
-pub(super) struct Group {
+pub(super) struct FileGroup {
     pub(super) listings: Vec<(usize, Listing)>,
     pub(super) motors: Vec<u32>,
 }
@@ -82,9 +82,9 @@ impl Loader {
     }
 
     /// Reads the files of one catalogue.
-    fn group(&mut self, files: Vec<(FileFormat, Text)>) -> Result<Group, CatalogueError> {
+    fn group(&mut self, files: Vec<(FileFormat, Text)>) -> Result<FileGroup, CatalogueError> {
         let first = self.catalogue.motors.len();
-        let mut group = Group::default();
+        let mut group = FileGroup::default();
         for (format, text) in files {
             // A file given in addition to its folder, or a folder within a folder.
             let path = PathBuf::from(&text.name);
@@ -133,7 +133,7 @@ impl Loader {
         kind: Kind,
         index: usize,
         text: &Text,
-        group: &mut Group,
+        group: &mut FileGroup,
     ) -> Result<usize, CatalogueError> {
         let table = CatalogueTable::read(&text.text, kind).map_err(|fault| wrong(text, fault))?;
         let Some(table) = table else {
@@ -151,7 +151,7 @@ impl Loader {
         kind: Kind,
         index: usize,
         text: &Text,
-        group: &mut Group,
+        group: &mut FileGroup,
     ) -> Result<usize, CatalogueError> {
         let mut remarks = std::mem::take(&mut self.remarks);
         let place = |line: usize| format!("{}:{line}", text.name);
@@ -203,7 +203,7 @@ impl Loader {
         &mut self,
         index: usize,
         text: &Text,
-        group: &mut Group,
+        group: &mut FileGroup,
         row: Result<(CatalogueRow, usize), Problem>,
     ) {
         let faults = match row {
@@ -238,7 +238,7 @@ impl Loader {
         &mut self,
         index: usize,
         text: &Text,
-        group: &mut Group,
+        group: &mut FileGroup,
         row: &mut CatalogueRow,
         line: usize,
     ) -> RowResult<()> {
@@ -327,7 +327,7 @@ impl Loader {
             .help("give every row a unique key")
     }
 
-    fn finish(mut self, groups: Vec<Group>) -> Result<Catalogue, CatalogueError> {
+    fn finish(mut self, groups: Vec<FileGroup>) -> Result<Catalogue, CatalogueError> {
         let mut pairing = Pairing {
             motors: vec![Partners::default(); self.catalogue.motors.len()],
             lists_amplifiers: false,

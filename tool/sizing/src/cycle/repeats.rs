@@ -10,10 +10,10 @@ use crate::cycle::form::LOADS;
 use jred_analysis::duty::Smooth;
 
 /// Two values are equal if they differ by less than this share of the largest: rounding of a position after many turns.
-const SAME: f64 = 1e-10;
+const VALUE_TOLERANCE: f64 = 1e-10;
 
 /// Panels are compared if their values are equal after rounding to this share, so coarse that rounding seldom separates equal panels.
-const ALIKE: f64 = 1e-5;
+const KEY_ROUNDING: f64 = 1e-5;
 
 /// Multiplier of the hash of a panel's values (D. Knuth's 2⁶⁴/golden ratio).
 const MIX: u64 = 0x9e37_79b9_7f4a_7c15;
@@ -22,7 +22,7 @@ const MIX: u64 = 0x9e37_79b9_7f4a_7c15;
 const COMPARED: usize = 8;
 
 /// Largest share of the remaining samples for which a separate tree is worthwhile.
-const WORTH: f64 = 0.5;
+const WORTHWHILE_SHARE: f64 = 0.5;
 
 /// The rest of a cycle whose panels repeat. Any result that depends on a single sample, not on a sum, is found in it.
 #[derive(Clone, Debug)]
@@ -40,7 +40,7 @@ impl Distinct {
     ) -> Option<Self> {
         let left = left(samples, smooth);
         let count: usize = left.iter().map(Range::len).sum();
-        if count as f64 > WORTH * samples.len() as f64 {
+        if count as f64 > WORTHWHILE_SHARE * samples.len() as f64 {
             return None;
         }
         let tree = Tree::of_parts(samples, &left, largest);
@@ -68,7 +68,7 @@ fn left(samples: &[LoadSample], smooth: &Smooth) -> Vec<Range<usize>> {
     };
     let are_one = |a: &LoadSample, b: &LoadSample| {
         let pairs = shares(a).into_iter().zip(shares(b));
-        pairs.fold(0.0, |most, (a, b)| f64::max(most, (a - b).abs())) < SAME
+        pairs.fold(0.0, |most, (a, b)| f64::max(most, (a - b).abs())) < VALUE_TOLERANCE
     };
     let mut seen: HashMap<u64, Vec<Range<usize>>> = HashMap::new();
     let mut left: Vec<Range<usize>> = Vec::new();
@@ -85,7 +85,7 @@ fn left(samples: &[LoadSample], smooth: &Smooth) -> Vec<Range<usize>> {
         let coarse = own
             .iter()
             .flat_map(shares)
-            .map(|share| (share / ALIKE).round() as i64);
+            .map(|share| (share / KEY_ROUNDING).round() as i64);
         let mark = coarse.fold(0, |mark: u64, x| {
             (mark.rotate_left(5) ^ x as u64).wrapping_mul(MIX)
         });

@@ -15,7 +15,7 @@
 use jred::error::Error;
 use serde::Serialize;
 
-use super::altered::{Alteration, DutyModel};
+use super::duty_model::{Alteration, DutyModel};
 use super::seek::{DriveResult, Judge};
 use crate::catalogue::Drive;
 use crate::catalogue::{Gearbox, MotorKind};

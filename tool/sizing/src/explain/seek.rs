@@ -13,7 +13,7 @@ use jred_file::number::numerics::golden_section;
 const SECTIONS: u32 = 40;
 
 /// Score of violating a limit of zero.
-const BEYOND: f64 = 1e6;
+const ZERO_LIMIT_SCORE: f64 = 1e6;
 
 /// Result of a drive at one value.
 #[derive(Clone, Copy, Debug)]
@@ -75,15 +75,15 @@ impl DriveResult {
 
     /// Increases with the distance from satisfying every rule.
     const fn score(&self) -> f64 {
-        self.used + if self.beyond { BEYOND } else { 0.0 }
+        self.used + if self.beyond { ZERO_LIMIT_SCORE } else { 0.0 }
     }
 
     /// A lower bound of the score over all instants, if this is the result over some of them: any limit may become zero over all of them.
     const fn bound(&self) -> f64 {
         if self.beyond {
-            BEYOND
+            ZERO_LIMIT_SCORE
         } else {
-            self.used.min(BEYOND)
+            self.used.min(ZERO_LIMIT_SCORE)
         }
     }
 }
@@ -128,7 +128,7 @@ impl<S: Fn(f64) -> DriveResult, O: Fn(f64) -> Option<DriveResult>> Judge<S, O> {
 }
 
 /// Share of the distance to the next grid value at which a result is compared with that of the grid value.
-const BESIDE: f64 = 1e-4;
+const NEIGHBOUR_SHARE: f64 = 1e-4;
 
 /// The values of a grid with the results computed so far.
 struct GridResults<'j, S, O> {
@@ -240,7 +240,7 @@ impl Remedy {
         ];
         // If the result is worse on both sides, there is no search between the values of the grid.
         let falls = |end: &f64| {
-            let beside = grid[least] + BESIDE * (end - grid[least]);
+            let beside = grid[least] + NEIGHBOUR_SHARE * (end - grid[least]);
             judge.state(beside).score() < first.score()
         };
         if !around.iter().any(falls) {

@@ -2,7 +2,7 @@
 
 use super::{Context, Record, Words};
 use crate::thermal::classify::Features;
-use crate::thermal::course::PeakRise;
+use crate::thermal::loss_curve::PeakRise;
 use crate::thermal::{Heating, Load, Model, allowed_rise};
 use jred_file::model::operation::Operation;
 use jred_file::model::rule::Rule;

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use super::{Bound, Field, MeterLimit, MeterLimits, below};
+use super::{Bound, Field, MeterLimit, MeterLimits, lower_curve};
 
 impl MeterLimits<'_> {
     /// The source. `machine`: description of the machine that the drive was sized for.
@@ -182,7 +182,7 @@ impl MeterLimits<'_> {
         let context = self.context;
         let shares = context.cycle.samples().iter().map(|sample| {
             let torque = context.coefficients.torque(&sample.loads()).abs();
-            let limit = below::at(&curve.points, sample.speed().abs() * context.ratio);
+            let limit = lower_curve::at(&curve.points, sample.speed().abs() * context.ratio);
             if torque == 0.0 { 0.0 } else { torque / limit }
         });
         Some(shares.fold(0.0, f64::max))

@@ -173,10 +173,10 @@ impl Linear {
     /// M = ∫₀ʰ e^(A·s) ds.
     fn integral(&self, h: f64) -> Matrix {
         // Below this, seven terms of the power series give full precision.
-        const SHORT: f64 = 0.02;
+        const SERIES_LIMIT: f64 = 0.02;
         let [[a, b], [c, d]] = self.a;
         let size = (a.abs() + b.abs()).max(c.abs() + d.abs()) * h;
-        if size < SHORT {
+        if size < SERIES_LIMIT {
             let scaled = [[a * h, b * h], [c * h, d * h]];
             let mut sum = [[1.0, 0.0], [0.0, 1.0]];
             for k in (2..=8).rev() {

@@ -4,7 +4,7 @@ mod cures;
 mod judged;
 
 use jred_file::model::supply::{BrakeResistor, Supply};
-use jred_sizing::bus::answer::{BusAnalysis, BusAxis};
+use jred_sizing::bus::analysis::{BusAnalysis, BusAxis};
 use jred_sizing::bus::curve::PowerCurve;
 use jred_sizing::bus::supply::BusData;
 use jred_sizing::catalogue::{Catalogue, Motor};

@@ -10,7 +10,7 @@ use jred_file::model::surroundings::Surroundings;
 use jred_sizing::catalogue::{Drive, Motor, Thermal};
 use jred_sizing::cycle::Cycle;
 use jred_sizing::motor::envelope::MotorLimits;
-use jred_sizing::thermal::course::PeakRise;
+use jred_sizing::thermal::loss_curve::PeakRise;
 use jred_sizing::thermal::network::Losses;
 use jred_sizing::thermal::{Load, Model, allowed_rise};
 

@@ -7,7 +7,7 @@ use jred_file::number::rounding::short;
 use jred_motion::fastest::cycle::{Cycle, cycle, endless, single};
 use jred_motion::fastest::{MoveLimits, NoMotion, Rms, Task};
 use jred_motion::moves::{Chain, NoMoves, Part, chain};
-use jred_motion::way::Actuator;
+use jred_motion::path_dynamics::Actuator;
 
 /// The motion to optimise.
 pub(super) enum MotionInput {

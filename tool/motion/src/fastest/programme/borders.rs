@@ -9,16 +9,16 @@ use crate::fastest::field::Binding;
 use crate::trace::{Node, Trace};
 
 /// Borders that are closer than this share of u are one border.
-const APART: f64 = 1e-9;
+const BORDER_SPACING: f64 = 1e-9;
 
 /// A limit counts as met within this share of it.
-const MET: f64 = 1e-3;
+const ACTIVE_TOLERANCE: f64 = 1e-3;
 
 /// Share by which a limit of speed, acceleration or torque may be exceeded between stations. Beyond it the polynomial is considered to oscillate.
-const SWINGS: f64 = 1e-4;
+const OSCILLATION: f64 = 1e-4;
 
 /// The same for the torque rate; beyond it a long piece is divided.
-const CHANGES: f64 = 1e-2;
+const RATE_OSCILLATION: f64 = 1e-2;
 
 /// A piece in which w falls below this share of its greatest value is too long: a polynomial of fifth degree oscillates there.
 const STEEP: f64 = 0.1;
@@ -68,7 +68,7 @@ impl MoveRequest<'_> {
             .collect();
         borders.sort_by(|a, b| a.u.total_cmp(&b.u));
         borders.dedup_by(|b, a| {
-            let same = b.u - a.u <= APART;
+            let same = b.u - a.u <= BORDER_SPACING;
             a.is_corner |= same && b.is_corner;
             a.stays |= same && b.stays;
             same
@@ -90,15 +90,15 @@ impl MoveRequest<'_> {
         for (row, multiplier) in rows.iter().zip(&found.point.multipliers) {
             number = if row.station == before { number + 1 } else { 0 };
             before = row.station;
-            let Some(limit) = row.limit.filter(|_| row.value > -MET) else {
+            let Some(limit) = row.limit.filter(|_| row.value > -ACTIVE_TOLERANCE) else {
                 continue;
             };
             // Where power changes direction the torque bends and the jerk jumps, so the torque rate on each side counts as a limit of its own.
             let flow = if limit == Binding::TorqueRate {
                 let station = &mesh.stations[row.station];
                 let state = problem.state(station, &mesh.values(&found.point.x, station.element));
-                let way = self.field.way;
-                way.flow(&station.place, state.speed, state.acceleration)
+                let dynamics = self.field.dynamics;
+                dynamics.flow(&station.place, state.speed, state.acceleration)
             } else {
                 0
             };
@@ -163,10 +163,10 @@ impl MoveRequest<'_> {
             let own = warm.margins[k];
             margins.push(own);
             let is_long = next.u - border.u > 2.0 * shortest;
-            let swings = *state > SWINGS && self.limits().has_rates();
+            let swings = *state > OSCILLATION && self.limits().has_rates();
             border.is_plain |= swings;
             borders.push(border);
-            if is_long && (swings || *rate > CHANGES) {
+            if is_long && (swings || *rate > RATE_OSCILLATION) {
                 margins.push(own);
                 borders.push(Border {
                     is_plain: border.is_plain,

@@ -2,7 +2,7 @@
 
 use super::mesh::{Local, Station};
 use crate::collocation::torque::Torque;
-use crate::way::{Demand, Place};
+use crate::path_dynamics::{Demand, Place};
 
 /// A motion at a station.
 pub(super) struct StationState {

@@ -15,7 +15,7 @@ use crate::collocation::pieces::{Value, dot};
 use crate::fastest::field::{Binding, Field};
 
 /// Difference of speeds for the slope of a torque-speed curve, as a share of the mean speed.
-const NEAR: f64 = 1e-6;
+const SPEED_DIFFERENCE: f64 = 1e-6;
 
 /// Least share of w that a step leaves.
 const LEAVES: f64 = 0.1;
@@ -89,21 +89,21 @@ impl MeshProblem<'_> {
 
     /// Slope of the motor's torque by the speed, from friction of the motor itself.
     fn friction(&self) -> f64 {
-        let way = self.field.way;
-        way.actuator.coefficients.0[3] * way.file.drive_train.ratio().abs()
+        let dynamics = self.field.dynamics;
+        dynamics.actuator.coefficients.0[3] * dynamics.file.drive_train.ratio().abs()
     }
 
     fn motor(&self, station: &Station, state: &StationState) -> Effort {
-        let way = self.field.way;
+        let dynamics = self.field.dynamics;
         Effort::of(station, state, self.friction(), self.range, |place| {
-            way.demand(place, state.speed, state.acceleration)
+            dynamics.demand(place, state.speed, state.acceleration)
         })
     }
 
     fn gearbox(&self, station: &Station, state: &StationState) -> Effort {
-        let way = self.field.way;
+        let dynamics = self.field.dynamics;
         Effort::of(station, state, 0.0, self.range, |place| {
-            way.gearbox_demand(place, state.speed, state.acceleration)
+            dynamics.gearbox_demand(place, state.speed, state.acceleration)
         })
     }
 
@@ -119,7 +119,7 @@ impl MeshProblem<'_> {
         let field = self.field;
         let margin = self.margins[station.element].state;
         let scale = field.motor_torques(0.0).map(f64::abs);
-        let near = NEAR * self.pace;
+        let near = SPEED_DIFFERENCE * self.pace;
         for (k, sign) in [(0, -1.0), (1, 1.0)] {
             let limit = if k == 0 {
                 Binding::Braking
@@ -230,10 +230,10 @@ impl MeshProblem<'_> {
             let rate = if which == Binding::Jerk {
                 Rate::of_acceleration(station, values, self.unit)
             } else {
-                let way = self.field.way;
+                let dynamics = self.field.dynamics;
                 let torque =
                     smooth_slopes(&station.place, state.acceleration, self.range, |place| {
-                        way.demand(place, state.speed, state.acceleration)
+                        dynamics.demand(place, state.speed, state.acceleration)
                     });
                 Rate::of_torque(station, values, state, &torque, self.friction(), self.unit)
             };
@@ -308,7 +308,7 @@ impl MeshProblem<'_> {
             let resisting = carried + place.load + place.viscous * state.speed + place.coulomb;
             (place.inertia * state.acceleration + resisting).abs()
         };
-        let range = if self.field.way.bends() {
+        let range = if self.field.dynamics.bends() {
             share * self.mesh.stations.iter().map(load).fold(0.0, f64::max)
         } else {
             0.0

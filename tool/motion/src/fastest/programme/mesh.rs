@@ -9,9 +9,9 @@ use jred::error::Error;
 use crate::collocation::pieces::{Value, dot, first_columns, hermite};
 use crate::collocation::shape::Parametrization;
 use crate::fastest::field::Field;
-use crate::fastest::track::INSIDE;
+use crate::fastest::track::CORNER_INSET;
+use crate::path_dynamics::Place;
 use crate::skyline::Skyline;
-use crate::way::Place;
 
 /// Unknowns of a piece: w and w′ at its start, factors of two functions that are zero with zero slope at both ends, w and w′ at its end.
 pub(super) const VALUES: usize = 6;
@@ -20,7 +20,7 @@ pub(super) const VALUES: usize = 6;
 pub(super) type Local = [f64; VALUES];
 
 /// Least distance of a corner from the end as a share of u: in a short piece, rounding of u must not move it outside.
-const NEAR: f64 = 1e-13;
+const CORNER_SPACING: f64 = 1e-13;
 
 /// Conditions at the ends of the motion, and jumps that are allowed inside.
 #[derive(Clone, Copy, Debug)]
@@ -164,11 +164,11 @@ impl Mesh {
             let h = to - from;
             for [z, weight] in SHARES {
                 let u = from + z * h;
-                let near = (NEAR / h).clamp(INSIDE, 0.1);
+                let near = (CORNER_SPACING / h).clamp(CORNER_INSET, 0.1);
                 let inside = from + z.clamp(near, 1.0 - near) * h;
                 let [_, slope, bend, jerk] = shape.series(u, from.midpoint(to));
                 let [g, ..] = shape.series(inside, inside);
-                let place = field.way.place(start + distance * g)?;
+                let place = field.dynamics.place(start + distance * g)?;
                 stations.push(Station {
                     element: index,
                     u,
@@ -215,7 +215,7 @@ impl Mesh {
             let h = to - from;
             let middle = from.midpoint(to);
             let pace = |u: f64| {
-                let within = u + INSIDE * (middle - u);
+                let within = u + CORNER_INSET * (middle - u);
                 let at = other.elements.partition_point(|e| e.span[1] <= within);
                 let at = at.min(other.elements.len() - 1);
                 let [start, end] = other.elements[at].span;

@@ -12,20 +12,20 @@ use crate::fastest::between::{BETWEEN_NODES, within_step};
 use crate::fastest::field::Binding;
 use crate::fastest::track::PathPoint;
 use crate::fastest::{NoMotion, Phase};
+use crate::path_dynamics::Place;
 use crate::trace::{Node, Trace};
-use crate::way::Place;
 
 /// Rounding errors of a speed or a torque, in units of the last digit; within a step they look like a jerk or a torque rate.
 const ROUNDINGS: f64 = 4.0;
 
 /// Share of a step over which the torque rate is computed.
-const NEAR: f64 = 0.02;
+const RATE_STEP: f64 = 0.02;
 
 /// Parts of a step for the check of the torque rate where the torque bends in it.
 const PARTS: u32 = 32;
 
 /// Two limits whose values differ by less than this share count as met together.
-const TIED: f64 = 1e-6;
+const TIE_TOLERANCE: f64 = 1e-6;
 
 /// The most exceeded limit between the nodes, the share of the excess, and the position.
 #[derive(Clone, Copy, Debug)]
@@ -82,7 +82,7 @@ fn greatest([first, middle, last]: [f64; 3]) -> f64 {
 impl MoveRequest<'_> {
     /// The motion over time.
     pub(super) fn trace(&self, shape: &Parametrization, found: &MeshMotion) -> Trace {
-        let direction = self.field.way.direction;
+        let direction = self.field.dynamics.direction;
         let problem = self.problem(&found.mesh, &[], found.range);
         let mut nodes: Vec<Node> = Vec::new();
         let mut t = 0.0;
@@ -122,7 +122,7 @@ impl MoveRequest<'_> {
             last.alpha[1] = 0.0;
             last.phi = self.ends.from + direction * self.ends.length;
         }
-        Trace::new(self.field.way.coordinate(), nodes)
+        Trace::new(self.field.dynamics.coordinate(), nodes)
     }
 
     /// The time (s) from one station of a piece to another.
@@ -144,8 +144,8 @@ impl MoveRequest<'_> {
         trace: &Trace,
         pieces: usize,
     ) -> Result<(LargestExcess, Vec<[f64; 3]>), NoMotion> {
-        let way = self.field.way;
-        let direction = way.direction;
+        let dynamics = self.field.dynamics;
+        let direction = dynamics.direction;
         let limits = self.limits();
         let mut worst = LargestExcess {
             excess: f64::NEG_INFINITY,
@@ -178,7 +178,7 @@ impl MoveRequest<'_> {
                 let x = distance(phi)
                     .max((first + near).min(middle))
                     .min((last - near).max(middle));
-                way.place(self.ends.from + direction * x)
+                dynamics.place(self.ends.from + direction * x)
             };
             for share in BETWEEN_NODES {
                 let state = within_step(a, b, share);
@@ -207,20 +207,20 @@ impl MoveRequest<'_> {
         [a, b]: [&Node; 2],
         place: impl Fn(f64) -> Result<Place, Error>,
     ) -> Result<f64, NoMotion> {
-        let way = self.field.way;
+        let dynamics = self.field.dynamics;
         let slope = |share: f64| -> Result<(f64, [usize; 2]), NoMotion> {
-            let ends = [share * (1.0 - NEAR), share + NEAR * (1.0 - share)];
+            let ends = [share * (1.0 - RATE_STEP), share + RATE_STEP * (1.0 - share)];
             let mut torques = [0.0; 2];
             let mut flows = [0; 2];
             let mut rounding = 0.0_f64;
             for (k, share) in ends.into_iter().enumerate() {
                 let state = b.after(a, share);
                 let place = place(state.phi)?;
-                let [v, alpha] = [state.omega, state.alpha].map(|x| x * way.direction);
-                let demand = way.demand(&place, v, alpha);
-                (torques[k], flows[k]) = (demand.torque, way.flow(&place, v, alpha));
+                let [v, alpha] = [state.omega, state.alpha].map(|x| x * dynamics.direction);
+                let demand = dynamics.demand(&place, v, alpha);
+                (torques[k], flows[k]) = (demand.torque, dynamics.flow(&place, v, alpha));
                 let parts = demand.torque.abs() + demand.per_acceleration * alpha.abs();
-                let own = ROUNDINGS * f64::EPSILON * parts / (NEAR * b.step)
+                let own = ROUNDINGS * f64::EPSILON * parts / (RATE_STEP * b.step)
                     + rounded_jerk([a, b]) * demand.per_acceleration;
                 rounding = rounding.max(own);
             }
@@ -262,7 +262,7 @@ impl MoveRequest<'_> {
             let limit = limit.map(|(at, own)| {
                 let before = phases.last().map(|phase| phase.limit);
                 let goes_on = |met: &ActiveConstraint| {
-                    Some(met.limit) == before && met.value > own.value - TIED
+                    Some(met.limit) == before && met.value > own.value - TIE_TOLERANCE
                 };
                 at.iter()
                     .find(|met| goes_on(met))

@@ -10,8 +10,8 @@
 use super::effort::{StationState, mix};
 use super::mesh::{Local, Station, VALUES};
 use crate::collocation::pieces::dot;
-use crate::collocation::torque::{STRAIGHT, Torque};
-use crate::way::{Demand, Place};
+use crate::collocation::torque::{SLOPE_TOLERANCE, Torque};
+use crate::path_dynamics::{Demand, Place};
 
 /// The slopes of a torque averaged over loads ± `range` a second time: Newton's method needs a continuous gradient.
 pub(super) fn smooth_slopes(
@@ -30,7 +30,7 @@ pub(super) fn smooth_slopes(
     let own = at(0.0);
     let [low, high] = [-range, range].map(at);
     let rise = high.by_load - low.by_load;
-    if rise <= STRAIGHT * high.by_load {
+    if rise <= SLOPE_TOLERANCE * high.by_load {
         return own;
     }
     let lean = (high.by_acceleration - low.by_acceleration) / rise;

@@ -28,7 +28,7 @@ const EASED: [f64; 2] = [1e-2, 1e-5];
 const MOST_EASED: usize = 3 * PIECES[0];
 
 /// Share by which a motion from eased limits must be faster to be preferred.
-const CLEARLY: f64 = 1e-3;
+const CLEAR_GAIN: f64 = 1e-3;
 
 /// Most repetitions of the search because the range belonged to loads more than twice those of the motion found.
 const RANGED: u32 = 8;
@@ -126,7 +126,7 @@ impl MoveRequest<'_> {
         }
         let faster = |(_, eased): &(_, MeshMotion)| {
             best.as_ref()
-                .is_none_or(|(_, best)| eased.time < (1.0 - CLEARLY) * best.time)
+                .is_none_or(|(_, best)| eased.time < (1.0 - CLEAR_GAIN) * best.time)
         };
         if let Some(best) = eased.filter(faster).or(best) {
             return Ok(best);

@@ -1,7 +1,7 @@
 //! The torque over the acceleration, in straight pieces that meet where the power at a stage changes direction.
 
 use crate::gentlest::solve::Problem;
-use crate::way::Place;
+use crate::path_dynamics::Place;
 
 /// Most straight pieces of a torque.
 const PIECES: usize = 16;
@@ -34,7 +34,7 @@ impl Pieces {
 /// The torque over the acceleration at a speed: convex, so two of its lines meet above it or at the bend between them.
 pub(super) fn pieces(problem: &Problem, place: &Place, speed: f64) -> Pieces {
     let line = |a: f64| {
-        let demand = problem.way.demand(place, speed, a);
+        let demand = problem.dynamics.demand(place, speed, a);
         TorquePiece {
             at: a,
             start: demand.torque / problem.unit,
@@ -47,7 +47,7 @@ pub(super) fn pieces(problem: &Problem, place: &Place, speed: f64) -> Pieces {
         all: [middle; PIECES],
         count: 1,
     };
-    if !problem.way.bends() {
+    if !problem.dynamics.bends() {
         return pieces;
     }
     // Far enough on both sides to be beyond every bend.

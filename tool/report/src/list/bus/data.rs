@@ -5,7 +5,7 @@ use serde::Serialize;
 
 use crate::answer::schema::Data;
 use jred_file::model::rule::Sense;
-use jred_sizing::bus::answer::BusAnalysis;
+use jred_sizing::bus::analysis::BusAnalysis;
 use jred_sizing::bus::axes::{Bounds, WorstPhases};
 use jred_sizing::bus::cure::{Bound, Change, Cure};
 use jred_sizing::bus::curve::PowerCurve;

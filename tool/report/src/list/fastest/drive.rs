@@ -12,7 +12,7 @@ use super::FastestView;
 use crate::answer::Answer;
 
 /// Relative difference below which two S1 torques are the same.
-const ROUNDED: f64 = 1e-5;
+const TORQUE_TOLERANCE: f64 = 1e-5;
 
 /// Temperatures of the motor winding.
 pub struct WindingHeat {
@@ -33,7 +33,7 @@ impl FastestView<'_> {
         let effort = torque.unit;
         let load = &self.cycle.load;
         // Without a reserve, too, the allowed torque is slightly below S1.
-        let is_less = load.allowed < (1.0 - ROUNDED) * load.continuous;
+        let is_less = load.allowed < (1.0 - TORQUE_TOLERANCE) * load.continuous;
         let continuous = if load.continuous.is_finite() {
             format!(
                 ", S1 {torque} {} {effort} at the mean speed{}",

@@ -14,7 +14,7 @@ use super::FastestView;
 use crate::answer::Answer;
 
 /// Share of the largest speed below which a speed is a rounding error: speeds are roots of energies.
-const STANDS: f64 = 1e-8;
+const REST_SPEED: f64 = 1e-8;
 
 /// Relative drop of the speed within a phase from which it is shown.
 const DIP: f64 = 5e-4;
@@ -70,7 +70,7 @@ impl FastestView<'_> {
             let [from, to] = phase.speed;
             let speed = |v: f64| {
                 let speed = axis.rate(v);
-                short(if speed <= STANDS * fastest {
+                short(if speed <= REST_SPEED * fastest {
                     0.0
                 } else {
                     speed

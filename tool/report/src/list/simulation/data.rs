@@ -7,7 +7,7 @@ use super::SimulationView;
 use crate::answer::schema::Data;
 use jred_analysis::simulate::{Impacts, Rest, Stop};
 use jred_file::model::axis::Axis;
-use jred_motion::driven::{Loads, Peak};
+use jred_motion::drive_simulation::{Loads, Peak};
 
 impl Data for SimulationData<'_> {
     const FORM: &'static str = "jred-simulate/1";

@@ -59,14 +59,14 @@ impl LimitPiece {
 impl Limit {
     fn positive_below(&self) -> f64 {
         // Just below the end, where the last torques may already round to zero.
-        const BELOW: f64 = 1.0 - 1e-9;
+        const JUST_BELOW: f64 = 1.0 - 1e-9;
         for piece in self.pieces() {
             let [from, to] = [piece.torque(piece.from), piece.torque(piece.to)];
             let positive = match piece.shape {
                 _ if from <= 0.0 => piece.from,
                 _ if to > 0.0 => continue,
                 // A chord that is positive up to its end.
-                Curvature::Straight | Curvature::Concave => piece.to * BELOW,
+                Curvature::Straight | Curvature::Concave => piece.to * JUST_BELOW,
                 Curvature::Monotone => piece.from,
             };
             return positive;

@@ -139,13 +139,13 @@ fn changes(yes: &impl Fn(f64) -> bool, from: f64, to: f64) -> Vec<f64> {
 /// A smooth stretch, cut into runs that are concave throughout and runs that are not. A run counts as concave only if every second difference, also
 /// half a step beyond its ends, is clearly below zero.
 fn shapes(torque: &impl Fn(f64) -> f64, from: f64, to: f64) -> Vec<(f64, f64, Curvature)> {
-    const CLEARLY: f64 = 1e-9;
+    const CURVATURE_TOLERANCE: f64 = 1e-9;
     let place = |k: u32| place(from, to, k);
     let values: Vec<f64> = (0..=STEPS).map(|k| torque(place(k))).collect();
     let size = values.iter().fold(0.0f64, |most, v| most.max(v.abs()));
     let bends: Vec<bool> = values
         .windows(3)
-        .map(|w| matches!(w, [a, b, c] if a - 2.0 * b + c < -CLEARLY * size))
+        .map(|w| matches!(w, [a, b, c] if a - 2.0 * b + c < -CURVATURE_TOLERANCE * size))
         .collect();
     let bend = |k: u32| bends.get(k as usize).copied();
     // Step k lies between the differences k − 1 and k.

@@ -14,16 +14,16 @@ use jred_file::model::site::Site;
 use jred_file::number::numerics::edge;
 
 /// Range of ratios that is searched.
-const LOOKED_AT: Range = [0.01, 10_000.0];
+const SEARCH_RANGE: Range = [0.01, 10_000.0];
 
 /// Number of steps over that range, in equal ratios: neighbours differ by 2.3 %. A narrower suitable range is found only if it contains i*.
-const TRIED: u32 = 600;
+const RATIO_COUNT: u32 = 600;
 
 /// The tried ratios, rising, including `best`.
 pub(super) fn tried(best: Option<f64>) -> Vec<f64> {
-    let [from, to] = LOOKED_AT;
-    let step = |k: u32| from * (to / from).powf(f64::from(k) / f64::from(TRIED));
-    let mut ratios: Vec<f64> = (0..=TRIED).map(step).collect();
+    let [from, to] = SEARCH_RANGE;
+    let step = |k: u32| from * (to / from).powf(f64::from(k) / f64::from(RATIO_COUNT));
+    let mut ratios: Vec<f64> = (0..=RATIO_COUNT).map(step).collect();
     ratios.extend(best.filter(|best| (from..to).contains(best)));
     ratios.sort_by(f64::total_cmp);
     ratios

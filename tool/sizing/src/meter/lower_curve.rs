@@ -7,7 +7,7 @@ use jred::duty::MAX_POINTS;
 const EVEN: u32 = 32;
 
 /// … that is, by more than this share of the largest torque …
-const LOOSE: f64 = 2e-4;
+const COARSE_SHORTFALL: f64 = 2e-4;
 
 /// … up to this number of speeds.
 const MOST_SPEEDS: usize = 192;
@@ -19,7 +19,7 @@ const PARTS: u32 = 16;
 const STEPS: usize = 4;
 
 /// Shortfall, as a share of the largest torque, that needs no further point.
-const ENOUGH: f64 = 1e-3;
+const SUFFICIENT_SHORTFALL: f64 = 1e-3;
 
 /// The least requested shortfall (rounding).
 const ROUNDING: f64 = 1e-7;
@@ -68,7 +68,7 @@ pub fn below(
 ) -> Option<LowerCurve> {
     let tunnel = Tunnel::new(speeds(end, corners), &floor)?;
     let largest = tunnel.most.first().copied().unwrap_or(0.0);
-    let fewest = tunnel.path(ENOUGH).map(|path| path.len());
+    let fewest = tunnel.path(SUFFICIENT_SHORTFALL).map(|path| path.len());
     let count = fewest.map_or(MAX_POINTS, |n| n.min(MAX_POINTS));
     let fits = |shortfall: f64| tunnel.path(shortfall).filter(|path| path.len() <= count);
     // A shortfall of 1 allows a level curve, which needs one point.
@@ -272,7 +272,7 @@ fn closer(speeds: &[f32], between: &[Interval]) -> Option<Vec<f32>> {
     let mut loose: Vec<(f64, f32)> = between
         .iter()
         .zip(speeds.windows(2))
-        .filter(|(interval, _)| interval.loose > LOOSE * largest)
+        .filter(|(interval, _)| interval.loose > COARSE_SHORTFALL * largest)
         .map(|(interval, pair)| (interval.loose, f32::midpoint(pair[0], pair[1]), pair))
         .filter(|(_, middle, pair)| pair[0] < *middle && *middle < pair[1])
         .map(|(loose, middle, _)| (loose, middle))

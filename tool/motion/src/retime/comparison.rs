@@ -12,7 +12,7 @@ use super::even::constant_energy;
 use super::{ComparisonRow, Figures, Goal, LAWS, Obstacle, Request, law};
 use crate::gentlest::{Fault, LeastEffortMove, Objective, Travel};
 use crate::moves::{Chain, EndStates, KeptMotion, Move, Part};
-use crate::way::{BothDirections, PathDynamics};
+use crate::path_dynamics::{BothDirections, PathDynamics};
 
 /// The rotation at constant kinetic energy.
 const EVEN_ENERGY: &str = "constant kinetic energy";
@@ -68,7 +68,7 @@ impl<'a> Comparison<'a> {
                 ramp,
                 ring: self.endless,
             };
-            let found = search(&self.way(&step), &travel, objective);
+            let found = search(&self.dynamics(&step), &travel, objective);
             let number = moves.len() + 1;
             moves.push(found.map_err(|fault| Obstacle::Move(number, step, fault))?);
         }
@@ -86,12 +86,12 @@ impl<'a> Comparison<'a> {
 
     /// Cost of the pauses and the kept parts, in the unit of the moves' costs; zero for the peak.
     pub(super) fn held(&self) -> Result<f64, Error> {
-        let way = PathDynamics::new(self.file, self.request.actuator.clone(), 1.0);
+        let dynamics = PathDynamics::new(self.file, self.request.actuator.clone(), 1.0);
         let mut cost = 0.0;
         for part in self.parts {
             cost += match part {
                 Part::Dwell { at, duration } => {
-                    let torque = way.holding(&way.place_at_rest(*at)?);
+                    let torque = dynamics.holding(&dynamics.place_at_rest(*at)?);
                     self.heat() * torque * torque * duration
                 }
                 Part::Kept(kept) => self.of_kept(kept)?[0],
@@ -140,7 +140,7 @@ impl<'a> Comparison<'a> {
         Ok(peak)
     }
 
-    pub(super) fn way(&self, step: &Move) -> PathDynamics<'_> {
+    pub(super) fn dynamics(&self, step: &Move) -> PathDynamics<'_> {
         let direction = (step.to - step.from).signum();
         PathDynamics::new(self.file, self.request.actuator.clone(), direction)
     }
@@ -190,7 +190,7 @@ impl<'a> Comparison<'a> {
             return Ok(law::phases(*law, distance, step.duration));
         }
         if name == EVEN_ENERGY {
-            return constant_energy(&self.way(step), step);
+            return constant_energy(&self.dynamics(step), step);
         }
         Ok(vec![Phase {
             duration: step.duration,

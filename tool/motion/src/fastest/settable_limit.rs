@@ -61,7 +61,7 @@ pub(super) fn by(
     let passes = |without: &[SettableLimit]| {
         let is_kept = |limit: SettableLimit| !without.contains(&limit);
         let field = Field {
-            way: field.way,
+            dynamics: field.dynamics,
             limits: MoveLimits {
                 speed: limits.speed.filter(|_| is_kept(SettableLimit::Speed)),
                 tool: if is_kept(SettableLimit::ToolSpeed) {

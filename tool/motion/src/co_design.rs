@@ -13,11 +13,11 @@ use jred_sizing::threads;
 
 use crate::gentlest::without_drive;
 use crate::moves::{self, Chain};
+use crate::path_dynamics::Actuator;
 use crate::retime::{self, Figures, Goal, Obstacle, Request};
-use crate::way::Actuator;
 
 /// Number of suitable and of refused drives, under the file's motion and under the machine's own gentlest one, that get their own motion.
-const TRIED: usize = 8;
+const MOST_CANDIDATES: usize = 8;
 
 /// Data for judging drives.
 pub struct CoDesignInput<'a> {
@@ -114,7 +114,7 @@ impl<'a> CoDesignInput<'a> {
         suited.tried = tried.into_iter().collect::<Result<_, _>>()?;
         suited.sort();
         // With the motion of the best drive, an untried drive may rank first.
-        for _ in 0..TRIED {
+        for _ in 0..MOST_CANDIDATES {
             let Some(best) = suited.best() else { break };
             let listed = self.first(&best.cycle);
             let ahead = listed.fit.first();
@@ -179,10 +179,10 @@ impl<'a> CoDesignInput<'a> {
         let mut selection =
             Selection::parallel(self.catalogue, motors, cycle, &file.site, &file.rules);
         (self.narrow)(&mut selection);
-        let fit = selection.first_fit(TRIED);
+        let fit = selection.first_fit(MOST_CANDIDATES);
         // The smaller motor that is refused by least is the one that another motion may make suitable.
         let smaller = selection.next_smaller();
-        let refused = selection.first_refused(TRIED);
+        let refused = selection.first_refused(MOST_CANDIDATES);
         // Drives of the catalogue outlive the selection.
         let all = fit.iter().chain(&refused).chain(&smaller);
         let wanted: BTreeSet<DriveId> = all.map(Candidate::id).collect();

@@ -21,7 +21,7 @@ pub(crate) enum PeakCheck {
 }
 
 /// Allowance for rounding of a share.
-const NEAR: f64 = 1e-9;
+const SHARE_ROUNDING: f64 = 1e-9;
 
 impl Stretches<'_> {
     /// See [`PeakCheck`]; `low` is not above `high`.
@@ -38,7 +38,7 @@ impl Stretches<'_> {
         let front = self.front;
         let [start, slope] = line;
         // The bounds apply to samples; the peak between them may be higher.
-        let least = low * (1.0 - NEAR) / (1.0 + MOST_RAISED);
+        let least = low * (1.0 - SHARE_ROUNDING) / (1.0 + MOST_RAISED);
         if front.most_above(&c.0, [least * start, least * slope]) + self.slack(c) <= 0.0 {
             return PeakCheck::Below;
         }
@@ -59,9 +59,9 @@ impl Stretches<'_> {
             .map(|end| used(&self.samples[end as usize]))
             .into_iter()
             .fold(0.0, f64::max);
-        if used > high * (1.0 + 4.0 * NEAR) && used.is_finite() {
+        if used > high * (1.0 + 4.0 * SHARE_ROUNDING) && used.is_finite() {
             PeakCheck::Beyond {
-                used: used * (1.0 - NEAR),
+                used: used * (1.0 - SHARE_ROUNDING),
             }
         } else {
             PeakCheck::Open

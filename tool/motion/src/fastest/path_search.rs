@@ -2,15 +2,16 @@
 
 use std::cell::Cell;
 
+use crate::path_dynamics::PathDynamics;
 use crate::trace::{Node, Trace};
-use crate::way::PathDynamics;
 
 use super::field::{Field, speed};
 use super::leg::Step;
 use super::sweep::{self, Obstacle, SweepPiece};
 use super::track::{Ends, Survey, Track};
 use super::{
-    Fastest, NoMotion, Task, between, corners, joint_force, least_cells, phases, slivers, slowed,
+    Fastest, NoMotion, Task, between, corners, joint_force, least_cells, phases, settable_limit,
+    tiny_steps,
 };
 
 /// First and largest number of cells.
@@ -68,7 +69,7 @@ impl<'f, 'w, 'a> PathSearch<'f, 'w, 'a> {
     /// Doubles the number of cells until the time has converged, then refines the cells in which limits are exceeded by more than `within`.
     pub(super) fn fastest(&self, speeds: [f64; 2], within: f64) -> Result<Fastest, NoMotion> {
         let field = self.survey.field;
-        let (way, limits, file) = (field.way, &field.limits, field.way.file);
+        let (dynamics, limits, file) = (field.dynamics, &field.limits, field.dynamics.file);
         let [_, most] = CELLS;
         let mut count = self.first.get();
         let ends = Ends {
@@ -105,7 +106,7 @@ impl<'f, 'w, 'a> PathSearch<'f, 'w, 'a> {
                 }
                 Err(obstacle) => {
                     let eased = match obstacle {
-                        Obstacle::Stops(..) => slowed::by(field, &ends, count)?,
+                        Obstacle::Stops(..) => settable_limit::by(field, &ends, count)?,
                         _ => None,
                     };
                     return Err(NoMotion::at(field, &track, obstacle, eased));
@@ -135,8 +136,8 @@ impl<'f, 'w, 'a> PathSearch<'f, 'w, 'a> {
                 settled = change;
                 self.first.set(self.first.get().max(count / 2));
             }
-            let (pieces, times) = slivers::without(&track, pieces, &times);
-            let trace = trace(way, &ends, &track, &pieces, &times);
+            let (pieces, times) = tiny_steps::without(&track, pieces, &times);
+            let trace = trace(dynamics, &ends, &track, &pieces, &times);
             let ((excess, phi), places) =
                 between::largest_excess(&self.survey, &ends, (&track, &pieces), &trace, within)?;
             let idle = best.take(Round {
@@ -207,7 +208,7 @@ impl Round {
                 phi: self.phi,
                 change,
                 endless: false,
-                axis: field.way.file.axis(),
+                axis: field.dynamics.file.axis(),
             });
         }
         Ok(Fastest {
@@ -224,7 +225,7 @@ impl Round {
 
 /// The motion over time.
 fn trace(
-    way: &PathDynamics,
+    dynamics: &PathDynamics,
     ends: &Ends,
     track: &Track,
     pieces: &[SweepPiece],
@@ -235,7 +236,7 @@ fn trace(
     let mut push = |t: f64, step: f64, piece: &SweepPiece, end: usize| {
         let Step { u, z, a, .. } = &piece.step;
         let cell = &track.cells[piece.cell];
-        let alpha = a[end] * way.direction;
+        let alpha = a[end] * dynamics.direction;
         if let Some(node) = nodes.last_mut().filter(|_| end == 0) {
             node.alpha[1] = alpha;
             return;
@@ -243,8 +244,8 @@ fn trace(
         nodes.push(Node {
             t,
             step,
-            phi: ends.from + way.direction * (cell.x + u[end] * cell.length),
-            omega: speed(z[end]) * way.direction,
+            phi: ends.from + dynamics.direction * (cell.x + u[end] * cell.length),
+            omega: speed(z[end]) * dynamics.direction,
             alpha: [if t == 0.0 { 0.0 } else { alpha }, alpha],
         });
     };
@@ -255,7 +256,7 @@ fn trace(
     }
     if let Some(last) = nodes.last_mut() {
         last.alpha[1] = 0.0;
-        last.phi = ends.from + way.direction * ends.length;
+        last.phi = ends.from + dynamics.direction * ends.length;
     }
-    Trace::new(way.coordinate(), nodes)
+    Trace::new(dynamics.coordinate(), nodes)
 }

@@ -8,7 +8,7 @@ use super::track::Track;
 
 /// Share of the total time below which a step is removed: some hundred rounding errors of a time near the end. Its change of speed goes into the
 /// neighbouring step, whose acceleration changes in the ratio of the two durations.
-const SLIVER: f64 = 1e-13;
+const TINY_STEP: f64 = 1e-13;
 
 /// The pieces of a motion with their times, where each step that is too short is merged into the longer of its neighbours.
 pub(super) fn without(
@@ -16,7 +16,7 @@ pub(super) fn without(
     pieces: Vec<SweepPiece>,
     times: &[f64],
 ) -> (Vec<SweepPiece>, Vec<f64>) {
-    let short = SLIVER * times.iter().sum::<f64>();
+    let short = TINY_STEP * times.iter().sum::<f64>();
     if times.iter().all(|time| *time > short) {
         return (pieces, times.to_vec());
     }

@@ -19,11 +19,11 @@ use jred_file::number::columns::{Column, Quantity};
 use jred_file::units::RPM;
 use jred_sizing::catalogue::{Drive, MotorKind};
 use jred_sizing::motor::envelope::{Limit, MotorLimits};
-use jred_sizing::thermal::course::LossCurve;
+use jred_sizing::thermal::loss_curve::LossCurve;
 use jred_sizing::thermal::network::{Network, Rise};
 use jred_sizing::thermal::{Model, allowed_rise};
 
-use crate::way::Actuator;
+use crate::path_dynamics::Actuator;
 
 /// Share of the speed over which the torque falls where the envelope drops.
 pub const EASE: f64 = 1e-3;

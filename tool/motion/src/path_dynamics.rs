@@ -270,12 +270,12 @@ impl<'a> BothDirections<'a> {
     pub fn torque(&self, state: &State<f64>, heading: f64) -> Result<f64, Error> {
         let State { phi, omega, alpha } = *state;
         let back = if omega == 0.0 { heading } else { omega } < 0.0;
-        let way = &self.0[usize::from(back)];
+        let dynamics = &self.0[usize::from(back)];
         if omega == 0.0 && alpha == 0.0 {
-            return Ok(way.holding(&way.place_at_rest(phi)?));
+            return Ok(dynamics.holding(&dynamics.place_at_rest(phi)?));
         }
-        let place = way.place(phi)?;
-        let demand = way.demand(&place, omega.abs(), alpha * way.direction);
-        Ok(demand.torque * way.direction)
+        let place = dynamics.place(phi)?;
+        let demand = dynamics.demand(&place, omega.abs(), alpha * dynamics.direction);
+        Ok(demand.torque * dynamics.direction)
     }
 }

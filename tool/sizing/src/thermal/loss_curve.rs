@@ -120,7 +120,7 @@ pub(super) const PART: f64 = 0.02;
 pub(super) const MOST_PARTS: f64 = 4096.0;
 
 /// Multiple of the slowest time constant after which a rise has vanished.
-const COLD: f64 = 50.0;
+const DECAY_TIMES: f64 = 50.0;
 
 impl LossCurve {
     /// Losses at the instants of a cycle of `duration` (s), in order of time. Before the first and after the last instant the losses are constant.
@@ -259,7 +259,7 @@ impl LossCurve {
             Operation::Short { operating } => {
                 let (hottest, end) = self.operating(network, [0.0; 2], operating);
                 // While everything cools down, the housing may still warm up.
-                let cold = COLD * network.slowest();
+                let cold = DECAY_TIMES * network.slowest();
                 Some(after(network, Losses::default(), cold, end, hottest))
             }
             Operation::Intermittent {
