@@ -42,7 +42,7 @@ pub struct BusAnalysis {
     pub in_step: Option<BusFigures>,
     /// Power drawn with all axes in step.
     pub power: Option<PowerCurve>,
-    /// Worst phases, in the order of [`Goal::ALL`](super::axes::Goal::ALL).
+    /// Worst phases, in the order of [`WorstCase::ALL`](super::axes::WorstCase::ALL).
     pub worst: Option<[WorstPhases; 4]>,
     /// Phases with the smallest use of the limits.
     pub calmest: Option<WorstPhases>,
