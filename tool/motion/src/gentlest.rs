@@ -224,7 +224,7 @@ fn of(
     objective: Objective,
     prove: bool,
 ) -> Result<LeastEffortMove, Fault> {
-    let found = from_end_to_end(dynamics, travel, objective, [false, prove]);
+    let found = from_end_to_end(dynamics, travel, objective, Waiting::Allowed, prove);
     let may_wait = match &found {
         Ok(gentle) => gentle.optimum != Optimum::Global,
         Err(fault) => *fault == Fault::NotFound,
@@ -236,12 +236,22 @@ fn of(
     }
 }
 
-/// The gentlest motion that waits only at its ends, where they are at rest, and at one of them in any case if it must. With a lower bound on request.
+/// Whether a move waits at one of its ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Waiting {
+    /// Where that costs less than moving slowly.
+    Allowed,
+    /// In any case.
+    Required,
+}
+
+/// The gentlest motion that waits only at its ends, where they are at rest. With a lower bound on request.
 fn from_end_to_end(
     dynamics: &PathDynamics,
     travel: &Travel,
     objective: Objective,
-    [must_wait, prove]: [bool; 2],
+    waiting: Waiting,
+    prove: bool,
 ) -> Result<LeastEffortMove, Fault> {
     for (what, value) in [
         ("distance", travel.distance.abs()),
@@ -270,7 +280,7 @@ fn from_end_to_end(
     let task = task.fitted(travel.duration)?;
     let rests = travel.ends().rest.contains(&true);
     let held = task.held()?;
-    let whole = if must_wait {
+    let whole = if waiting == Waiting::Required {
         None
     } else {
         task.solve(travel.duration, FIRST, None)?

@@ -10,7 +10,9 @@ use jred::machine::motion::{End, Polynomial};
 use jred_file::model::motion::Phase;
 use jred_file::number::numerics::{least, zero};
 
-use super::{Fault, GAP, LeastEffortMove, Objective, Optimum, Reason, Travel, from_end_to_end};
+use super::{
+    Fault, GAP, LeastEffortMove, Objective, Optimum, Reason, Travel, Waiting, from_end_to_end,
+};
 use crate::path_dynamics::PathDynamics;
 
 /// Places at which the holding torque is evaluated.
@@ -23,7 +25,7 @@ const MOST: usize = 4;
 const LEAST_GAIN: f64 = 1e-6;
 
 /// Share of the time, or of the path, that is rounding.
-const ROUNDED: f64 = 1e-9;
+const ROUNDING: f64 = 1e-9;
 
 /// Relative accuracy of a zero's position.
 const ZERO_TOLERANCE: f64 = 1e-15;
@@ -67,7 +69,7 @@ pub(super) fn on_the_way(
 /// The motion with a bound of all motions, and its optimum. `of_other` is the optimum of the motion from end to end.
 fn judged(made: LeastEffortMove, bound: Option<f64>, of_other: Optimum) -> LeastEffortMove {
     // A cost below a bound refutes the bound.
-    let bound = bound.filter(|bound| *bound <= made.cost * (1.0 + ROUNDED));
+    let bound = bound.filter(|bound| *bound <= made.cost * (1.0 + ROUNDING));
     let proved = bound.is_some_and(|bound| made.cost - bound <= GAP * made.cost);
     let optimum = match of_other {
         _ if proved => Optimum::Global,
@@ -152,7 +154,7 @@ fn waiting_at(
 ) -> Option<LeastEffortMove> {
     let end = travel.start + travel.distance;
     // The whole has the bound of all motions; its parts need no bound.
-    let part = |ends: [f64; 2], duration: f64, must_wait: bool| {
+    let part = |ends: [f64; 2], duration: f64, waiting: Waiting| {
         let at = |values: [f64; 2]| {
             let kept = |k: usize, whole: f64| if is(ends[k], whole) { values[k] } else { 0.0 };
             [kept(0, travel.start), kept(1, end)]
@@ -165,29 +167,29 @@ fn waiting_at(
             accelerations: at(travel.accelerations),
             ..*travel
         };
-        from_end_to_end(dynamics, &part, objective, [must_wait, false]).ok()
+        from_end_to_end(dynamics, &part, objective, waiting, false).ok()
     };
     if is(place, travel.start) || is(place, end) {
-        return part([travel.start, end], travel.duration, true);
+        return part([travel.start, end], travel.duration, Waiting::Required);
     }
     let ways = [[travel.start, place], [place, end]];
     let [mut to, mut from] = [
-        part(ways[0], travel.duration, true)?,
-        part(ways[1], travel.duration, true)?,
+        part(ways[0], travel.duration, Waiting::Required)?,
+        part(ways[1], travel.duration, Waiting::Required)?,
     ];
     if to.moving + from.moving > travel.duration {
         // The longer part gets the time that the other leaves: near its unconstrained time that costs hardly more.
         if to.moving > from.moving {
-            to = part(ways[0], travel.duration - from.moving, false)?;
+            to = part(ways[0], travel.duration - from.moving, Waiting::Allowed)?;
         } else {
-            from = part(ways[1], travel.duration - to.moving, false)?;
+            from = part(ways[1], travel.duration - to.moving, Waiting::Allowed)?;
         }
     }
     let rest = travel.duration - to.moving - from.moving;
-    if rest < -ROUNDED * travel.duration {
+    if rest < -ROUNDING * travel.duration {
         return None;
     }
-    let near = ROUNDED * travel.distance.abs();
+    let near = ROUNDING * travel.distance.abs();
     let mut phases = [moving(&to, (place, near), true)?, &[]].concat();
     if rest > 0.0 {
         phases.push(Phase {
@@ -226,7 +228,7 @@ fn turning_from(
         ring: false,
         ..*travel
     };
-    let made = from_end_to_end(dynamics, &turn, objective, [true, false]).ok()?;
+    let made = from_end_to_end(dynamics, &turn, objective, Waiting::Required, false).ok()?;
     let offset = (travel.start - place) / travel.distance;
     let phases = begun_at(&made.phases, offset.rem_euclid(1.0) * travel.distance)?;
     Some(LeastEffortMove {
@@ -249,7 +251,7 @@ fn begun_at(phases: &[Phase], offset: f64) -> Option<Vec<Phase>> {
         let values = [beyond(ends[0]).ok()?, beyond(ends[1]).ok()?];
         if rise != 0.0 && values[1] >= 0.0 {
             let at = zero(beyond, ends, values, ZERO_TOLERANCE).ok()?;
-            let short = ROUNDED * time;
+            let short = ROUNDING * time;
             // No phase as short as rounding.
             let (before, behind) = if at <= short {
                 (None, Some(*phase))
