@@ -25,12 +25,12 @@ const PATIENCE_OF_LOGS: Duration = Duration::from_secs(2);
 /// Interval between the lines of a log.
 const TICK_OF_LOGS: Duration = Duration::from_secs(10);
 
-static LINE: Mutex<Option<Line>> = Mutex::new(None);
+static LINE: Mutex<Option<ProgressLine>> = Mutex::new(None);
 
 /// Completed rows and all rows; 0 if rows are not counted.
 static ROWS: [AtomicU64; 2] = [AtomicU64::new(0), AtomicU64::new(0)];
 
-struct Line {
+struct ProgressLine {
     /// `None` in a log, from which nothing is removed.
     bar: Option<ProgressBar>,
     stop: Sender<()>,
@@ -41,11 +41,11 @@ struct Line {
 pub fn begin(what: &'static str) {
     end();
     let line = if std::io::stderr().is_terminal() {
-        Line::begin(what, ProgressDrawTarget::stderr(), PATIENCE)
+        ProgressLine::begin(what, ProgressDrawTarget::stderr(), PATIENCE)
     } else if std::env::var_os("JRED_PROGRESS").is_some_and(|word| word == "never") {
         return;
     } else {
-        Line::in_log(what, std::io::stderr(), [PATIENCE_OF_LOGS, TICK_OF_LOGS])
+        ProgressLine::in_log(what, std::io::stderr(), [PATIENCE_OF_LOGS, TICK_OF_LOGS])
     };
     *LINE.lock().unwrap_or_else(PoisonError::into_inner) = Some(line);
 }
@@ -53,7 +53,7 @@ pub fn begin(what: &'static str) {
 /// Runs `print`, which writes to stderr, without the line.
 pub fn aside(print: impl FnOnce()) {
     match &*LINE.lock().unwrap_or_else(PoisonError::into_inner) {
-        Some(Line { bar: Some(bar), .. }) => bar.suspend(print),
+        Some(ProgressLine { bar: Some(bar), .. }) => bar.suspend(print),
         _ => print(),
     }
 }
@@ -80,7 +80,7 @@ pub fn end() {
     }
 }
 
-impl Line {
+impl ProgressLine {
     /// Draws the line on `screen` once `patience` has passed.
     fn begin(what: &'static str, screen: ProgressDrawTarget, patience: Duration) -> Self {
         let style = ProgressStyle::with_template("{spinner} {msg}: {elapsed}; Ctrl-C stops it");
@@ -156,22 +156,22 @@ mod tests {
 
     /// Commands to a terminal.
     #[derive(Debug, PartialEq)]
-    enum Told {
+    enum TerminalEvent {
         Text(String),
         ClearLine,
     }
 
     #[derive(Debug)]
-    struct Screen(Sender<Told>);
+    struct Screen(Sender<TerminalEvent>);
 
     impl Screen {
-        fn begin() -> (ProgressDrawTarget, Receiver<Told>) {
+        fn begin() -> (ProgressDrawTarget, Receiver<TerminalEvent>) {
             let (sender, told) = channel();
             let screen = Box::new(Self(sender));
             (ProgressDrawTarget::term_like(screen), told)
         }
 
-        fn tell(&self, told: Told) {
+        fn tell(&self, told: TerminalEvent) {
             // The test may have ended.
             let _ = self.0.send(told);
         }
@@ -194,15 +194,15 @@ mod tests {
             Ok(())
         }
         fn write_line(&self, text: &str) -> Result<()> {
-            self.tell(Told::Text(text.to_owned()));
+            self.tell(TerminalEvent::Text(text.to_owned()));
             Ok(())
         }
         fn write_str(&self, text: &str) -> Result<()> {
-            self.tell(Told::Text(text.to_owned()));
+            self.tell(TerminalEvent::Text(text.to_owned()));
             Ok(())
         }
         fn clear_line(&self) -> Result<()> {
-            self.tell(Told::ClearLine);
+            self.tell(TerminalEvent::ClearLine);
             Ok(())
         }
         fn flush(&self) -> Result<()> {
@@ -229,7 +229,7 @@ mod tests {
     fn a_log_gets_lines() {
         let (sender, written) = channel();
         rows(3, 8);
-        let line = Line::in_log("sizing", Log(sender), [Duration::ZERO; 2]);
+        let line = ProgressLine::in_log("sizing", Log(sender), [Duration::ZERO; 2]);
         let mut text = String::new();
         // Waits for the second line without a timeout.
         while text.matches('\n').count() < 2 {
@@ -243,31 +243,33 @@ mod tests {
             "{first}"
         );
         let (sender, written) = channel();
-        Line::in_log("sizing", Log(sender), [Duration::from_secs(3600); 2]).end();
+        ProgressLine::in_log("sizing", Log(sender), [Duration::from_secs(3600); 2]).end();
         assert_eq!(written.iter().count(), 0);
     }
 
-    fn shows(told: &Told) -> bool {
-        matches!(told, Told::Text(text) if text.contains("checking the machine: "))
+    fn shows(told: &TerminalEvent) -> bool {
+        matches!(told, TerminalEvent::Text(text) if text.contains("checking the machine: "))
     }
 
     /// The line is removed from the screen completely.
     #[test]
     fn the_line_says_what_is_done_and_goes() {
         let (screen, told) = Screen::begin();
-        let line = Line::begin("checking the machine", screen, Duration::ZERO);
+        let line = ProgressLine::begin("checking the machine", screen, Duration::ZERO);
         // Waits for the line without a timeout.
         assert!(told.iter().any(|told| shows(&told)));
         line.end();
-        let rest: Vec<Told> = told.iter().collect();
-        let cleared = rest.iter().rposition(|told| *told == Told::ClearLine);
+        let rest: Vec<TerminalEvent> = told.iter().collect();
+        let cleared = rest
+            .iter()
+            .rposition(|told| *told == TerminalEvent::ClearLine);
         assert!(!rest[cleared.expect("it is cleared")..].iter().any(shows));
     }
 
     #[test]
     fn a_short_command_shows_nothing() {
         let (screen, told) = Screen::begin();
-        let line = Line::begin("checking the machine", screen, Duration::from_secs(3600));
+        let line = ProgressLine::begin("checking the machine", screen, Duration::from_secs(3600));
         line.end();
         assert!(!told.iter().any(|told| shows(&told)));
     }

@@ -40,14 +40,14 @@ use jred_report::answer::Answer;
 use jred_report::list::{inspection, rule_list};
 use jred_report::table::output::Format;
 use jred_sizing::catalogue::{Catalogue, Drive};
-use jred_sizing::motor::envelope::{Envelope, Prepared};
+use jred_sizing::motor::envelope::{Envelope, MotorLimits};
 use jred_sizing::select::fit::fit_input;
 use jred_sizing::select::named::named;
 use jred_sizing::study::chosen::ChosenDrive;
 
 /// Result of a command without an error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Done {
+pub enum Completion {
     /// Every requirement is satisfied.
     Holds,
     /// Every drive violates a rule, or a torque error is not reached.
@@ -60,14 +60,14 @@ pub enum Done {
 ///
 /// # Errors
 /// Bad input, or a file that cannot be written.
-pub fn run(command: &options::Command) -> Result<Done> {
+pub fn run(command: &options::Command) -> Result<Completion> {
     busy::begin(doing(command));
     let done = dispatch(command);
     busy::end();
     done
 }
 
-fn dispatch(command: &options::Command) -> Result<Done> {
+fn dispatch(command: &options::Command) -> Result<Completion> {
     match command {
         options::Command::Reduce(options) => reduce::run(options),
         options::Command::Check(options) => run_check(options),
@@ -118,31 +118,31 @@ const fn doing(command: &options::Command) -> &'static str {
     }
 }
 
-fn run_check(options: &options::Check) -> Result<Done> {
+fn run_check(options: &options::Check) -> Result<Completion> {
     let file = checked::read(&options.file)?;
     let findings = Findings::of(&file).map_err(core_report)?;
     print_answer(&inspection::answer(&findings), options.format.into())?;
     Ok(if findings.holds() {
-        Done::Holds
+        Completion::Holds
     } else {
-        Done::Violated
+        Completion::Violated
     })
 }
 
 /// Prints to stdout.
-pub(crate) fn print(text: &str) -> Result<Done> {
-    output::print(text).map(|()| Done::Holds)
+pub(crate) fn print(text: &str) -> Result<Completion> {
+    output::print(text).map(|()| Completion::Holds)
 }
 
 /// Prints an answer.
-fn print_answer(answer: &Answer, format: Format) -> Result<Done> {
+fn print_answer(answer: &Answer, format: Format) -> Result<Completion> {
     print_parts(answer.write(format, output::screen()))
 }
 
 /// Prints a text in parts.
-fn print_parts(parts: impl IntoIterator<Item = String>) -> Result<Done> {
+fn print_parts(parts: impl IntoIterator<Item = String>) -> Result<Completion> {
     output::print_parts(parts)?;
-    Ok(Done::Holds)
+    Ok(Completion::Holds)
 }
 
 /// Warns on standard error if a contact separates at this speed and acceleration; the result is computed anyway.
@@ -187,7 +187,7 @@ fn envelope(drive: &Drive, file: &MachineFile) -> Envelope {
 
 /// Warns if a drive is not made for the supply.
 fn warn_of_supply(drive: &Drive, file: &MachineFile) {
-    let limits = Prepared::new(drive.motor, drive.amplifier, &file.site);
+    let limits = MotorLimits::new(drive.motor, drive.amplifier, &file.site);
     if let Some(unfit) = limits.unfit(&file.rules) {
         output::warn(&unfit.clone());
     }

@@ -3,7 +3,7 @@
 
 use std::process::ExitCode;
 
-use jred_cli::commands::{Done, run};
+use jred_cli::commands::{Completion, run};
 use jred_cli::options::Cli;
 use jred_cli::output;
 use jred_file::plain;
@@ -25,10 +25,10 @@ fn main() -> ExitCode {
         parsed => parsed.unwrap_or_else(|error| error.exit()),
     };
     match run(&cli.command) {
-        Ok(Done::Holds) => ExitCode::SUCCESS,
-        Ok(Done::Violated) => ExitCode::from(1),
+        Ok(Completion::Holds) => ExitCode::SUCCESS,
+        Ok(Completion::Violated) => ExitCode::from(1),
         // The shell convention for a program ended by Ctrl-C.
-        Ok(Done::Stopped) => ExitCode::from(130),
+        Ok(Completion::Stopped) => ExitCode::from(130),
         Err(report) => {
             output::complain(&report, plainly);
             ExitCode::from(2)

@@ -22,7 +22,7 @@ use self::search::Objectives;
 use self::word::word;
 use jred_analysis::reduce::Over;
 use jred_export::{Choice, Core, LayoutChoice, Number, OutputForm};
-use jred_report::list::inspection::Format as CheckFormat;
+use jred_report::list::inspection::AnswerFormat;
 use jred_report::table::output::Format;
 
 /// Reduced inertia, drive sizing, simulation and firmware tables for machines whose inertia depends on the angle.
@@ -177,13 +177,13 @@ pub struct Check {
     /// Machine file.
     pub file: PathBuf,
     /// Output format.
-    #[arg(long, value_parser = word::<CheckFormat>(), default_value_t)]
-    pub format: CheckFormat,
+    #[arg(long, value_parser = word::<AnswerFormat>(), default_value_t)]
+    pub format: AnswerFormat,
 }
 
 jred_file::words! {
     /// Which motion drives are judged with.
-    pub enum Moved default Own {
+    pub enum MotionChoice default Own {
         /// The motion of the machine file.
         Own = "own",
         /// The same moves in the same times with the least RMS torque for the smallest drive that is suitable with such a motion; see `jred retime`.
@@ -207,8 +207,8 @@ pub struct Size {
     #[command(flatten)]
     pub accuracy: sampling::Accuracy,
     /// Which motion the drives are judged with.
-    #[arg(long, value_parser = word::<Moved>(), default_value_t, conflicts_with = "rank")]
-    pub motion: Moved,
+    #[arg(long, value_parser = word::<MotionChoice>(), default_value_t, conflicts_with = "rank")]
+    pub motion: MotionChoice,
     /// Instead of the ranking: list the Pareto front over two or three of power, mass, price, energy, margin and
     /// temperature, e.g. "mass,energy".
     #[arg(long, value_name = "OBJECTIVES", value_parser = Objectives::read, conflicts_with_all = [
@@ -217,7 +217,7 @@ pub struct Size {
     pub pareto: Option<Objectives>,
     /// Which drives are considered and how they are ranked.
     #[command(flatten)]
-    pub search: search::Search,
+    pub search: search::SelectionOptions,
     /// Judge this drive alone: MOTOR+GEARBOX, or MOTOR for a direct drive, followed by " on AMPLIFIER" if there are several.
     #[arg(long, value_name = "MOTOR+GEARBOX", conflicts_with_all = [
         "pareto", "rank", "why", "maker", "motor", "gearbox", "ratio", "direct_only", "max_mass", "max_price"

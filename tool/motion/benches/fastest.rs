@@ -5,11 +5,11 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 
 use jred_analysis::checked;
-use jred_motion::fastest::Limits;
+use jred_motion::fastest::MoveLimits;
 use jred_motion::fastest::field::Field;
 use jred_motion::fastest::sweep;
 use jred_motion::fastest::track::{Ends, Survey, Track};
-use jred_motion::way::{Actuator, Way};
+use jred_motion::path_dynamics::{Actuator, PathDynamics};
 use jred_sizing::catalogue::Catalogue;
 use jred_sizing::motor::envelope::Envelope;
 
@@ -23,10 +23,10 @@ fn main() {
         .find(|(_, drive)| drive.name() == "sgmsh-15a + npt025mf-5");
     let (_, drive) = drive.expect("the drive is in the catalogue");
     let envelope = Envelope::at(drive.motor, drive.amplifier, &file.site);
-    let way = Way::new(&file, Actuator::new(&drive, envelope), 1.0);
+    let dynamics = PathDynamics::new(&file, Actuator::new(&drive, envelope), 1.0);
     let field = Field {
-        way: &way,
-        limits: Limits::default(),
+        dynamics: &dynamics,
+        limits: MoveLimits::default(),
     };
     let ends = Ends {
         from: 3.2,

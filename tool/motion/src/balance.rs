@@ -20,8 +20,8 @@ use jred_file::model::machine::MachineFile;
 use jred_file::model::schedule::ScheduleInstant;
 use jred_file::model::with_mass::AttachedMass;
 
-use self::rows::Rows;
-use self::unknowns::{Made, Unknowns};
+use self::rows::DesignMatrix;
+use self::unknowns::{BalanceParts, Unknowns};
 
 mod barrier;
 mod rows;
@@ -31,14 +31,14 @@ mod unknowns;
 const POSITIONS: usize = 1440;
 
 /// Share by which the RMS over the motion may rise for another goal before it is reported.
-const HEATS: f64 = 0.1;
+const RMS_RISE: f64 = 0.1;
 
 /// Share of the largest value below which a value counts as rounding error.
 const ROUNDING: f64 = 1e-9;
 
 jred_file::words! {
     /// Quantity to minimise.
-    pub enum Goal default Rms {
+    pub enum BalanceGoal default Rms {
         /// RMS of the drive link's torque over the motion: the heat in the motor.
         Rms = "rms",
         /// Its largest value.
@@ -71,9 +71,9 @@ impl Counterweight {
 
 /// A balancing request.
 #[derive(Clone, Debug)]
-pub struct Request {
+pub struct BalanceRequest {
     /// Quantity to minimise.
-    pub goal: Goal,
+    pub goal: BalanceGoal,
     /// Links that may carry a counterweight.
     pub counterweights: Vec<Counterweight>,
     /// Springs whose stiffness and free length are unknown, as indices of the file's elements.
@@ -84,7 +84,7 @@ pub struct Request {
 
 /// Why there is no answer.
 #[derive(Clone, Debug)]
-pub enum Fault {
+pub enum BalanceError {
     /// The mechanism cannot be assembled at a position.
     Machine(Error),
     /// The duty of the motion cannot be computed.
@@ -101,13 +101,13 @@ pub enum Fault {
     Parts(Box<Separation>),
 }
 
-impl From<Error> for Fault {
+impl From<Error> for BalanceError {
     fn from(error: Error) -> Self {
         Self::Machine(error)
     }
 }
 
-impl From<duty::DutyError> for Fault {
+impl From<duty::DutyError> for BalanceError {
     fn from(fault: duty::DutyError) -> Self {
         match fault {
             duty::DutyError::Machine(error) => Self::Machine(error),
@@ -118,7 +118,7 @@ impl From<duty::DutyError> for Fault {
 
 /// Figures of a machine, before or after balancing.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Figures {
+pub struct BalanceFigures {
     /// RMS and peak of the drive link's torque over the motion (N·m); `None` without a motion.
     pub torque: Option<[f64; 2]>,
     /// RMS and peak at the input of the drive train, with its losses (N·m).
@@ -131,32 +131,32 @@ pub struct Figures {
     pub deviation: f64,
 }
 
-impl Balanced {
+impl BalanceResult {
     /// Share by which the RMS over the motion rises, if by more than a tenth.
     pub fn heats(&self) -> Option<f64> {
         let [Some([was, _]), Some([is, _])] = [self.before.torque, self.after.torque] else {
             return None;
         };
-        (is > (1.0 + HEATS) * was).then(|| is / was - 1.0)
+        (is > (1.0 + RMS_RISE) * was).then(|| is / was - 1.0)
     }
 }
 
-impl Figures {
+impl BalanceFigures {
     /// The figure that a goal minimises.
-    pub fn of(&self, goal: Goal) -> f64 {
+    pub fn of(&self, goal: BalanceGoal) -> f64 {
         let [rms, peak] = self.torque.unwrap_or_default();
         match goal {
-            Goal::Rms => rms,
-            Goal::Peak => peak,
-            Goal::Holding => self.holding[0],
-            Goal::Inertia => self.deviation,
+            BalanceGoal::Rms => rms,
+            BalanceGoal::Peak => peak,
+            BalanceGoal::Holding => self.holding[0],
+            BalanceGoal::Inertia => self.deviation,
         }
     }
 }
 
 /// The optimum.
 #[derive(Clone, Debug)]
-pub struct Balanced {
+pub struct BalanceResult {
     /// The counterweights, in the order of the request; `None`: no counterweight is best.
     pub masses: Vec<Option<AttachedMass>>,
     /// The springs, in the order of the request; `None`: no spring is best.
@@ -165,9 +165,9 @@ pub struct Balanced {
     /// over the range.
     pub efforts: Vec<Option<[f64; 2]>>,
     /// With the springs of the file, without counterweights.
-    pub before: Figures,
+    pub before: BalanceFigures,
     /// With the optimum.
-    pub after: Figures,
+    pub after: BalanceFigures,
     /// Lower bound: no counterweight and spring within the bounds reaches less.
     pub bound: f64,
 }
@@ -176,22 +176,25 @@ pub struct Balanced {
 ///
 /// # Errors
 /// The machine cannot be assembled, the motion is missing, there is nothing to balance, or nothing has an effect.
-pub fn balance(file: &MachineFile, request: &Request) -> Result<Balanced, Fault> {
-    if request.goal == Goal::Inertia && !request.springs.is_empty() {
-        return Err(Fault::SpringForInertia);
+pub fn balance(
+    file: &MachineFile,
+    request: &BalanceRequest,
+) -> Result<BalanceResult, BalanceError> {
+    if request.goal == BalanceGoal::Inertia && !request.springs.is_empty() {
+        return Err(BalanceError::SpringForInertia);
     }
-    let rows = Rows::new(file, request)?;
+    let rows = DesignMatrix::new(file, request)?;
     let scale = largest(&rows.base);
     if scale <= ROUNDING * rows.largest {
-        return Err(Fault::Nothing);
+        return Err(BalanceError::Nothing);
     }
     let unknowns = Unknowns::new(file, request, &rows, scale)?;
     let (x, least) = unknowns.least(request.goal, &rows, scale);
     let bound = match request.goal {
-        Goal::Peak => least * scale,
+        BalanceGoal::Peak => least * scale,
         _ => least.sqrt() * scale,
     };
-    let Made { masses, springs } = unknowns.made(&x, &rows)?;
+    let BalanceParts { masses, springs } = unknowns.made(&x, &rows)?;
     let before = figures(file, duty(file, request)?.as_ref())?;
     let mut after = file.clone();
     let replaced = request.springs.iter().copied().zip(springs.iter().copied());
@@ -200,7 +203,7 @@ pub fn balance(file: &MachineFile, request: &Request) -> Result<Balanced, Fault>
     if let Some(duty) = &duty {
         hold_together(&after, duty)?;
     }
-    Ok(Balanced {
+    Ok(BalanceResult {
         efforts: efforts(&after, duty.as_ref(), &springs)?,
         after: figures(&after, duty.as_ref())?,
         before,
@@ -211,14 +214,14 @@ pub fn balance(file: &MachineFile, request: &Request) -> Result<Balanced, Fault>
 }
 
 /// Names of the links on which a counterweight of the request has an effect. Each is tried alone.
-pub fn effective(file: &MachineFile, request: &Request) -> Vec<String> {
+pub fn effective(file: &MachineFile, request: &BalanceRequest) -> Vec<String> {
     let Some(asked) = request.counterweights.first() else {
         return Vec::new();
     };
     let mechanism = file.machine.mechanism();
     let links = mechanism.link_names().iter().enumerate();
     let links = links.filter(|(link, _)| {
-        let alone = Request {
+        let alone = BalanceRequest {
             counterweights: vec![Counterweight {
                 link: *link,
                 ..*asked
@@ -226,8 +229,8 @@ pub fn effective(file: &MachineFile, request: &Request) -> Vec<String> {
             springs: Vec::new(),
             ..request.clone()
         };
-        let has_effect = || -> Result<(), Fault> {
-            let rows = Rows::new(file, &alone)?;
+        let has_effect = || -> Result<(), BalanceError> {
+            let rows = DesignMatrix::new(file, &alone)?;
             Unknowns::new(file, &alone, &rows, largest(&rows.base)).map(|_| ())
         };
         has_effect().is_ok()
@@ -240,7 +243,7 @@ fn efforts(
     file: &MachineFile,
     duty: Option<&Duty>,
     springs: &[Option<Element>],
-) -> Result<Vec<Option<[f64; 2]>>, Fault> {
+) -> Result<Vec<Option<[f64; 2]>>, BalanceError> {
     let mechanism = file.machine.mechanism();
     let mut efforts: Vec<Option<[f64; 2]>> = springs.iter().map(|s| s.map(|_| [0.0; 2])).collect();
     let range = || positions(mechanism.domain(), POSITIONS).collect();
@@ -258,14 +261,14 @@ fn efforts(
 }
 
 /// The motion of a machine, if it has one.
-fn duty(file: &MachineFile, request: &Request) -> Result<Option<Duty>, Fault> {
+fn duty(file: &MachineFile, request: &BalanceRequest) -> Result<Option<Duty>, BalanceError> {
     let motion = file.motion.as_ref();
     let duty = motion.map(|motion| Duty::new(file, motion, request.sampling));
     Ok(duty.transpose()?)
 }
 
 /// Checks that contacts press and ropes pull over the motion.
-fn hold_together(file: &MachineFile, duty: &Duty) -> Result<(), Fault> {
+fn hold_together(file: &MachineFile, duty: &Duty) -> Result<(), BalanceError> {
     let joints = OneWay::all(file.machine.mechanism());
     if joints.is_empty() {
         return Ok(());
@@ -277,7 +280,7 @@ fn hold_together(file: &MachineFile, duty: &Duty) -> Result<(), Fault> {
             let force = joint.force(&machine, [instant.phi, instant.omega, instant.alpha])?;
             if !joint.holds(force) {
                 let parted = joint.parted(&machine, [instant.phi, instant.omega], force)?;
-                return Err(Fault::Parts(Box::new(parted)));
+                return Err(BalanceError::Parts(Box::new(parted)));
             }
         }
     }
@@ -295,7 +298,7 @@ fn largest(values: &[f64]) -> f64 {
     values.iter().fold(0.0, |most, v| most.max(v.abs()))
 }
 
-fn figures(file: &MachineFile, duty: Option<&Duty>) -> Result<Figures, Fault> {
+fn figures(file: &MachineFile, duty: Option<&Duty>) -> Result<BalanceFigures, BalanceError> {
     let reductions = positions(file.machine.domain(), POSITIONS)
         .map(|phi| file.machine.bare_reduction(phi))
         .collect::<Result<Vec<_>, _>>()
@@ -304,7 +307,7 @@ fn figures(file: &MachineFile, duty: Option<&Duty>) -> Result<Figures, Fault> {
     let inertias: Vec<f64> = reductions.iter().map(|r| r.inertia).collect();
     let mean = inertias.iter().sum::<f64>() / inertias.len() as f64;
     let off: Vec<f64> = inertias.iter().map(|j| j - mean).collect();
-    let mut figures = Figures {
+    let mut figures = BalanceFigures {
         holding: over_positions(&holding),
         inertia: [
             inertias.iter().copied().fold(f64::INFINITY, f64::min),
@@ -312,7 +315,7 @@ fn figures(file: &MachineFile, duty: Option<&Duty>) -> Result<Figures, Fault> {
             inertias.iter().copied().fold(0.0, f64::max),
         ],
         deviation: over_positions(&off)[0],
-        ..Figures::default()
+        ..BalanceFigures::default()
     };
     if let Some(duty) = duty {
         let train = file.train_inertia();

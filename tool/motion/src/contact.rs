@@ -15,11 +15,11 @@ use crate::trace::Trace;
 const SHARES: [f64; 5] = [0.0, 0.25, 0.5, 0.75, 1.0];
 
 /// Share of the contact-keeping acceleration that is suggested as a limit: between the checked places it may be slightly smaller.
-const LEFT: f64 = 0.98;
+const LIMIT_MARGIN: f64 = 0.98;
 
 /// A contact that a motion loses, and limits that keep it.
 #[derive(Clone, Debug)]
-pub struct Broken {
+pub struct ContactLimits {
     /// The contact, where and when.
     pub lost: ContactLoss,
     /// Limits of acceleration and deceleration of the drive link (rad/s², or m/s²) that keep the contact, where the motion exceeds them; `None`: no
@@ -31,7 +31,7 @@ pub struct Broken {
 ///
 /// # Errors
 /// The mechanism cannot be placed somewhere.
-pub fn broken(file: &MachineFile, trace: &Trace) -> Result<Option<Broken>, Error> {
+pub fn broken(file: &MachineFile, trace: &Trace) -> Result<Option<ContactLimits>, Error> {
     let nodes = trace.nodes();
     if nodes.len() < 2 || OneWay::all(file.machine.mechanism()).is_empty() {
         return Ok(None);
@@ -40,7 +40,7 @@ pub fn broken(file: &MachineFile, trace: &Trace) -> Result<Option<Broken>, Error
         return Ok(None);
     };
     let limits = limits(file, trace)?;
-    Ok(Some(Broken { lost, limits }))
+    Ok(Some(ContactLimits { lost, limits }))
 }
 
 /// The largest acceleration and deceleration that keep all contacts at the places and speeds of a motion, also at rest. Only kinds that the motion
@@ -81,6 +81,6 @@ fn limits(file: &MachineFile, trace: &Trace) -> Result<Option<[Option<f64>; 2]>,
             }
         }
     }
-    let kept = [0, 1].map(|kind| exceeded[kind].then_some(LEFT * most[kind]));
+    let kept = [0, 1].map(|kind| exceeded[kind].then_some(LIMIT_MARGIN * most[kind]));
     Ok((kept != [None; 2]).then_some(kept))
 }

@@ -10,7 +10,6 @@
 mod between;
 pub mod corners;
 mod costs;
-mod course;
 pub mod cycle;
 mod endless;
 pub mod field;
@@ -20,15 +19,16 @@ pub mod leg;
 mod lines;
 mod motor_load;
 mod obstacle;
+mod path_search;
 mod phases;
 pub mod plane;
 mod programme;
 mod reserve;
 mod rms;
 pub mod ruled;
-mod slivers;
-mod slowed;
+mod settable_limit;
 pub mod sweep;
+mod tiny_steps;
 pub mod tool_speed;
 pub mod track;
 pub mod winding;
@@ -39,18 +39,18 @@ use jred::Domain;
 use jred::machine::Reducible as _;
 use jred_file::model::machine::MachineFile;
 
+use crate::path_dynamics::{Actuator, PathDynamics};
 use crate::trace::Trace;
-use crate::way::{Actuator, Way};
-use course::{CELLS, Course, SWEEP_EXCESS};
 use field::Field;
-pub use field::{Binding, Limits, Reserve};
+pub use field::{Binding, MoveLimits, Reserve};
 pub use joint_force::JointForces;
 pub use kept::KeptPart;
 pub use obstacle::NoMotion;
+use path_search::{CELLS, PathSearch, SWEEP_EXCESS};
 pub use phases::Phase;
-pub use programme::{Price, Start, Warm};
+pub use programme::{Price, Start, WarmStart};
 pub use rms::Rms;
-pub use slowed::Slowing;
+pub use settable_limit::SettableLimit;
 pub use tool_speed::{ToolSpeed, ToolSpeeds};
 use track::Ends;
 
@@ -67,7 +67,7 @@ pub struct Task {
     /// Speeds at the start and at the end, in the direction of the move (rad/s, or m/s); 0: at rest.
     pub speeds: [f64; 2],
     /// Limits besides those of the motor.
-    pub limits: Limits,
+    pub limits: MoveLimits,
     /// Whether the move repeats endlessly: its end is its start, with a speed to be found; `speeds` are ignored.
     pub endless: bool,
 }
@@ -116,7 +116,7 @@ pub fn priced(
     task: &Task,
     price: Price,
     start: Start,
-) -> Result<(Fastest, Warm), NoMotion> {
+) -> Result<(Fastest, WarmStart), NoMotion> {
     if task.limits.forces.is_some() {
         return Err(NoMotion::JointForceAlone);
     }
@@ -125,9 +125,9 @@ pub fn priced(
         ..*task
     };
     let bound = refine(file, actuator, &free, f64::INFINITY)?;
-    let way = way(file, actuator, task)?;
+    let dynamics = dynamics(file, actuator, task)?;
     let field = Field {
-        way: &way,
+        dynamics: &dynamics,
         limits: task.limits,
     };
     let length = (task.to - task.from).abs();
@@ -137,7 +137,7 @@ pub fn priced(
         speeds: task.speeds,
         corners: corners::corners(&field, task.from, length)?,
     };
-    let asked = programme::Asked {
+    let asked = programme::MoveRequest {
         field: &field,
         ends: &ends,
         bound: bound.time,
@@ -155,10 +155,11 @@ fn rise(field: &Field, trace: &Trace) -> Result<f64, NoMotion> {
     };
     let mut most = 0.0_f64;
     for (node, alpha) in [(first, first.alpha[1]), (last, last.alpha[0])] {
-        let place = field.way.place(node.phi)?;
-        let demand = field
-            .way
-            .demand(&place, node.omega.abs(), alpha * field.way.direction);
+        let place = field.dynamics.place(node.phi)?;
+        let demand =
+            field
+                .dynamics
+                .demand(&place, node.omega.abs(), alpha * field.dynamics.direction);
         let limits = &field.limits;
         let own = |limit: Option<f64>, change: f64| limit.map_or(0.0, |limit| change.abs() / limit);
         most = most.max(own(limits.jerk, alpha));
@@ -190,13 +191,24 @@ fn refine(
     task: &Task,
     within: f64,
 ) -> Result<Fastest, NoMotion> {
-    let way = way(file, actuator, task)?;
+    let dynamics = dynamics(file, actuator, task)?;
     let limits = task.limits;
-    Course::new(&Field { way: &way, limits }, task)?.fastest(task.speeds, within)
+    PathSearch::new(
+        &Field {
+            dynamics: &dynamics,
+            limits,
+        },
+        task,
+    )?
+    .fastest(task.speeds, within)
 }
 
 /// The path of a task, if its ends are valid.
-fn way<'a>(file: &'a MachineFile, actuator: &Actuator, task: &Task) -> Result<Way<'a>, NoMotion> {
+fn dynamics<'a>(
+    file: &'a MachineFile,
+    actuator: &Actuator,
+    task: &Task,
+) -> Result<PathDynamics<'a>, NoMotion> {
     let length = task.to - task.from;
     let numbers = [task.from, task.to, task.speeds[0], task.speeds[1]];
     if length == 0.0 || !numbers.iter().all(|x| x.is_finite()) {
@@ -210,12 +222,12 @@ fn way<'a>(file: &'a MachineFile, actuator: &Actuator, task: &Task) -> Result<Wa
     if back < 0.0 {
         return Err(NoMotion::SelfLocking);
     }
-    Ok(Way::new(file, actuator.clone(), length.signum()))
+    Ok(PathDynamics::new(file, actuator.clone(), length.signum()))
 }
 
 /// The least number of cells for a path of many turns. The cells must resolve changes within a turn, and corners are borders of cells.
 fn least_cells(field: &Field, from: f64, length: f64) -> Result<usize, NoMotion> {
-    let Domain::Turn = field.way.file.machine.domain() else {
+    let Domain::Turn = field.dynamics.file.machine.domain() else {
         return Ok(0);
     };
     let turns = length / TAU;

@@ -22,10 +22,10 @@ use std::rc::Rc;
 use jred::error::Error;
 use jred_file::model::motion::Phase;
 
-use self::outcome::Waits;
-use self::task::{Task, edges};
-use crate::way::Way;
-pub use crate::way::without_drive;
+use self::outcome::Wait;
+use self::task::{EffortTask, edges};
+use crate::path_dynamics::PathDynamics;
+pub use crate::path_dynamics::without_drive;
 
 mod bound;
 mod cost;
@@ -76,15 +76,15 @@ pub struct Travel {
 
 /// The form of the ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Ends {
+struct EndConditions {
     rest: [bool; 2],
     ramp: f64,
     ring: bool,
 }
 
 impl Travel {
-    fn ends(&self) -> Ends {
-        Ends {
+    fn ends(&self) -> EndConditions {
+        EndConditions {
             rest: self.speeds.map(|speed| speed == 0.0 && !self.ring),
             ramp: if self.ring || self.ramp == 0.0 {
                 0.0
@@ -143,7 +143,7 @@ pub enum Reason {
 
 /// The gentlest motion of a move.
 #[derive(Clone, Debug)]
-pub struct Gentle {
+pub struct LeastEffortMove {
     /// The move.
     pub travel: Travel,
     /// Time in motion (s): less than the duration of the move where waiting costs less than moving slowly.
@@ -170,7 +170,7 @@ pub struct Gentle {
     pub phases: Vec<Phase>,
 }
 
-impl Gentle {
+impl LeastEffortMove {
     /// (cost − bound)/cost.
     pub fn gap(&self) -> Option<f64> {
         let bound = self.bound?;
@@ -187,7 +187,7 @@ const FIRST: usize = 32;
 const MOST: usize = 512;
 
 /// The mesh is fine enough when halving it changes the cost by less than this share.
-const FINE: f64 = 1e-9;
+const MESH_TOLERANCE: f64 = 1e-9;
 
 /// Largest gap of an optimum that counts as global.
 pub const GAP: f64 = 1e-4;
@@ -198,38 +198,61 @@ pub const GAP: f64 = 1e-4;
 ///
 /// # Errors
 /// See [`Fault`].
-pub fn gentlest(way: &Way, travel: &Travel, objective: Objective) -> Result<Gentle, Fault> {
-    of(way, travel, objective, true)
+pub fn gentlest(
+    dynamics: &PathDynamics,
+    travel: &Travel,
+    objective: Objective,
+) -> Result<LeastEffortMove, Fault> {
+    of(dynamics, travel, objective, true)
 }
 
 /// The same without the lower bound, which takes most of the time: a motion that is not convex counts as local.
 ///
 /// # Errors
 /// See [`Fault`].
-pub(crate) fn unproved(way: &Way, travel: &Travel, objective: Objective) -> Result<Gentle, Fault> {
-    of(way, travel, objective, false)
+pub(crate) fn unproved(
+    dynamics: &PathDynamics,
+    travel: &Travel,
+    objective: Objective,
+) -> Result<LeastEffortMove, Fault> {
+    of(dynamics, travel, objective, false)
 }
 
-fn of(way: &Way, travel: &Travel, objective: Objective, prove: bool) -> Result<Gentle, Fault> {
-    let found = from_end_to_end(way, travel, objective, [false, prove]);
+fn of(
+    dynamics: &PathDynamics,
+    travel: &Travel,
+    objective: Objective,
+    prove: bool,
+) -> Result<LeastEffortMove, Fault> {
+    let found = from_end_to_end(dynamics, travel, objective, Waiting::Allowed, prove);
     let may_wait = match &found {
         Ok(gentle) => gentle.optimum != Optimum::Global,
         Err(fault) => *fault == Fault::NotFound,
     };
     if may_wait {
-        waiting::on_the_way(way, travel, objective, found)
+        waiting::on_the_way(dynamics, travel, objective, found)
     } else {
         found
     }
 }
 
-/// The gentlest motion that waits only at its ends, where they are at rest, and at one of them in any case if it must. With a lower bound on request.
+/// Whether a move waits at one of its ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Waiting {
+    /// Where that costs less than moving slowly.
+    Allowed,
+    /// In any case.
+    Required,
+}
+
+/// The gentlest motion that waits only at its ends, where they are at rest. With a lower bound on request.
 fn from_end_to_end(
-    way: &Way,
+    dynamics: &PathDynamics,
     travel: &Travel,
     objective: Objective,
-    [must_wait, prove]: [bool; 2],
-) -> Result<Gentle, Fault> {
+    waiting: Waiting,
+    prove: bool,
+) -> Result<LeastEffortMove, Fault> {
     for (what, value) in [
         ("distance", travel.distance.abs()),
         ("duration", travel.duration),
@@ -246,18 +269,18 @@ fn from_end_to_end(
     if !(0.0..=0.25).contains(&travel.ramp) {
         return Err(Fault::Figure("ramp", travel.ramp));
     }
-    let task = Task {
-        way,
+    let task = EffortTask {
+        dynamics,
         travel,
         objective,
-        edges: edges(way, travel),
+        edges: edges(dynamics, travel),
         ramps: [travel.ramp; 2],
         places: Rc::default(),
     };
     let task = task.fitted(travel.duration)?;
     let rests = travel.ends().rest.contains(&true);
     let held = task.held()?;
-    let whole = if must_wait {
+    let whole = if waiting == Waiting::Required {
         None
     } else {
         task.solve(travel.duration, FIRST, None)?
@@ -281,7 +304,7 @@ fn from_end_to_end(
     }
     let mut change = f64::INFINITY;
     let mut parts = FIRST;
-    while parts < MOST && change > FINE {
+    while parts < MOST && change > MESH_TOLERANCE {
         parts *= 2;
         let Some(next) = solved.task.solve(moving, parts, Some(&solved.start()))? else {
             break;
@@ -302,6 +325,6 @@ fn from_end_to_end(
         };
         solved = next;
     }
-    let waits = Waits::new(travel.duration - moving, &held);
+    let waits = Wait::new(travel.duration - moving, &held);
     solved.finish(change, &waits, prove)
 }

@@ -6,14 +6,14 @@ mod timeline;
 use jred_file::model::motion::{Motion, Overshoot, Steady};
 
 pub(crate) use kept::INSIDE;
-pub use kept::Kept;
+pub use kept::KeptMotion;
 use timeline::Timeline;
 
 /// A pause that is shorter than this share of the whole motion counts as an instant of rest, not as a pause.
-const POINT: f64 = 1e-9;
+const INSTANT_SHARE: f64 = 1e-9;
 
 /// Share by which the speeds at the start and at the end of an endless motion may differ.
-const CLOSED: f64 = 1e-6;
+const CLOSURE_TOLERANCE: f64 = 1e-6;
 
 /// One part of a motion.
 #[derive(Clone, Debug, PartialEq)]
@@ -21,9 +21,9 @@ pub enum Part {
     /// A move in one direction, from rest to rest.
     Move(Move),
     /// A move in one direction that begins at the end of a kept part, or ends at the start of one, and passes there without rest.
-    Passing(Move, Passing),
+    Passing(Move, EndStates),
     /// A part that is kept unchanged.
-    Kept(Kept),
+    Kept(KeptMotion),
     /// A pause: the drive link is at rest.
     Dwell {
         /// Position of the drive link (rad, or m).
@@ -39,7 +39,7 @@ impl Part {
         match self {
             Self::Move(Move { duration, .. })
             | Self::Passing(Move { duration, .. }, _)
-            | Self::Kept(Kept { duration, .. })
+            | Self::Kept(KeptMotion { duration, .. })
             | Self::Dwell { duration, .. } => *duration,
         }
     }
@@ -49,15 +49,15 @@ impl Part {
         match self {
             Self::Move(Move { from, .. })
             | Self::Passing(Move { from, .. }, _)
-            | Self::Kept(Kept { from, .. }) => *from,
+            | Self::Kept(KeptMotion { from, .. }) => *from,
             Self::Dwell { at, .. } => *at,
         }
     }
 
     /// The move, and how it begins and ends; `None` for a pause or a kept part.
-    pub fn step(&self) -> Option<(Move, Passing)> {
+    pub fn step(&self) -> Option<(Move, EndStates)> {
         match self {
-            Self::Move(step) => Some((*step, Passing::default())),
+            Self::Move(step) => Some((*step, EndStates::default())),
             Self::Passing(step, ends) => Some((*step, *ends)),
             Self::Kept(_) | Self::Dwell { .. } => None,
         }
@@ -77,7 +77,7 @@ pub struct Move {
 
 /// Speed and acceleration at the start and at the end of a move, positive in its direction; zero where no kept part is next to it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Passing {
+pub struct EndStates {
     /// Speeds (rad/s, or m/s), not negative.
     pub speeds: [f64; 2],
     /// Accelerations (rad/s², or m/s²) of the kept parts there.
@@ -101,7 +101,7 @@ pub struct Chain {
 
 impl Chain {
     /// The kept parts.
-    pub fn kept(&self) -> impl Iterator<Item = &Kept> {
+    pub fn kept(&self) -> impl Iterator<Item = &KeptMotion> {
         self.parts.iter().filter_map(|part| match part {
             Part::Kept(kept) => Some(kept),
             _ => None,
@@ -132,10 +132,11 @@ pub enum NoMoves {
 pub fn chain(motion: &Motion, process: &[Steady]) -> Result<Chain, NoMoves> {
     let duration = motion.duration();
     let kept: f64 = process.iter().map(Steady::duration).sum();
-    let all = kept >= duration * (1.0 - POINT);
+    let all = kept >= duration * (1.0 - INSTANT_SHARE);
     let ends = [0.0, duration].map(|t| motion.at(t).omega);
-    let turns =
-        motion.cyclic && ends[0] != 0.0 && (ends[1] - ends[0]).abs() <= CLOSED * ends[0].abs();
+    let turns = motion.cyclic
+        && ends[0] != 0.0
+        && (ends[1] - ends[0]).abs() <= CLOSURE_TOLERANCE * ends[0].abs();
     if all && !turns {
         return Err(NoMoves::AllKept);
     }

@@ -1,6 +1,6 @@
 //! A motion as the plan that firmware follows: the fewest rows that keep within a share of its acceleration.
 
-mod course;
+mod motion_polynomial;
 mod polynomial;
 pub mod ramp;
 mod rows;
@@ -9,14 +9,14 @@ use jred::Domain;
 use jred::axis::plan::{Errors, Knot, PlanError, encode, image_len, with_ramp};
 
 use crate::trace::Trace;
-use course::Course;
-use rows::{Asked, Bounds, apart, halve, without_slivers};
+use motion_polynomial::MotionPolynomial;
+use rows::{Bounds, PlanRequirements, apart, halve, without_slivers};
 
 /// Default error of a plan, as a share of the greatest acceleration and speed.
 pub const SHARE: f64 = 1e-3;
 
 /// Least distance of row times, as a share of the whole, except at the end of the motion: twice the resolution of a plan.
-const CLOSE: f64 = 1.0 / 536_870_912.0;
+const LEAST_SPACING: f64 = 1.0 / 536_870_912.0;
 
 /// Most rows that are halved because they leave the stroke between two checks, before that is an error.
 const HALVED: usize = 256;
@@ -42,7 +42,7 @@ pub struct Plan {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Excess {
     /// The quantity.
-    pub quantity: Quantity,
+    pub quantity: MotionQuantity,
     /// The error, and its bound (rad, or m, and s).
     pub error: f64,
     /// As `error`.
@@ -53,7 +53,7 @@ pub struct Excess {
 
 /// A quantity of a plan at an instant.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Quantity {
+pub enum MotionQuantity {
     /// φ, or s.
     Position,
     /// ω, or v.
@@ -64,7 +64,7 @@ pub enum Quantity {
 
 /// The largest error of a plan, and its time.
 #[derive(Clone, Copy, Debug, Default)]
-struct Worst {
+struct LargestError {
     error: f64,
     t: f64,
 }
@@ -77,9 +77,9 @@ impl Plan {
     /// The motion is too long, leaves the stroke, or needs more than 65,535 rows.
     pub fn new(trace: &Trace, domain: Domain, machine: u32, share: f64) -> Result<Self, PlanError> {
         let bounds = Bounds::of(trace.nodes(), share);
-        let close = CLOSE * trace.duration();
+        let close = LEAST_SPACING * trace.duration();
         let (nodes, slivers) = without_slivers(apart(trace.nodes(), close), bounds.asked, domain);
-        let asked = Asked {
+        let asked = PlanRequirements {
             bounds,
             domain,
             slivers: &slivers,
@@ -108,7 +108,7 @@ impl Plan {
         };
         Ok(Self {
             rows: knots.len(),
-            most: course::greatest(&draft),
+            most: motion_polynomial::greatest(&draft),
             words: write(&knots, errors)?,
             errors,
             ramp: None,
@@ -144,11 +144,15 @@ impl Plan {
 }
 
 /// The first quantity with an error above its bound.
-fn first_excess(worst: [Worst; 3], bounds: [f64; 3]) -> Option<Excess> {
-    let quantities = [Quantity::Position, Quantity::Speed, Quantity::Acceleration];
+fn first_excess(worst: [LargestError; 3], bounds: [f64; 3]) -> Option<Excess> {
+    let quantities = [
+        MotionQuantity::Position,
+        MotionQuantity::Speed,
+        MotionQuantity::Acceleration,
+    ];
     let all = quantities.into_iter().zip(worst).zip(bounds);
     let mut beyond = all.filter(|((_, worst), bound)| worst.error > *bound);
-    let ((quantity, Worst { error, t }), allowed) = beyond.next()?;
+    let ((quantity, LargestError { error, t }), allowed) = beyond.next()?;
     Some(Excess {
         quantity,
         error,
@@ -159,16 +163,21 @@ fn first_excess(worst: [Worst; 3], bounds: [f64; 3]) -> Option<Excess> {
 
 /// The errors of the image against the motion, over all of its time: the difference of the polynomials of a row and of a step of the motion is one
 /// polynomial, which is bounded.
-fn measure(words: &[u32], trace: &Trace, asked: &Asked, close: f64) -> [Worst; 3] {
-    let rows = course::rows(words, asked.domain);
-    let mut all = [Worst::default(); 3];
+fn measure(
+    words: &[u32],
+    trace: &Trace,
+    asked: &PlanRequirements,
+    close: f64,
+) -> [LargestError; 3] {
+    let rows = motion_polynomial::rows(words, asked.domain);
+    let mut all = [LargestError::default(); 3];
     let mut later = rows.iter().peekable();
     for pair in trace.nodes().windows(2) {
         let [before, after] = [&pair[0], &pair[1]];
         if after.step <= 0.0 {
             continue;
         }
-        let step = Course::step(before, after);
+        let step = MotionPolynomial::step(before, after);
         while let Some(row) = later.peek() {
             let [from, to] = [before.t.max(row.t[0]), after.t.min(row.t[1])];
             let width = to - from;
@@ -186,7 +195,7 @@ fn measure(words: &[u32], trace: &Trace, asked: &Asked, close: f64) -> [Worst; 3
                 let found = own.beside(&exact, known).into_iter().zip(row.rounding);
                 for (worst, (found, rounding)) in all.iter_mut().zip(found).take(looked) {
                     if let Some([error, share]) = found {
-                        *worst = Worst {
+                        *worst = LargestError {
                             error: error + rounding,
                             t: from + share * width,
                         };

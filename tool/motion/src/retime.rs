@@ -6,16 +6,16 @@ use jred_analysis::duty;
 use jred_file::model::machine::MachineFile;
 use jred_file::model::motion::Motion;
 
-use crate::gentlest::{self, Fault, Gentle, Optimum, Reason};
+use crate::gentlest::{self, Fault, LeastEffortMove, Optimum, Reason};
 use crate::moves::{self, Chain, Move, NoMoves, Part};
+use crate::path_dynamics::Actuator;
 use crate::trace::Trace;
-use crate::way::Actuator;
 
-use self::asked::Asked;
+use self::comparison::Comparison;
 use self::course::trace;
 pub use self::figures::{Figures, Goal, WINDING, copper};
 
-mod asked;
+mod comparison;
 mod course;
 mod even;
 mod figures;
@@ -64,7 +64,7 @@ pub struct Request {
 
 /// A motion of the comparison.
 #[derive(Clone, Debug)]
-pub struct Row {
+pub struct ComparisonRow {
     /// Its name.
     pub name: &'static str,
     /// Its figures.
@@ -75,17 +75,17 @@ pub struct Row {
 
 /// The result.
 #[derive(Clone, Debug)]
-pub struct Retimed {
+pub struct RetimeResult {
     /// The motion of the file.
     pub own: Figures,
     /// Links that are at rest while the drive moves, with the time (s) of that in the motion of the file and in the gentlest one, where these differ.
     pub standing: Vec<(String, [f64; 2])>,
     /// The motion laws; for a rotation without rest the classical motions.
-    pub laws: Vec<Row>,
+    pub laws: Vec<ComparisonRow>,
     /// The gentlest motion.
     pub best: Figures,
     /// Its moves, in order.
-    pub moves: Vec<Gentle>,
+    pub moves: Vec<LeastEffortMove>,
     /// Lower bound of the goal's figure, for all motions with these moves in these times.
     pub bound: Option<f64>,
     /// The parts of the motion.
@@ -96,7 +96,7 @@ pub struct Retimed {
     pub trace: Trace,
 }
 
-impl Retimed {
+impl RetimeResult {
     /// Quality of the optimum: the worst of all moves.
     pub fn optimum(&self) -> Optimum {
         let all = self.moves.iter().map(|gentle| gentle.optimum);
@@ -107,8 +107,10 @@ impl Retimed {
     }
 
     /// The law with the smallest figure.
-    pub fn best_law(&self, goal: Goal) -> Option<&Row> {
-        let by = |a: &&Row, b: &&Row| a.figures.of(goal).total_cmp(&b.figures.of(goal));
+    pub fn best_law(&self, goal: Goal) -> Option<&ComparisonRow> {
+        let by = |a: &&ComparisonRow, b: &&ComparisonRow| {
+            a.figures.of(goal).total_cmp(&b.figures.of(goal))
+        };
         self.laws.iter().min_by(by)
     }
 }
@@ -144,15 +146,19 @@ impl From<duty::DutyError> for Obstacle {
 }
 
 /// Share by which the motion's cost may exceed the one that the search computed.
-const AGREES: f64 = 1e-3;
+const COST_TOLERANCE: f64 = 1e-3;
 
 /// The gentlest motion of a file, compared with the laws.
 ///
 /// # Errors
 /// See [`Obstacle`].
-pub fn retime(file: &MachineFile, motion: &Motion, request: &Request) -> Result<Retimed, Obstacle> {
+pub fn retime(
+    file: &MachineFile,
+    motion: &Motion,
+    request: &Request,
+) -> Result<RetimeResult, Obstacle> {
     let chain = moves::chain(motion, &file.process()).map_err(Obstacle::NoMoves)?;
-    let asked = Asked::new(file, motion, request, &chain);
+    let asked = Comparison::new(file, motion, request, &chain);
     let mut gentle = asked.gentlest(gentlest::gentlest)?;
     let laws = asked.beside()?;
     let mut best = asked.made_of(&gentle)?;
@@ -176,7 +182,7 @@ pub fn retime(file: &MachineFile, motion: &Motion, request: &Request) -> Result<
     // The cost of the search must agree with the cost of the motion.
     let cost = gentle.iter().map(|gentle| gentle.cost).sum::<f64>() + fixed[0];
     let counted = figure(cost, duration, request.goal);
-    let differs = figures.of(request.goal) - counted > AGREES * counted;
+    let differs = figures.of(request.goal) - counted > COST_TOLERANCE * counted;
     if request.goal != Goal::Peak && differs {
         for gentle in &mut gentle {
             if gentle.optimum == Optimum::Global {
@@ -185,7 +191,7 @@ pub fn retime(file: &MachineFile, motion: &Motion, request: &Request) -> Result<
         }
     }
     let least = figures.of(request.goal);
-    Ok(Retimed {
+    Ok(RetimeResult {
         own: asked.figures(motion)?,
         standing: standing::changed(file, motion, &best)?,
         laws,
@@ -208,14 +214,19 @@ pub(crate) fn alone(
     request: &Request,
 ) -> Result<Motion, Obstacle> {
     let chain = moves::chain(motion, &file.process()).map_err(Obstacle::NoMoves)?;
-    let asked = Asked::new(file, motion, request, &chain);
+    let asked = Comparison::new(file, motion, request, &chain);
     let moves = asked.gentlest(gentlest::unproved)?;
     Ok(asked.made_of(&moves)?)
 }
 
 /// The bound of all moves together, with the cost of pauses and kept parts, and their peak. It does not use the cost of the final motion, which may
 /// exceed that of the search.
-fn bound(moves: &[Gentle], [cost, peak]: [f64; 2], duration: f64, goal: Goal) -> Option<f64> {
+fn bound(
+    moves: &[LeastEffortMove],
+    [cost, peak]: [f64; 2],
+    duration: f64,
+    goal: Goal,
+) -> Option<f64> {
     if goal == Goal::Peak {
         let least = moves.iter().map(|gentle| gentle.least_peak);
         return least

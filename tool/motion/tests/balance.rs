@@ -7,7 +7,9 @@ use jred_analysis::checked;
 use jred_analysis::duty::Duty;
 use jred_file::model::coordinate::positions;
 use jred_file::model::machine::MachineFile;
-use jred_motion::balance::{Balanced, Counterweight, Fault, Goal, Request, balance};
+use jred_motion::balance::{
+    BalanceError, BalanceGoal, BalanceRequest, BalanceResult, Counterweight, balance,
+};
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt as _, SeedableRng as _};
 
@@ -37,9 +39,13 @@ fn lever(range: &str, more: &str) -> MachineFile {
 /// m·g·r of the lever (N·m).
 const WEIGHT: f64 = 10.0 * 9.81 * 0.3;
 
-fn request(goal: Goal, counterweights: &[(usize, f64, f64)], springs: &[usize]) -> Request {
+fn request(
+    goal: BalanceGoal,
+    counterweights: &[(usize, f64, f64)],
+    springs: &[usize],
+) -> BalanceRequest {
     let counterweights = counterweights.iter();
-    Request {
+    BalanceRequest {
         goal,
         counterweights: counterweights
             .map(|&(link, most, reach)| Counterweight { link, most, reach })
@@ -51,9 +57,13 @@ fn request(goal: Goal, counterweights: &[(usize, f64, f64)], springs: &[usize]) 
 
 /// The result is at the bound: nothing is better by more than 1e-5, or than the roundings of the unbalanced figures. A peak is between the instants;
 /// with so few steps it is up to 1e-4 above them.
-fn is_optimal(found: &Balanced, goal: Goal) {
+fn is_optimal(found: &BalanceResult, goal: BalanceGoal) {
     let [before, after] = [found.before, found.after].map(|f| f.of(goal));
-    let share = if goal == Goal::Peak { 1e-4 } else { 1e-5 };
+    let share = if goal == BalanceGoal::Peak {
+        1e-4
+    } else {
+        1e-5
+    };
     assert!(
         found.bound <= after * (1.0 + 1e-9) && after - found.bound <= share * after + 5e-5 * before,
         "{after}, bound {}, before {before}",
@@ -68,7 +78,7 @@ fn a_counterweight_balances_a_lever() {
         "",
         "[motion]\ntype = \"constant-speed\"\nspeed = \"15 rpm\"\n",
     );
-    for goal in [Goal::Holding, Goal::Rms, Goal::Peak] {
+    for goal in [BalanceGoal::Holding, BalanceGoal::Rms, BalanceGoal::Peak] {
         let found = balance(&file, &request(goal, &[(0, 20.0, 0.5)], &[])).unwrap();
         is_optimal(&found, goal);
         let Some(body) = found.masses[0] else {
@@ -96,8 +106,8 @@ fn a_counterweight_balances_a_lever() {
 #[test]
 fn a_counterweight_keeps_within_its_bounds() {
     let file = lever("", "");
-    let found = balance(&file, &request(Goal::Holding, &[(0, 4.0, 0.5)], &[])).unwrap();
-    is_optimal(&found, Goal::Holding);
+    let found = balance(&file, &request(BalanceGoal::Holding, &[(0, 4.0, 0.5)], &[])).unwrap();
+    is_optimal(&found, BalanceGoal::Holding);
     let left = found.after.holding[1] / WEIGHT;
     assert!((left - 1.0 / 3.0).abs() < 1e-5, "{left}");
 }
@@ -108,8 +118,8 @@ fn a_spring_without_free_length_holds_a_lever() {
     let spring = "[[spring]]\nname = \"balancer\"\nbetween = [\"lever.tip\", { on = \"ground\", at = [\"0 mm\", \"500 mm\"] }]\n\
                   stiffness = \"50 N/m\"\nfree_length = \"200 mm\"\n";
     let file = lever("", spring);
-    let found = balance(&file, &request(Goal::Holding, &[], &[0])).unwrap();
-    is_optimal(&found, Goal::Holding);
+    let found = balance(&file, &request(BalanceGoal::Holding, &[], &[0])).unwrap();
+    is_optimal(&found, BalanceGoal::Holding);
     let Some([stiffness, free]) = found.springs[0].and_then(|spring| spring.spring_rate()) else {
         panic!("no spring");
     };
@@ -126,8 +136,8 @@ fn a_spring_without_free_length_holds_a_lever() {
 fn a_torsion_spring_is_a_straight_line_of_least_squares() {
     let spring = "[[spring]]\nname = \"bar\"\nbetween = [\"ground\", \"lever\"]\nstiffness = \"5 N m/rad\"\nfree_angle = \"0 deg\"\n";
     let file = lever("stroke = [\"10 deg\", \"80 deg\"]\n", spring);
-    let found = balance(&file, &request(Goal::Holding, &[], &[0])).unwrap();
-    is_optimal(&found, Goal::Holding);
+    let found = balance(&file, &request(BalanceGoal::Holding, &[], &[0])).unwrap();
+    is_optimal(&found, BalanceGoal::Holding);
     let points: Vec<[f64; 2]> = positions(file.machine.domain(), 1440)
         .map(|phi| [phi, -WEIGHT * phi.cos()])
         .collect();
@@ -187,11 +197,11 @@ fn no_body_drawn_at_random_is_better() {
     ] {
         let text = example(name);
         let file = machine(&text);
-        for (k, goal) in [Goal::Rms, Goal::Peak, Goal::Inertia]
+        for (k, goal) in [BalanceGoal::Rms, BalanceGoal::Peak, BalanceGoal::Inertia]
             .into_iter()
             .enumerate()
         {
-            if goal == Goal::Inertia && on == "crank" {
+            if goal == BalanceGoal::Inertia && on == "crank" {
                 continue; // The crank's own inertia is the same at every angle.
             }
             let found = balance(&file, &request(goal, &[(link, most, reach)], &[])).unwrap();
@@ -231,14 +241,18 @@ fn what_is_not_needed_is_not_taken() {
     let spring = "[[spring]]\nname = \"balancer\"\nbetween = [\"lever.tip\", { on = \"ground\", at = [\"0 mm\", \"500 mm\"] }]\n\
                   stiffness = \"50 N/m\"\nfree_length = \"200 mm\"\n";
     let file = lever("", spring);
-    let found = balance(&file, &request(Goal::Holding, &[(0, 20.0, 0.5)], &[0])).unwrap();
-    is_optimal(&found, Goal::Holding);
+    let found = balance(
+        &file,
+        &request(BalanceGoal::Holding, &[(0, 20.0, 0.5)], &[0]),
+    )
+    .unwrap();
+    is_optimal(&found, BalanceGoal::Holding);
     assert!(found.masses[0].is_none(), "{:?}", found.masses);
     // The jaw slides: only its mass counts, and at constant speed only the cam moves it.
     let four_bar = machine(&example("four-bar"));
     let found = balance(
         &four_bar,
-        &request(Goal::Inertia, &[(0, 5.0, 0.1), (1, 3.0, 0.2)], &[]),
+        &request(BalanceGoal::Inertia, &[(0, 5.0, 0.1), (1, 3.0, 0.2)], &[]),
     )
     .unwrap();
     assert!(found.masses[0].is_none(), "{:?}", found.masses);
@@ -248,30 +262,36 @@ fn what_is_not_needed_is_not_taken() {
 #[test]
 fn what_cannot_be_balanced() {
     let still = lever("", "");
-    let fault = |file: &MachineFile, request: &Request| balance(file, request).unwrap_err();
+    let fault = |file: &MachineFile, request: &BalanceRequest| balance(file, request).unwrap_err();
     assert!(matches!(
-        fault(&still, &request(Goal::Rms, &[(0, 1.0, 1.0)], &[])),
-        Fault::NoMotion
+        fault(&still, &request(BalanceGoal::Rms, &[(0, 1.0, 1.0)], &[])),
+        BalanceError::NoMotion
     ));
     assert!(matches!(
-        fault(&still, &request(Goal::Inertia, &[(0, 1.0, 1.0)], &[])),
-        Fault::Nothing
+        fault(
+            &still,
+            &request(BalanceGoal::Inertia, &[(0, 1.0, 1.0)], &[])
+        ),
+        BalanceError::Nothing
     ));
     let press = machine(&example("press"));
     assert!(matches!(
-        fault(&press, &request(Goal::Inertia, &[(0, 1.0, 1.0)], &[])),
-        Fault::NoEffect
+        fault(
+            &press,
+            &request(BalanceGoal::Inertia, &[(0, 1.0, 1.0)], &[])
+        ),
+        BalanceError::NoEffect
     ));
     let spring = machine(&example("linkage-four-bar"));
     assert!(matches!(
-        fault(&spring, &request(Goal::Inertia, &[], &[0])),
-        Fault::SpringForInertia
+        fault(&spring, &request(BalanceGoal::Inertia, &[], &[0])),
+        BalanceError::SpringForInertia
     ));
     // A spring that closes a cam is refused: its optimum would let the contact open.
     let cam = machine(&example("linkage-cam-lever"));
     assert!(matches!(
-        fault(&cam, &request(Goal::Rms, &[], &[0])),
-        Fault::Parts(_)
+        fault(&cam, &request(BalanceGoal::Rms, &[], &[0])),
+        BalanceError::Parts(_)
     ));
 }
 
@@ -282,7 +302,7 @@ fn a_spring_says_whether_it_works_both_ways() {
     let spring = "[[spring]]\nname = \"bar\"\nbetween = [\"ground\", \"lever\"]\nstiffness = \"5 N m/rad\"\nfree_angle = \"0 deg\"\n";
     let efforts = |range: &str| {
         let file = lever(range, spring);
-        let found = balance(&file, &request(Goal::Holding, &[], &[0])).unwrap();
+        let found = balance(&file, &request(BalanceGoal::Holding, &[], &[0])).unwrap();
         let rate = found.springs[0]
             .and_then(|spring| spring.spring_rate())
             .unwrap();
@@ -307,7 +327,7 @@ fn a_higher_rms_is_said() {
         "",
         "[motion]\ntype = \"constant-speed\"\nspeed = \"15 rpm\"\n",
     );
-    let mut found = balance(&file, &request(Goal::Peak, &[(0, 20.0, 0.5)], &[])).unwrap();
+    let mut found = balance(&file, &request(BalanceGoal::Peak, &[(0, 20.0, 0.5)], &[])).unwrap();
     assert_eq!(found.heats(), None);
     let [rms, peak] = found.before.torque.unwrap();
     for (share, said) in [(0.05, None), (0.12, Some(0.12))] {

@@ -5,10 +5,10 @@ use std::path::Path;
 use jred_analysis::checked;
 use jred_file::model::machine::MachineFile;
 use jred_motion::contact::broken;
-use jred_motion::fastest::Limits;
+use jred_motion::fastest::MoveLimits;
 use jred_motion::fastest::cycle::{Cycle, cycle};
 use jred_motion::moves;
-use jred_motion::way::Actuator;
+use jred_motion::path_dynamics::Actuator;
 use jred_sizing::catalogue::Motor;
 use jred_sizing::cycle::form::Coefficients;
 use jred_sizing::motor::envelope::Envelope;
@@ -17,7 +17,7 @@ fn hoist() -> MachineFile {
     checked::read(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../../machines/hoist.toml")).unwrap()
 }
 
-fn fastest(file: &MachineFile, limits: &Limits) -> Cycle {
+fn fastest(file: &MachineFile, limits: &MoveLimits) -> Cycle {
     let motor = Motor {
         peak_curve: vec![[0.0, 200.0], [80.0, 200.0]],
         ..Motor::default()
@@ -36,7 +36,7 @@ fn fastest(file: &MachineFile, limits: &Limits) -> Cycle {
 #[test]
 fn a_rope_that_goes_slack_is_named_with_limits() {
     let file = hoist();
-    let made = fastest(&file, &Limits::default());
+    let made = fastest(&file, &MoveLimits::default());
     let found = broken(&file, &made.trace).unwrap().unwrap();
     assert!(found.lost.joint.rope);
     let limits = found.limits.unwrap();
@@ -47,10 +47,10 @@ fn a_rope_that_goes_slack_is_named_with_limits() {
     let [acceleration, deceleration] = limits;
     let eased = fastest(
         &file,
-        &Limits {
+        &MoveLimits {
             acceleration,
             deceleration,
-            ..Limits::default()
+            ..MoveLimits::default()
         },
     );
     assert!(broken(&file, &eased.trace).unwrap().is_none());

@@ -7,8 +7,8 @@ use jred_analysis::checked;
 use jred_analysis::simulate::CoupledMachines;
 use jred_file::model::machine::MachineFile;
 use jred_file::units::RPM;
-use jred_motion::driven::{Driven, EASE, Unfit, driven};
-use jred_motion::way::{Actuator, BothWays};
+use jred_motion::drive_simulation::{DriveSimulation, EASE, UnfitDrive, driven};
+use jred_motion::path_dynamics::{Actuator, BothDirections};
 use jred_sizing::catalogue::{Catalogue, Commutation, Drive, Gearbox, Motor, Thermal, Winding};
 use jred_sizing::motor::envelope::Envelope;
 
@@ -52,14 +52,14 @@ fn gearbox() -> Gearbox {
     }
 }
 
-fn run(file: &MachineFile, drive: Drive<'_>) -> Driven {
+fn run(file: &MachineFile, drive: Drive<'_>) -> DriveSimulation {
     let simulation = file.simulation.as_ref().unwrap();
     driven(&CoupledMachines::alone(file), simulation, drive)
         .unwrap()
         .unwrap()
 }
 
-fn columns(driven: &Driven) -> Columns {
+fn columns(driven: &DriveSimulation) -> Columns {
     Columns {
         names: driven.simulated.columns.names(),
         rows: driven.simulated.columns.rows().to_vec(),
@@ -176,7 +176,7 @@ fn the_torque_of_each_row_is_that_of_the_way() {
     let found = run(&file, drive);
     let rows = columns(&found);
     let envelope = Envelope::at(drive.motor, drive.amplifier, &file.site);
-    let ways = BothWays::new(&file, &Actuator::new(&drive, envelope));
+    let ways = BothDirections::new(&file, &Actuator::new(&drive, envelope));
     let torques = rows.get("motor torque [N m]");
     let most = largest(&torques);
     let mut checked = 0;
@@ -326,7 +326,7 @@ fn what_cannot_be_simulated_is_refused() {
         of(&unknown, None),
     )
     .unwrap_err();
-    assert_eq!(refused, Unfit::NoPeak);
+    assert_eq!(refused, UnfitDrive::NoPeak);
     let worm = Gearbox {
         back_efficiency: -0.2,
         ..gearbox()
@@ -339,5 +339,5 @@ fn what_cannot_be_simulated_is_refused() {
     )
     .unwrap_err();
     let gearbox = "box".to_owned();
-    assert_eq!(refused, Unfit::SelfLocking { gearbox });
+    assert_eq!(refused, UnfitDrive::SelfLocking { gearbox });
 }

@@ -21,8 +21,8 @@ use std::collections::BTreeMap;
 
 use jred_analysis::checked;
 use jred_file::model::machine::MachineFile;
-use jred_motion::fastest::{Fastest, Limits, Task, solve};
-use jred_motion::way::Actuator;
+use jred_motion::fastest::{Fastest, MoveLimits, Task, solve};
+use jred_motion::path_dynamics::Actuator;
 use jred_sizing::catalogue::Motor;
 use jred_sizing::cycle::form::Coefficients;
 use jred_sizing::motor::envelope::Envelope;
@@ -56,7 +56,7 @@ fn task(from: f64, to: f64) -> Task {
         from,
         to,
         speeds: [0.0; 2],
-        limits: Limits::default(),
+        limits: MoveLimits::default(),
         endless: false,
     }
 }

@@ -6,9 +6,11 @@ use std::path::Path;
 use jred_analysis::checked;
 use jred_file::model::machine::MachineFile;
 use jred_file::model::motion::Motion;
-use jred_motion::gentlest::{Fault, Gentle, Objective, Optimum, Travel, gentlest, without_drive};
-use jred_motion::retime::{Goal, Obstacle, Request, Retimed, retime};
-use jred_motion::way::{Actuator, Way};
+use jred_motion::gentlest::{
+    Fault, LeastEffortMove, Objective, Optimum, Travel, gentlest, without_drive,
+};
+use jred_motion::path_dynamics::{Actuator, PathDynamics};
+use jred_motion::retime::{Goal, Obstacle, Request, RetimeResult, retime};
 use jred_sizing::catalogue::Catalogue;
 use jred_sizing::motor::envelope::Envelope;
 use jred_sizing::select::named::named;
@@ -62,9 +64,9 @@ fn travel(start: f64, distance: f64, duration: f64) -> Travel {
     }
 }
 
-fn best(file: &MachineFile, travel: &Travel, objective: Objective) -> Gentle {
-    let way = Way::new(file, without_drive(), travel.distance.signum());
-    gentlest(&way, travel, objective).unwrap()
+fn best(file: &MachineFile, travel: &Travel, objective: Objective) -> LeastEffortMove {
+    let dynamics = PathDynamics::new(file, without_drive(), travel.distance.signum());
+    gentlest(&dynamics, travel, objective).unwrap()
 }
 
 fn request(goal: Goal, ramp: f64) -> Request {
@@ -77,12 +79,12 @@ fn request(goal: Goal, ramp: f64) -> Request {
     }
 }
 
-fn retimed(file: &MachineFile, goal: Goal, ramp: f64) -> Retimed {
+fn retimed(file: &MachineFile, goal: Goal, ramp: f64) -> RetimeResult {
     let motion = file.motion.as_ref().unwrap();
     retime(file, motion, &request(goal, ramp)).unwrap()
 }
 
-fn is_global(gentle: &Gentle) {
+fn is_global(gentle: &LeastEffortMove) {
     assert_eq!(gentle.optimum, Optimum::Global);
     if let Some(gap) = gentle.gap() {
         assert!(gap < 1e-6, "gap {gap:e}");
@@ -162,8 +164,8 @@ fn backwards_is_the_same_in_reverse() {
 #[test]
 fn bad_input_is_named() {
     let file = table(2.0, 0.0);
-    let way = Way::new(&file, without_drive(), 1.0);
-    let fault = |travel: Travel| gentlest(&way, &travel, Objective::Rms).unwrap_err();
+    let dynamics = PathDynamics::new(&file, without_drive(), 1.0);
+    let fault = |travel: Travel| gentlest(&dynamics, &travel, Objective::Rms).unwrap_err();
     let good = travel(0.0, 1.0, 1.0);
     for bad in [0.0, f64::NAN, f64::INFINITY] {
         let is = |fault: Fault, name: &str| matches!(fault, Fault::Figure(what, _) if what == name);
@@ -193,7 +195,7 @@ fn bad_input_is_named() {
     );
     let zero = Objective::Energy { copper: 0.0 };
     assert_eq!(
-        gentlest(&way, &good, zero).unwrap_err(),
+        gentlest(&dynamics, &good, zero).unwrap_err(),
         Fault::Figure("copper loss", 0.0)
     );
     let unknown = Request {
@@ -241,8 +243,8 @@ fn two_bends_close_to_each_other_have_a_bound() {
     ] {
         let (_, drive) = named(&catalogue, name).unwrap();
         let envelope = Envelope::at(drive.motor, drive.amplifier, &file.site);
-        let way = Way::new(&file, Actuator::new(&drive, envelope), 1.0);
-        let found = gentlest(&way, &travel(0.5 * TAU, TAU, 0.4), Objective::Rms).unwrap();
+        let dynamics = PathDynamics::new(&file, Actuator::new(&drive, envelope), 1.0);
+        let found = gentlest(&dynamics, &travel(0.5 * TAU, TAU, 0.4), Objective::Rms).unwrap();
         let gap = found.gap();
         assert!(gap.is_some_and(|gap| gap < 1e-4), "{name}: {gap:?}");
     }

@@ -7,11 +7,11 @@ use jred_analysis::checked;
 use jred_file::model::machine::MachineFile;
 use jred_file::model::motion::Motion;
 use jred_motion::fastest::cycle::cycle;
-use jred_motion::fastest::{Limits, Rms};
+use jred_motion::fastest::{MoveLimits, Rms};
 use jred_motion::gentlest::without_drive;
 use jred_motion::moves::{Chain, NoMoves, Part, chain};
-use jred_motion::retime::{Goal, Request, Retimed, retime};
-use jred_motion::way::Actuator;
+use jred_motion::path_dynamics::Actuator;
+use jred_motion::retime::{Goal, Request, RetimeResult, retime};
 use jred_sizing::catalogue::Motor;
 use jred_sizing::cycle::form::Coefficients;
 use jred_sizing::motor::envelope::Envelope;
@@ -46,7 +46,7 @@ fn of(file: &MachineFile) -> (&Motion, Chain) {
     (motion, chain(motion, &file.process()).unwrap())
 }
 
-fn retimed(file: &MachineFile, goal: Goal, ramp: f64) -> Retimed {
+fn retimed(file: &MachineFile, goal: Goal, ramp: f64) -> RetimeResult {
     let request = Request {
         actuator: without_drive(),
         copper: Some(2.0),
@@ -91,7 +91,7 @@ fn a_flying_shear_keeps_its_synchrony() {
         retimed(&file, Goal::Rms, 0.0).trace,
         retimed(&file, Goal::Rms, 0.1).trace,
         retimed(&file, Goal::Peak, 0.0).trace,
-        cycle(&file, &motor(), Limits::default(), None, &chain.parts)
+        cycle(&file, &motor(), MoveLimits::default(), None, &chain.parts)
             .unwrap()
             .trace,
     ];
@@ -260,8 +260,8 @@ fn a_kept_part_beside_the_limits() {
     let round = "law = \"polynomial-5\"; move = \"5.283185307179586 rad\"; duration = \"1 s\"";
     let file = table(3.0, &[steady, round]);
     let (_, chain) = of(&file);
-    let made = |limits: Limits, rms| cycle(&file, &motor(), limits, rms, &chain.parts).unwrap();
-    let free = made(Limits::default(), None);
+    let made = |limits: MoveLimits, rms| cycle(&file, &motor(), limits, rms, &chain.parts).unwrap();
+    let free = made(MoveLimits::default(), None);
     assert!(!free.kept[0].exceeds());
     near(
         "time",
@@ -269,13 +269,13 @@ fn a_kept_part_beside_the_limits() {
         0.5 + free.moves[0].fastest.time,
         1e-12,
     );
-    let slow = Limits {
+    let slow = MoveLimits {
         speed: Some(1.9),
-        ..Limits::default()
+        ..MoveLimits::default()
     };
     let found = cycle(&file, &motor(), slow, None, &chain.parts);
     assert!(found.is_err(), "a start beyond the limit of the speed");
-    let cool = made(Limits::default(), Some(Rms::Torque(20.0)));
+    let cool = made(MoveLimits::default(), Some(Rms::Torque(20.0)));
     near("RMS", cool.load.rms, 20.0, 1e-6);
     near("kept", cool.trace.at(0.25).omega, 2.0, 1e-9);
 }

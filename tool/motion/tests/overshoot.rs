@@ -8,7 +8,7 @@ use jred_file::model::machine::MachineFile;
 use jred_file::model::motion::{Motion, Node};
 use jred_motion::gentlest::{Optimum, without_drive};
 use jred_motion::moves::{Chain, Part, chain};
-use jred_motion::retime::{Goal, Request, Retimed, retime};
+use jred_motion::retime::{Goal, Request, RetimeResult, retime};
 
 use crate::support::near;
 
@@ -47,7 +47,7 @@ fn of(file: &MachineFile) -> Chain {
     chain(file.motion.as_ref().unwrap(), &file.process()).unwrap()
 }
 
-fn retimed(file: &MachineFile) -> Retimed {
+fn retimed(file: &MachineFile) -> RetimeResult {
     let request = Request {
         actuator: without_drive(),
         copper: None,

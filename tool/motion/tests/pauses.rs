@@ -8,7 +8,7 @@ use jred_analysis::checked;
 use jred_analysis::duty::Duty;
 use jred_file::model::machine::MachineFile;
 use jred_motion::gentlest::without_drive;
-use jred_motion::retime::{Goal, Request, Retimed, retime};
+use jred_motion::retime::{Goal, Request, RetimeResult, retime};
 use jred_sizing::cycle::Cycle;
 use jred_sizing::cycle::form::Coefficients;
 use jred_sizing::thermal::classify::Features;
@@ -155,7 +155,7 @@ fn the_peak_of_a_corner_is_that_of_its_row() {
 }
 
 /// The machine with a profile as its motion; prescribed parts are kept.
-fn with_profile(name: &str, made: &Retimed, file: &MachineFile) -> MachineFile {
+fn with_profile(name: &str, made: &RetimeResult, file: &MachineFile) -> MachineFile {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../../machines/{name}.toml"));
     let text = std::fs::read_to_string(path).unwrap();
     let mut of_motion = false;

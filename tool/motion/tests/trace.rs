@@ -8,13 +8,13 @@ use jred_analysis::inspect::Findings;
 use jred_file::model::coordinate::Coordinate;
 use jred_file::model::machine::MachineFile;
 use jred_file::model::motion::Motion;
-use jred_motion::fastest::Limits;
+use jred_motion::fastest::MoveLimits;
 use jred_motion::fastest::cycle::cycle;
 use jred_motion::gentlest::without_drive;
 use jred_motion::moves::{self, Move, Part};
+use jred_motion::path_dynamics::Actuator;
 use jred_motion::retime::{Goal, Request, retime};
 use jred_motion::trace::{Master, Node, Trace};
-use jred_motion::way::Actuator;
 use jred_sizing::catalogue::Motor;
 use jred_sizing::cycle::Cycle;
 use jred_sizing::cycle::form::Coefficients;
@@ -122,7 +122,7 @@ fn a_profile_keeps_the_corners() {
         duration: 0.4,
     };
     let parts = [step(1.0, 2.0), dwell, step(2.0, 1.0)];
-    let made = cycle(&file, &actuator, Limits::default(), None, &parts).unwrap();
+    let made = cycle(&file, &actuator, MoveLimits::default(), None, &parts).unwrap();
     let file = press_with(&made.trace, "");
     let motion = file.required_motion().unwrap();
     for k in 0..=1000 {
@@ -258,7 +258,7 @@ fn the_check_accepts_the_profiles() {
         to: 540f64.to_radians(),
         duration: 1.0,
     });
-    let fastest = cycle(&file, &actuator, Limits::default(), None, &[part]).unwrap();
+    let fastest = cycle(&file, &actuator, MoveLimits::default(), None, &[part]).unwrap();
     let found = imbalance(&press_with(&fastest.trace, "cyclic = false\n"));
     assert!(found < 1e-9, "{found:e}");
     // A law whose speed is a polynomial of higher degree than the profile's.

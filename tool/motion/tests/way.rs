@@ -1,9 +1,9 @@
-//! `Way` against the duty, which counts in the drive link's own direction.
+//! `PathDynamics` against the duty, which counts in the drive link's own direction.
 
 use jred_analysis::checked;
 use jred_analysis::duty::Duty;
 use jred_file::model::machine::MachineFile;
-use jred_motion::way::{Actuator, Way};
+use jred_motion::path_dynamics::{Actuator, PathDynamics};
 use jred_sizing::catalogue::Catalogue;
 use jred_sizing::motor::envelope::Envelope;
 
@@ -36,11 +36,11 @@ fn behaves_as_the_duty(file: &MachineFile) {
                 continue;
             }
             let direction = instant.omega.signum();
-            let way = Way::new(file, actuator.clone(), direction);
-            let place = way.place(instant.phi).unwrap();
+            let dynamics = PathDynamics::new(file, actuator.clone(), direction);
+            let place = dynamics.place(instant.phi).unwrap();
             let speed = instant.omega.abs();
             let acceleration = instant.alpha * direction;
-            let demand = way.demand(&place, speed, acceleration);
+            let demand = dynamics.demand(&place, speed, acceleration);
             let motor = drive.motor_point(instant);
             let expected = motor.torque * motor.speed.signum();
             let size = expected.abs() + demand.per_acceleration * acceleration.abs();
@@ -50,7 +50,7 @@ fn behaves_as_the_duty(file: &MachineFile) {
                 drive.name(),
                 demand.torque
             );
-            let found = way.acceleration(&place, speed, demand.torque);
+            let found = dynamics.acceleration(&place, speed, demand.torque);
             let size = acceleration.abs() + demand.torque.abs() / demand.per_acceleration;
             assert!(
                 (found - acceleration).abs() <= SAME_SUMS * size,

@@ -36,7 +36,7 @@ const QUIET: &str = "#8a949e";
 
 /// A drawing that a script can move.
 #[derive(Clone, Debug)]
-pub struct Moving {
+pub struct Animation {
     /// The drawing at frame `first`.
     pub svg: String,
     /// JSON object of numbers: `positions` (deg or mm), `links` (x, y in px and an angle in deg for each link and frame), `points` (x, y for each
@@ -60,7 +60,7 @@ pub fn still(mechanism: &AnyMechanism) -> Result<String, Error> {
 ///
 /// # Errors
 /// The mechanism cannot be placed.
-pub fn moving(mechanism: &AnyMechanism) -> Result<Moving, Error> {
+pub fn moving(mechanism: &AnyMechanism) -> Result<Animation, Error> {
     let coordinate = mechanism.coordinate();
     let sketch = Sketch::new(mechanism)?;
     let view = View::of(&sketch);
@@ -98,7 +98,7 @@ pub fn moving(mechanism: &AnyMechanism) -> Result<Moving, Error> {
     }
     let turn = mechanism.domain() == jred::Domain::Turn;
     let _ = write!(track, ",\"turn\":{turn},\"first\":{first}}}");
-    Ok(Moving { svg, track })
+    Ok(Animation { svg, track })
 }
 
 fn draw(mechanism: &AnyMechanism, sketch: &Sketch, pose: &Pose, place: &str) -> String {
@@ -122,7 +122,7 @@ fn draw(mechanism: &AnyMechanism, sketch: &Sketch, pose: &Pose, place: &str) -> 
             };
             let [x, y] = view.page([x, y]);
             let turn = -psi.to_degrees();
-            if parts.iter().any(sketch::Part::leaves_ghosts) {
+            if parts.iter().any(sketch::BodyPart::leaves_ghosts) {
                 pen.svg.open(&placed([x, y], turn, "class=\"ghost\""), "");
                 for part in parts {
                     pen.ghost(part);

@@ -45,12 +45,12 @@ const REFUSED: usize = 50;
 /// Number of refused drives with their required changes.
 const CHANGED: usize = 3;
 
-struct Figure {
+struct CaptionedChart {
     chart: Chart,
     caption: String,
 }
 
-impl Figure {
+impl CaptionedChart {
     fn new(chart: Chart, caption: impl Into<String>) -> Self {
         let caption = caption.into();
         Self { chart, caption }
@@ -69,10 +69,10 @@ struct Page {
     drive: String,
     checks: Vec<CheckRow>,
     open: Vec<(&'static str, String)>,
-    plane: Vec<Figure>,
-    over_time: Vec<Figure>,
+    plane: Vec<CaptionedChart>,
+    over_time: Vec<CaptionedChart>,
     drawing: String,
-    machine: Vec<Figure>,
+    machine: Vec<CaptionedChart>,
     torque_word: &'static str,
     torque_unit: &'static str,
     effects: Vec<ShareRow>,
@@ -81,8 +81,8 @@ struct Page {
     inertia_unit: &'static str,
     inertias: Vec<InertiaRow>,
     peak_time: String,
-    effects_chart: Vec<Figure>,
-    ratio: Vec<Figure>,
+    effects_chart: Vec<CaptionedChart>,
+    ratio: Vec<CaptionedChart>,
     change: ChangeRow,
     nearest: Vec<ChangeRow>,
     duty: Vec<(String, Vec<String>)>,
@@ -165,7 +165,7 @@ impl Page {
             drive: best.drive.name(),
             checks: checked,
             open,
-            plane: vec![Figure::new(
+            plane: vec![CaptionedChart::new(
                 subject.plane(),
                 format!(
                     "{} and speed of the motor over the cycle in all four quadrants; where their signs differ, it brakes. Dashed: limits by the rules.",
@@ -183,7 +183,7 @@ impl Page {
             inertia_unit: inertia.unit,
             inertias: rows::inertia_rows(&breakdown),
             peak_time: short(breakdown.peak_time),
-            effects_chart: vec![Figure::new(
+            effects_chart: vec![CaptionedChart::new(
                 subject.effects(&contributions),
                 format!(
                     "Contributions to the motor {torque} over the cycle; at every instant they add up to the motor {torque}."
@@ -249,7 +249,9 @@ fn ranked(selection: &Selection) -> Vec<FitRow> {
 }
 
 /// The rules that were checked, and the others with their missing data.
-fn split_checks(best: &jred_sizing::judge::Judged) -> (Vec<CheckRow>, Vec<(&'static str, String)>) {
+fn split_checks(
+    best: &jred_sizing::judge::Assessment,
+) -> (Vec<CheckRow>, Vec<(&'static str, String)>) {
     let (open, checked): (Vec<_>, Vec<_>) = best
         .checks
         .iter()
@@ -262,7 +264,7 @@ fn split_checks(best: &jred_sizing::judge::Judged) -> (Vec<CheckRow>, Vec<(&'sta
 }
 
 fn cards(
-    best: &jred_sizing::judge::Judged,
+    best: &jred_sizing::judge::Assessment,
     duty: &Duty,
     words: &Vocabulary,
 ) -> Vec<(String, String)> {
@@ -305,29 +307,29 @@ fn cards(
     ]
 }
 
-fn over_time(subject: &Subject, words: &Vocabulary) -> Vec<Figure> {
+fn over_time(subject: &Subject, words: &Vocabulary) -> Vec<CaptionedChart> {
     let mut figures = vec![
-        Figure::new(
+        CaptionedChart::new(
             subject.torque(),
             format!(
                 "Motor {}, and the part of it that accelerates the {}.",
                 words.torque, words.rotor
             ),
         ),
-        Figure::new(subject.speed(), "Motor speed."),
-        Figure::new(
+        CaptionedChart::new(subject.speed(), "Motor speed."),
+        CaptionedChart::new(
             subject.power(),
             "Mechanical power at the motor shaft; negative: it flows back.",
         ),
     ];
     figures.extend(subject.rises().map(|chart| {
-        Figure::new(
+        CaptionedChart::new(
             chart,
             "Temperature rise in the steady state of the repeated cycle.",
         )
     }));
     figures.extend(subject.bus_voltage().map(|chart| {
-        Figure::new(
+        CaptionedChart::new(
             chart,
             "Voltage of the DC bus in the steady state of the repeated cycle.",
         )
@@ -335,7 +337,11 @@ fn over_time(subject: &Subject, words: &Vocabulary) -> Vec<Figure> {
     figures
 }
 
-fn machine(subject: &Subject, file: &MachineFile, mean_speed: f64) -> Result<Vec<Figure>, Error> {
+fn machine(
+    subject: &Subject,
+    file: &MachineFile,
+    mean_speed: f64,
+) -> Result<Vec<CaptionedChart>, Error> {
     let words = subject.words();
     let coordinate = file.machine.mechanism().coordinate();
     let (what, term) = match coordinate {
@@ -352,8 +358,8 @@ fn machine(subject: &Subject, file: &MachineFile, mean_speed: f64) -> Result<Vec
         "{what} with flywheel and drive train, and its derivative. Where {term} at every speed."
     );
     Ok(vec![
-        Figure::new(figures::reduced_inertia(file)?, reduced),
-        Figure::new(
+        CaptionedChart::new(figures::reduced_inertia(file)?, reduced),
+        CaptionedChart::new(
             figures::reduced_torque(file, mean_speed)?,
             format!(
                 "Parts of the reduced {} that do not depend on the motion: weight and springs, process loads, and the magnitudes of the viscous and motion-opposing loads at the mean speed.{}",
@@ -361,7 +367,7 @@ fn machine(subject: &Subject, file: &MachineFile, mean_speed: f64) -> Result<Vec
                 figures::not_contained(file)
             ),
         ),
-        Figure::new(
+        CaptionedChart::new(
             subject.inertia_ratio(file)?,
             format!(
                 "{} ratio λ of this drive over the range of the drive link, with the value that is checked.",
@@ -372,7 +378,7 @@ fn machine(subject: &Subject, file: &MachineFile, mean_speed: f64) -> Result<Vec
 }
 
 /// Every rule over the gear ratio; the axis contains the range that satisfies all.
-fn ratio(subject: &Subject, change: Option<&Remedies>) -> Vec<Figure> {
+fn ratio(subject: &Subject, change: Option<&Remedies>) -> Vec<CaptionedChart> {
     if subject.judged.drive.motor.kind == MotorKind::Linear {
         return Vec::new();
     }
@@ -385,7 +391,7 @@ fn ratio(subject: &Subject, change: Option<&Remedies>) -> Vec<Figure> {
     if let Some([low, high]) = found.and_then(|r| r.range) {
         (from, to) = (from.min(low.value / 1.3), to.max(high.value * 1.3));
     }
-    vec![Figure::new(
+    vec![CaptionedChart::new(
         subject.ratios(from, to),
         format!(
             "Share of its limit that each rule uses over the gear ratio, with all other data of motor and gearbox unchanged. Where all are below 100 %, every rule is satisfied. A curve ends where it passes {TOP} %, or where the motor has no torque left (the limit is zero above its maximum speed). Rules that depend on time are not drawn."

@@ -39,7 +39,7 @@ use jred_file::model::rules::RuleSet;
 use jred_file::model::site::Site;
 use jred_sizing::catalogue::{Catalogue, Drive, DriveId};
 use jred_sizing::cycle::Cycle;
-use jred_sizing::motor::envelope::Prepared;
+use jred_sizing::motor::envelope::MotorLimits;
 use jred_sizing::select::size::Selection;
 use memory::Counting;
 
@@ -55,7 +55,7 @@ const PROFILE: &str = "--profile";
 /// Data that a selection borrows.
 pub(crate) struct Ready {
     catalogue: Catalogue,
-    motors: Vec<Prepared>,
+    motors: Vec<MotorLimits>,
     cycle: Cycle,
     site: Site,
     rules: RuleSet,

@@ -11,7 +11,7 @@
 //! is not given. While the motor brakes, I is the current of the torque alone, because the rise of the bus voltage and the remaining field weakening
 //! are unknown. While it drives, I includes the field-weakening current.
 
-pub mod answer;
+pub mod analysis;
 pub mod axes;
 pub mod conflict;
 pub mod cure;
@@ -29,7 +29,7 @@ pub use phases::Watch;
 use crate::catalogue::{Amplifier, Motor};
 use crate::cycle::Cycle;
 use crate::cycle::form::Coefficients;
-use crate::motor::envelope::Prepared;
+use crate::motor::envelope::MotorLimits;
 use crate::motor::winding::REFERENCE_TEMPERATURE;
 
 use curve::PowerCurve;
@@ -40,7 +40,7 @@ pub fn power(
     coefficients: &Coefficients,
     ratio: f64,
     motor: &Motor,
-    prepared: &Prepared,
+    prepared: &MotorLimits,
     amplifier: Option<&Amplifier>,
 ) -> PowerCurve {
     let resistance = motor.winding.loss_resistance(REFERENCE_TEMPERATURE);

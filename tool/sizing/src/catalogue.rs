@@ -11,6 +11,7 @@ mod derating;
 #[cfg(feature = "fs")]
 mod disk;
 mod drive;
+mod duplicates;
 mod entry;
 mod fault;
 mod files;
@@ -25,21 +26,20 @@ mod plausible;
 mod row;
 mod table;
 mod toml_table;
-mod twins;
 mod voltage;
 
 pub use amplifier::{Amplifier, Resistor};
-pub use derating::{Basis as DeratingBasis, Derated, Derating};
+pub use derating::{Basis as DeratingBasis, Derating, SiteRating};
 #[cfg(feature = "fs")]
 pub use disk::Sources;
 pub use drive::{Drive, DriveId};
-pub use fault::{CatalogueError, SHOWN, Several};
+pub use fault::{BrokenRows, CatalogueError, SHOWN};
 pub use gearbox::Gearbox;
 
 pub use motor::{Brake, Commutation, Motor, MotorKind, Thermal, Winding};
 pub use pairing::{Drives, Pairing};
 pub(crate) use voltage::VOLTAGE_CLASS;
-pub use voltage::{Basis, MadeFor};
+pub use voltage::{Basis, RatedBusVoltage};
 
 use fault::{Remarks, Text};
 use load::Loader;

@@ -20,26 +20,26 @@ use jred_analysis::duty::mechanics::Mechanics;
 use jred_analysis::duty::{Duty, Panel, PanelPolynomial, Smooth};
 use jred_file::number::figures::Figures;
 
-mod against;
-mod bent;
 mod beyond;
 mod extremes;
 mod factor;
 mod floor;
 pub mod form;
 mod front;
+mod peak_check;
 mod power;
 mod repeats;
 pub(crate) mod speeds;
+mod torque_integrals;
 mod tree;
 
-pub(crate) use against::Against;
-pub(crate) use bent::Bent;
 use extremes::Stretches;
 use factor::Factor;
 use front::Front;
+pub(crate) use peak_check::PeakCheck;
 use repeats::Distinct;
 use speeds::Speeds;
+pub(crate) use torque_integrals::TorqueIntegrals;
 use tree::Tree;
 
 /// Exponent of the mean torque for roller bearings.
@@ -47,7 +47,7 @@ const BEARING: f64 = 10.0 / 3.0;
 
 /// One instant of the cycle at the gearbox output.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sample {
+pub struct LoadSample {
     /// Time (s).
     pub t: f64,
     /// Weight in the integral over the cycle (s).
@@ -57,7 +57,7 @@ pub struct Sample {
     speed: f64,
 }
 
-impl Sample {
+impl LoadSample {
     /// The five loads: see [`loads_of`]. They are not stored: for a million instants they would take another 16 MB.
     #[inline]
     pub fn loads(&self) -> [f64; LOADS] {
@@ -95,7 +95,7 @@ pub struct Cycle {
     duration: f64,
     hold_torque: f64,
     mechanics: Mechanics,
-    samples: Vec<Sample>,
+    samples: Vec<LoadSample>,
     smooth: Smooth,
     inertia: Figures,
     speed: Figures,
@@ -132,10 +132,10 @@ pub struct Peak {
 impl Cycle {
     /// Prepares a duty in one pass over its instants, whose weights must not be negative.
     pub fn new(duty: &Duty) -> Self {
-        let samples: Vec<Sample> = duty
+        let samples: Vec<LoadSample> = duty
             .instants
             .iter()
-            .map(|instant| Sample {
+            .map(|instant| LoadSample {
                 t: instant.t,
                 weight: instant.weight,
                 alpha: instant.input_alpha,
@@ -203,7 +203,7 @@ impl Cycle {
     }
 
     /// The instants in order of time.
-    pub fn samples(&self) -> &[Sample] {
+    pub fn samples(&self) -> &[LoadSample] {
         &self.samples
     }
 
@@ -244,7 +244,8 @@ impl Cycle {
         if turning == 0.0 {
             return 0.0;
         }
-        let share = |s: &Sample| s.weight * s.speed().abs() * s.output_torque().abs().powf(power);
+        let share =
+            |s: &LoadSample| s.weight * s.speed().abs() * s.output_torque().abs().powf(power);
         (self.samples.iter().map(share).sum::<f64>() / turning).powf(1.0 / power)
     }
 
@@ -289,9 +290,13 @@ impl Cycle {
         is_known
     }
 
-    /// Integrals of functions with bends: see [`Bent`].
-    pub(crate) fn bent<'c>(&'c self, coefficients: &'c Coefficients, ratio: f64) -> Bent<'c> {
-        Bent::new(self.stretches(), coefficients, ratio)
+    /// Integrals of functions with bends: see [`TorqueIntegrals`].
+    pub(crate) fn bent<'c>(
+        &'c self,
+        coefficients: &'c Coefficients,
+        ratio: f64,
+    ) -> TorqueIntegrals<'c> {
+        TorqueIntegrals::new(self.stretches(), coefficients, ratio)
     }
 
     /// Mean of the motor torque (N·m).
@@ -338,7 +343,7 @@ impl Cycle {
         ratio: f64,
         envelope: &Envelope,
         shares: [f64; 2],
-    ) -> Against {
+    ) -> PeakCheck {
         (self.distinct()).against(coefficients, ratio, envelope, shares)
     }
 
@@ -364,8 +369,9 @@ impl Cycle {
     /// Least and largest power of the motor (W): a pass over the samples.
     fn power_extremes(&self, coefficients: &Coefficients, ratio: f64) -> [f64; 2] {
         let power = |torque: f64, speed: f64| torque * speed;
-        let of =
-            |sample: &Sample| power(coefficients.torque(&sample.loads()), sample.speed() * ratio);
+        let of = |sample: &LoadSample| {
+            power(coefficients.torque(&sample.loads()), sample.speed() * ratio)
+        };
         let [mut least, mut largest] = [(0, f64::INFINITY), (0, f64::NEG_INFINITY)];
         for (k, sample) in self.samples.iter().enumerate() {
             let power = of(sample);
@@ -431,7 +437,7 @@ impl Cycle {
 }
 
 /// The sample with the smallest value of a figure.
-fn least(samples: &[Sample], figure: impl Fn(&Sample) -> f64) -> Option<usize> {
+fn least(samples: &[LoadSample], figure: impl Fn(&LoadSample) -> f64) -> Option<usize> {
     let all = samples.iter().map(figure).enumerate();
     all.min_by(|a, b| a.1.total_cmp(&b.1))
         .map(|(index, _)| index)

@@ -1,15 +1,15 @@
 //! Explains the verdict of a drive: contributions to its torque and inertia, and the changes that would make it suitable.
 
-mod altered;
 mod breakdown;
 mod contributions;
 mod course;
+mod duty_model;
 mod remedy;
 mod seek;
 mod words;
 
-pub use altered::{Alteration, Altered};
 pub use breakdown::{Breakdown, InertiaShare, Share};
 pub use contributions::{Contribution, Contributions, Effect};
 pub use course::ratio_course;
-pub use remedy::{Edge, Lever, Miss, Remedies, Remedy};
+pub use duty_model::{Alteration, DutyModel};
+pub use remedy::{Edge, Lever, Remedies, Remedy, RuleViolation};

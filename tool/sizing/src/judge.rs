@@ -8,19 +8,19 @@ use crate::catalogue::{Amplifier, Drive, Resistor};
 use crate::cycle::Cycle;
 use crate::cycle::form::Coefficients;
 use crate::judge::check::Check;
-use crate::motor::envelope::Prepared;
+use crate::motor::envelope::MotorLimits;
 use jred_file::model::rule::Rule;
 use jred_file::model::rules::{Finding, RuleSet, RuleVerdict};
 use jred_file::model::site::Site;
 use jred_file::units::Vocabulary;
 
+mod assessment;
 mod bits;
 mod brake;
 pub mod check;
 mod cure;
 mod electric;
 mod gearbox;
-mod judged;
 mod motor;
 mod outcome;
 pub mod overload;
@@ -30,10 +30,10 @@ mod stiffness;
 mod thermal;
 mod voltage;
 
+pub use assessment::Assessment;
+pub(crate) use assessment::price;
 pub use bits::RuleBits;
 pub use cure::cure;
-pub use judged::Judged;
-pub(crate) use judged::price;
 pub use outcome::Outcome;
 pub(crate) use screen::Screen;
 
@@ -98,7 +98,7 @@ pub struct Context<'a> {
     /// The drive.
     pub drive: Drive<'a>,
     /// Limits of its motor at this supply.
-    pub motor: &'a Prepared,
+    pub motor: &'a MotorLimits,
     /// Its ratio.
     pub ratio: f64,
     /// Its motor torque as a linear form.
@@ -109,7 +109,7 @@ pub struct Context<'a> {
 
 impl<'a> Context<'a> {
     /// The context of one drive.
-    pub fn new(cycle: &'a Cycle, site: &'a Site, drive: Drive<'a>, motor: &'a Prepared) -> Self {
+    pub fn new(cycle: &'a Cycle, site: &'a Site, drive: Drive<'a>, motor: &'a MotorLimits) -> Self {
         Self {
             cycle,
             site,

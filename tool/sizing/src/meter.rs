@@ -5,13 +5,13 @@
 //! are rounded down to single precision, so the meter allows nothing that `jred size` does not. A rule that is off or lacks its rating gives no
 //! limit, and the source says so.
 
-mod below;
+mod lower_curve;
 mod source;
 
-pub use below::{Below, below};
+pub use lower_curve::{LowerCurve, below};
 
 use crate::catalogue::Drive;
-use crate::judge::Judged;
+use crate::judge::Assessment;
 use crate::judge::{Context, Findings};
 use crate::motor::envelope::Envelope;
 use jred_file::model::rule::Rule;
@@ -21,13 +21,13 @@ use jred_file::number::rounding::{short, significant};
 use jred_file::units::Vocabulary;
 
 /// Largest shortfall that counts as rounding and is not reported.
-const EXACT: f64 = 1e-5;
+const SHORTFALL_ROUNDING: f64 = 1e-5;
 
 /// Form of a limit.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Bound {
     /// A torque over speed.
-    Curve(Below),
+    Curve(LowerCurve),
     /// A figure.
     Figure(f32),
     /// No limit: not checked.
@@ -58,7 +58,7 @@ jred_file::words! {
 
 /// One field of [`jred::duty::Limits`].
 #[derive(Clone, Debug, PartialEq)]
-pub struct Entry {
+pub struct MeterLimit {
     /// The field.
     pub field: Field,
     /// Its description.
@@ -73,11 +73,11 @@ pub struct MeterLimits<'a> {
     context: &'a Context<'a>,
     rules: &'a RuleSet,
     /// One entry for each field of [`jred::duty::Limits`], in their order.
-    pub entries: Vec<Entry>,
+    pub entries: Vec<MeterLimit>,
 }
 
 /// A share of the S1 torque over speed.
-pub fn continuous(envelope: &Envelope, share: f64) -> Option<Below> {
+pub fn continuous(envelope: &Envelope, share: f64) -> Option<LowerCurve> {
     let floor = |speeds| {
         envelope
             .continuous_floor(speeds)
@@ -87,7 +87,7 @@ pub fn continuous(envelope: &Envelope, share: f64) -> Option<Below> {
 }
 
 /// A share of the short-time torque over speed.
-pub fn peak(envelope: &Envelope, share: f64) -> Option<Below> {
+pub fn peak(envelope: &Envelope, share: f64) -> Option<LowerCurve> {
     let floor = |speeds| envelope.peak_floor(speeds).map(|torque| share * torque);
     below(end(envelope), &envelope.corners(), floor)
 }
@@ -98,24 +98,24 @@ fn end(envelope: &Envelope) -> f64 {
 }
 
 /// The share of a rating that a rule allows; `Err`: why there is no share.
-fn share(rules: &RuleSet, rule: Rule, kind: &Vocabulary) -> Result<Share, String> {
+fn share(rules: &RuleSet, rule: Rule, kind: &Vocabulary) -> Result<RatingShare, String> {
     let limit = rules.limit(rule);
     let share = limit.fail.or(limit.warn);
     let share = share.ok_or_else(|| format!("the rule \"{}\" is not checked", rule.named(kind)))?;
-    Ok(Share {
+    Ok(RatingShare {
         share,
         warns: limit.fail.is_none(),
     })
 }
 
 /// An allowed share of a rating.
-struct Share {
+struct RatingShare {
     share: f64,
     /// Whether sizing only warns beyond it.
     warns: bool,
 }
 
-impl Share {
+impl RatingShare {
     fn words(&self, rating: &str) -> String {
         let warns = if self.warns {
             ", beyond which sizing gives a warning"
@@ -132,7 +132,7 @@ fn figure(
     (rules, kind): (&RuleSet, &Vocabulary),
     findings: &Findings,
     judged: &[(Rule, &str)],
-) -> Entry {
+) -> MeterLimit {
     let mut least: Option<(f64, String)> = None;
     let mut open = Vec::new();
     for &(rule, rating) in judged {
@@ -151,11 +151,11 @@ fn figure(
         }
     }
     let (bound, words) = match least {
-        Some((limit, words)) => (Bound::Figure(below::rounded_down(limit)), words),
+        Some((limit, words)) => (Bound::Figure(lower_curve::rounded_down(limit)), words),
         None if open.is_empty() => (Bound::Open, "not applicable to this drive".to_owned()),
         None => (Bound::Open, open.join("; ")),
     };
-    Entry {
+    MeterLimit {
         field,
         bound,
         words,
@@ -167,15 +167,15 @@ fn curve(
     (rules, kind): (&RuleSet, &Vocabulary),
     rule: Rule,
     rating: &str,
-    of: impl Fn(f64) -> Option<Below>,
-) -> Entry {
+    of: impl Fn(f64) -> Option<LowerCurve>,
+) -> MeterLimit {
     let (bound, words) = match share(rules, rule, kind) {
         Err(why) => (Bound::Open, why),
         Ok(share) => match of(share.share) {
             None => (Bound::Open, format!("no data for the {rating}")),
             Some(curve) => {
                 let mut words = share.words(rating);
-                if curve.shortfall > EXACT {
+                if curve.shortfall > SHORTFALL_ROUNDING {
                     let shortfall = significant(100.0 * curve.shortfall, 2);
                     words = format!("{words}, up to {shortfall} % of its largest value below it");
                 }
@@ -183,7 +183,7 @@ fn curve(
             }
         },
     };
-    Entry {
+    MeterLimit {
         field,
         bound,
         words,
@@ -275,7 +275,7 @@ impl<'a> MeterLimits<'a> {
 
     /// The violated rules, each with its value, its limit and the use of it.
     pub fn broken(&self) -> Vec<String> {
-        let judged = Judged::new(self.context, self.rules);
+        let judged = Assessment::new(self.context, self.rules);
         let broken = judged.checks.iter();
         let broken = broken.filter(|check| check.verdict == RuleVerdict::Fail);
         let words = broken.map(|check| {
@@ -296,7 +296,7 @@ impl<'a> MeterLimits<'a> {
 
 /// Limit of the power fed back at the shaft. Apart from losses and the capacitor, all of it reaches the brake resistor, so the limit is on the safe
 /// side. There is no limit if the cycle itself exceeds it.
-fn regenerative_power(context: &Context, rules: &RuleSet, findings: &Findings) -> Entry {
+fn regenerative_power(context: &Context, rules: &RuleSet, findings: &Findings) -> MeterLimit {
     let mut entry = figure(
         Field::RegenerativePower,
         (rules, context.vocabulary()),

@@ -15,7 +15,7 @@
 //! constants only the mean losses count: [`mean`].
 
 pub mod classify;
-pub mod course;
+pub mod loss_curve;
 pub mod mean;
 pub mod network;
 
@@ -24,18 +24,18 @@ use std::fmt::Display;
 use crate::catalogue::Motor;
 use crate::cycle::Cycle;
 use crate::cycle::form::Coefficients;
-use crate::motor::envelope::Prepared;
+use crate::motor::envelope::MotorLimits;
 use crate::motor::winding::{COPPER, REFERENCE_TEMPERATURE};
 use jred_analysis::duty::Panel;
 use jred_file::units::{Sentence, Vocabulary};
 
-use course::{Course, Hottest, MOST_PARTS, PART, Piece, Point};
 use jred_file::model::operation::Operation;
 use jred_file::model::surroundings::Surroundings;
+use loss_curve::{LossCurve, LossPiece, LossSample, MOST_PARTS, PART, PeakRise};
 use network::{Losses, Network};
 
 /// Housing time constant assumed when none is given, as a multiple of the longest other one.
-const SLOW: f64 = 1e6;
+const SLOW_FACTOR: f64 = 1e6;
 
 /// A thermal model of a motor.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -81,14 +81,14 @@ pub struct Load<'a> {
     /// Its motor.
     pub motor: &'a Motor,
     /// Limits of the motor.
-    pub prepared: &'a Prepared,
+    pub prepared: &'a MotorLimits,
 }
 
 /// Result of a model.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Heating {
     /// The hottest rises; in K, or as shares of the rated rise.
-    pub hottest: Hottest,
+    pub hottest: PeakRise,
     /// Whether they are shares of the rated rise.
     pub relative: bool,
     /// Whether the housing's rise was computed.
@@ -101,7 +101,7 @@ impl Heating {
     /// The basis of the temperatures, if some data for the models are missing; `torque` is the word for the motor's effort.
     pub fn notes(&self, torque: impl Display) -> Vec<String> {
         let mut notes = Vec::new();
-        if self.hottest == Hottest::Runaway {
+        if self.hottest == PeakRise::Runaway {
             notes.push("thermal runaway: copper losses rise faster with temperature than the heat flow to the surroundings".to_owned());
         }
         if self.relative {
@@ -130,7 +130,7 @@ impl Model {
     /// The missing data, as a message.
     pub fn of(
         motor: &Motor,
-        prepared: &Prepared,
+        prepared: &MotorLimits,
         surroundings: &Surroundings,
         cycle_time: f64,
     ) -> Result<Self, Sentence> {
@@ -157,7 +157,7 @@ impl Model {
                     bodies(Network::two([w, h], [tw, th], growth), copper, true)
                 }
                 (Some((w, h)), [Some(tw), None]) => {
-                    let th = SLOW * tw.max(cycle_time);
+                    let th = SLOW_FACTOR * tw.max(cycle_time);
                     bodies(Network::two([w, h], [tw, th], growth), copper, false)
                 }
                 (_, [None, None]) => Self::Steady {
@@ -197,7 +197,7 @@ impl Model {
 
     /// The losses over a cycle: at every instant the torque's copper loss and the motor's friction, or shares of the rated
     /// losses.
-    pub fn course(&self, load: &Load) -> Course {
+    pub fn course(&self, load: &Load) -> LossCurve {
         let Load {
             cycle,
             coefficients,
@@ -221,25 +221,25 @@ impl Model {
             pieces.extend(pieces_of(panel, &known, &between, parts));
         });
         if is_known {
-            return Course::of_pieces(pieces, cycle.duration());
+            return LossCurve::of_pieces(pieces, cycle.duration());
         }
-        let points: Vec<Point> = (cycle.samples().iter())
+        let points: Vec<LossSample> = (cycle.samples().iter())
             .map(|sample| {
                 let torque = coefficients.torque(&sample.loads());
                 at(sample.t, [torque, sample.speed() * ratio])
             })
             .collect();
-        Course::new(&points, cycle.duration())
+        LossCurve::new(&points, cycle.duration())
     }
 
     /// The losses of a motor at a time (s), a torque (N·m) and a speed of its own (rad/s).
     pub fn point(
         &self,
         motor: &Motor,
-        prepared: &Prepared,
+        prepared: &MotorLimits,
         t: f64,
         [torque, signed]: [f64; 2],
-    ) -> Point {
+    ) -> LossSample {
         let [coulomb, viscous] = motor.friction;
         let speed = signed.abs();
         let other = match self {
@@ -249,7 +249,7 @@ impl Model {
                 (1.0 - s1 * s1).max(0.0)
             }
         };
-        Point {
+        LossSample {
             t,
             root: self.root(prepared, torque, signed),
             other,
@@ -266,7 +266,7 @@ impl Model {
     }
 
     /// Root of the copper loss (√W), or of its share of the rated one, with the sign of the torque.
-    fn root(&self, prepared: &Prepared, torque: f64, speed: f64) -> f64 {
+    fn root(&self, prepared: &MotorLimits, torque: f64, speed: f64) -> f64 {
         match self {
             Self::Bodies { copper, .. } | Self::Steady { copper, .. } => {
                 let current = prepared.current(torque, speed).unwrap_or(0.0);
@@ -277,7 +277,7 @@ impl Model {
     }
 
     /// The losses while the motor holds the machine at rest with `torque` (N·m); zero: without current.
-    pub fn at_rest(&self, prepared: &Prepared, torque: f64) -> Losses {
+    pub fn at_rest(&self, prepared: &MotorLimits, torque: f64) -> Losses {
         let root = self.root(prepared, torque, 0.0);
         Losses {
             copper: root * root,
@@ -305,7 +305,7 @@ impl Model {
     /// The missing data, as a message.
     pub fn heated(
         &self,
-        course: impl Fn() -> Course,
+        course: impl Fn() -> LossCurve,
         mean: impl Fn() -> Losses,
         operation: &Operation,
         rest: Losses,
@@ -321,8 +321,8 @@ impl Model {
         };
         let hottest = |network: &Network| course().hottest(network, operation, rest);
         let steady = |resistances, growth| match network::steady(resistances, mean(), growth) {
-            Some(rise) => Hottest::Rise(rise),
-            None => Hottest::Runaway,
+            Some(rise) => PeakRise::Rise(rise),
+            None => PeakRise::Runaway,
         };
         let (hottest, ripple) = match *self {
             Self::Bodies {
@@ -366,7 +366,7 @@ impl Model {
 }
 
 /// Allowed error of the moments of the losses over a panel from its samples, as a share of the losses.
-const KNOWN: f64 = 1e-10;
+const MOMENT_TOLERANCE: f64 = 1e-10;
 
 /// The losses over a panel in a number of pieces. Their moments come from the panel's quadrature, with the losses at its samples or `between` them. A
 /// piece in which they bend is halved.
@@ -375,11 +375,11 @@ fn pieces_of(
     known: &[[f64; 2]],
     between: &impl Fn(f64) -> [f64; 2],
     parts: f64,
-) -> Vec<Piece> {
+) -> Vec<LossPiece> {
     let rule = panel.rule();
     let values = |which: usize| -> Vec<f64> { known.iter().map(|losses| losses[which]).collect() };
     let estimates = [0, 1].map(|which| rule.estimate(&values(which)));
-    let least = KNOWN * (estimates[0].size + estimates[1].size);
+    let least = MOMENT_TOLERANCE * (estimates[0].size + estimates[1].size);
     let constant =
         (known.windows(2)).all(|two| two[0].map(f64::to_bits) == two[1].map(f64::to_bits));
     let parts = if constant { 1.0 } else { parts };
@@ -403,11 +403,11 @@ fn pieces_of(
             }
             [0, 1, 2].map(|power| {
                 let f = |x: f64| between(x)[which] * share(x).powi(power);
-                rule.adaptive([a, b], (KNOWN, least), &f) / (b - a)
+                rule.adaptive([a, b], (MOMENT_TOLERANCE, least), &f) / (b - a)
             })
         };
         let time = panel.half() * (b - a);
-        pieces.push(Piece::of_moments(time, moments(0), moments(1)));
+        pieces.push(LossPiece::of_moments(time, moments(0), moments(1)));
         k += 1.0;
     }
     pieces

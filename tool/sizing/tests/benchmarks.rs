@@ -11,7 +11,7 @@ use jred_file::model::rules::RuleVerdict;
 use jred_sizing::catalogue::{Catalogue, Drive};
 use jred_sizing::cycle::Cycle;
 use jred_sizing::judge::check::Check;
-use jred_sizing::judge::{Context, Judged};
+use jred_sizing::judge::{Assessment, Context};
 
 use crate::support::{Folder, near, within};
 
@@ -112,7 +112,7 @@ inertia_ratio_warning = {ratio}
             amplifier: None,
         };
         let context = Context::new(&cycle, &file.site, drive, &prepared[0]);
-        Judged::new(&context, &file.rules).checks
+        Assessment::new(&context, &file.rules).checks
     }
 
     /// The handbook's torques of acceleration and deceleration, and its effective torque.

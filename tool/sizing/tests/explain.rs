@@ -11,7 +11,7 @@ use jred_analysis::duty::Duty;
 use jred_file::model::machine::MachineFile;
 use jred_sizing::catalogue::Catalogue;
 use jred_sizing::catalogue::Drive;
-use jred_sizing::explain::{Alteration, Altered, Breakdown, Contributions, Effect, Share};
+use jred_sizing::explain::{Alteration, Breakdown, Contributions, DutyModel, Effect, Share};
 
 use crate::support::{budget, edited, near, press_text, within};
 
@@ -278,7 +278,7 @@ fn an_altered_duty_is_that_of_the_altered_file() {
     let (time, mass, process) = (1.5, 0.8, 0.6);
     let file = parse(&press_text());
     let duty = duty_of(&file);
-    let altered = Altered::new(&file, &duty).unwrap();
+    let altered = DutyModel::new(&file, &duty).unwrap();
     let found = altered.duty(Alteration {
         time,
         mass,
@@ -352,7 +352,7 @@ fn an_altered_lift_is_that_of_the_altered_file() {
     let text = include_str!("../../../machines/pick-and-place.toml");
     let file = parse(text);
     let duty = duty_of(&file);
-    let altered = Altered::new(&file, &duty).unwrap();
+    let altered = DutyModel::new(&file, &duty).unwrap();
     let found = altered.duty(Alteration {
         time: 2.0,
         mass: 0.5,
@@ -399,7 +399,7 @@ fn springs_keep_their_torque_without_masses() {
     let file = machine("linkage-four-bar.toml");
     assert!(!file.elements.is_empty(), "a machine with a spring");
     let duty = duty_of(&file);
-    let altered = Altered::new(&file, &duty).unwrap();
+    let altered = DutyModel::new(&file, &duty).unwrap();
     let light = altered.duty(Alteration {
         mass: 0.0,
         ..Alteration::default()

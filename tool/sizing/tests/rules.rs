@@ -32,7 +32,7 @@ use jred_sizing::catalogue::{Brake, Catalogue, Gearbox, Motor};
 use jred_sizing::cycle::Cycle;
 use jred_sizing::judge::check::Check;
 use jred_sizing::judge::{Context, Words};
-use jred_sizing::motor::envelope::Prepared;
+use jred_sizing::motor::envelope::MotorLimits;
 
 fn read(text: &str) -> MachineFile {
     checked::parse("machine.toml", text, Path::new("")).unwrap()
@@ -88,7 +88,7 @@ impl Stand {
         }
     }
 
-    fn prepared(&self) -> Prepared {
+    fn prepared(&self) -> MotorLimits {
         let alone = Catalogue {
             motors: vec![self.motor.clone()],
             ..Catalogue::default()

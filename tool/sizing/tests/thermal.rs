@@ -11,8 +11,8 @@ use crate::brute;
 use crate::support::{budget, near, within};
 use jred_file::model::operation::Operation;
 use jred_sizing::judge::overload;
-use jred_sizing::thermal::course::{Course, Hottest, Point};
-use jred_sizing::thermal::network::{Change, Losses, Network, steady};
+use jred_sizing::thermal::loss_curve::{LossCurve, LossSample, PeakRise};
+use jred_sizing::thermal::network::{Losses, Network, Transition, steady};
 
 const COLD: Losses = Losses {
     copper: 0.0,
@@ -20,25 +20,25 @@ const COLD: Losses = Losses {
 };
 
 /// A course of constant losses: (from (s), copper (W), other (W)).
-fn steps(steps: &[(f64, f64, f64)], duration: f64) -> Course {
+fn steps(steps: &[(f64, f64, f64)], duration: f64) -> LossCurve {
     let ends = steps.iter().skip(1).map(|s| s.0).chain([duration]);
     let points = steps
         .iter()
         .zip(ends)
         .flat_map(|(&(t, copper, other), end)| {
-            [t, end].map(|t| Point {
+            [t, end].map(|t| LossSample {
                 t,
                 root: copper.sqrt(),
                 other,
             })
         });
-    Course::new(&points.collect::<Vec<_>>(), duration)
+    LossCurve::new(&points.collect::<Vec<_>>(), duration)
 }
 
-fn rise(course: &Course, network: &Network, operation: &Operation) -> [f64; 2] {
+fn rise(course: &LossCurve, network: &Network, operation: &Operation) -> [f64; 2] {
     match course.hottest(network, operation, COLD) {
-        Hottest::Rise(rise) => rise,
-        Hottest::Runaway => panic!("runaway"),
+        PeakRise::Rise(rise) => rise,
+        PeakRise::Runaway => panic!("runaway"),
     }
 }
 
@@ -102,8 +102,8 @@ fn growing_resistance_in_closed_form() {
         let course = steps(&[(0.0, copper, 0.0)], 3.0);
         course.hottest(&network, &Operation::Continuous, COLD)
     };
-    assert!(matches!(at(0.999 * limit), Hottest::Rise([hot, _]) if hot > 1e5));
-    assert_eq!(at(1.001 * limit), Hottest::Runaway);
+    assert!(matches!(at(0.999 * limit), PeakRise::Rise([hot, _]) if hot > 1e5));
+    assert_eq!(at(1.001 * limit), PeakRise::Runaway);
     // For a limited time any motor bears it.
     let course = steps(&[(0.0, 2.0 * limit, 0.0)], 3.0);
     let found = rise(&course, &network, &Operation::Short { operating: 30.0 })[0];
@@ -201,13 +201,13 @@ fn two_bodies_by_another_integration() {
     let course = |count: u32| {
         let points = (0..=count).map(|k| {
             let t = duration * f64::from(k) / f64::from(count);
-            Point {
+            LossSample {
                 t,
                 root: root(t),
                 other: other(t),
             }
         });
-        Course::new(&points.collect::<Vec<_>>(), duration)
+        LossCurve::new(&points.collect::<Vec<_>>(), duration)
     };
     let found = rise(&course(2000), &known.network(), &Operation::Continuous);
     near("winding", found[0], most[0], budget::THERMAL_STEPS);
@@ -301,13 +301,13 @@ fn short_cycles_lose_no_digits() {
     let network = Network::two(resistances, [30.0, 3600.0], growth);
     let points = (0..=2000).map(|k| {
         let t = 1e-3 * f64::from(k) / 2000.0;
-        Point {
+        LossSample {
             t,
             root: 9.0,
             other: 4.0,
         }
     });
-    let course = Course::new(&points.collect::<Vec<_>>(), 1e-3);
+    let course = LossCurve::new(&points.collect::<Vec<_>>(), 1e-3);
     let found = rise(&course, &network, &Operation::Continuous);
     let expected = steady(resistances, course.mean(), growth).unwrap();
     near("winding", found[0], expected[0], budget::MANY_STEPS);
@@ -376,7 +376,7 @@ fn bodies_and_their_times() {
 /// A change of zero has no rise of its own.
 #[test]
 fn a_change_of_nothing_has_no_rise_of_its_own() {
-    assert_eq!(Change::default().periodic(), None);
+    assert_eq!(Transition::default().periodic(), None);
 }
 
 /// A ramp of the current or of another loss, long compared with the winding's time constant, heats like the same ramp in a thousand pieces.
@@ -387,13 +387,13 @@ fn a_ramp_is_followed() {
         let points = (0..=pieces).map(|k| {
             let share = f64::from(k) / f64::from(pieces);
             let at = |[from, to]: [f64; 2]| from + (to - from) * share;
-            Point {
+            LossSample {
                 t: 100.0 * share,
                 root: at(roots),
                 other: at(others),
             }
         });
-        Course::new(&points.collect::<Vec<_>>(), 100.0)
+        LossCurve::new(&points.collect::<Vec<_>>(), 100.0)
     };
     for (roots, others) in [
         ([0.0, 10.0], [20.0, 20.0]),

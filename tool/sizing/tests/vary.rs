@@ -1,7 +1,7 @@
 //! Machine files with other values: quantities found and replaced, axes and their grid.
 
 use crate::support::press_text;
-use jred_sizing::study::axis::{Axis, Grid};
+use jred_sizing::study::axis::{Grid, Variation};
 use jred_sizing::study::edit::{Document, Edit};
 
 fn document() -> Document {
@@ -107,7 +107,7 @@ fn only_quantities_are_found() {
 #[test]
 fn values_of_an_axis() {
     let document = document();
-    let values = |text: &str| Axis::parse(&document, text).unwrap().values;
+    let values = |text: &str| Variation::parse(&document, text).unwrap().values;
     assert_eq!(values("slider.mass=30..60kg:4"), [30.0, 40.0, 50.0, 60.0]);
     assert_eq!(values("slider.mass=60 kg..30 kg:3"), [60.0, 45.0, 30.0]);
     assert_eq!(values("slider.mass=1..100 kg:3:log"), [1.0, 10.0, 100.0]);
@@ -120,8 +120,8 @@ fn values_of_an_axis() {
     // A row contains the values written into the file.
     assert_eq!(values("slider.mass=0.1..0.4kg:4"), [0.1, 0.2, 0.3, 0.4]);
     let grid = Grid::new(vec![
-        Axis::parse(&document, "slider.mass=1,2kg").unwrap(),
-        Axis::parse(&document, "crank.length=10,20,30mm").unwrap(),
+        Variation::parse(&document, "slider.mass=1,2kg").unwrap(),
+        Variation::parse(&document, "crank.length=10,20,30mm").unwrap(),
     ])
     .unwrap();
     assert_eq!(grid.count(), 6);

@@ -3,21 +3,21 @@
 use miette::{Report, Result, miette};
 
 use crate::commands::core_error::{core_report, duty_report};
-use crate::commands::{Done, print_answer};
+use crate::commands::{Completion, print_answer};
 use crate::options;
 use jred_analysis::checked;
 use jred_file::argument;
 use jred_file::model::machine::MachineFile;
 use jred_file::model::variator;
 use jred_file::plain;
-use jred_motion::balance::{self, Counterweight, Fault, Goal, Request};
+use jred_motion::balance::{self, BalanceError, BalanceGoal, BalanceRequest, Counterweight};
 use jred_report::list;
 
 /// Runs the command.
 ///
 /// # Errors
 /// Bad input, or nothing to balance.
-pub fn balance(options: &options::balance::Balance) -> Result<Done> {
+pub fn balance(options: &options::balance::Balance) -> Result<Completion> {
     let file = checked::read(&options.file)?;
     variator::refuse(&file, "balance")?;
     if let Some(carriage) = file.carriages().next() {
@@ -29,7 +29,7 @@ pub fn balance(options: &options::balance::Balance) -> Result<Done> {
     }
     let all = options.counterweight.iter();
     let counterweights = all.map(|text| counterweight(text, &file));
-    let mut request = Request {
+    let mut request = BalanceRequest {
         goal: options.least,
         counterweights: counterweights.collect::<Result<_>>()?,
         springs: Vec::new(),
@@ -53,7 +53,7 @@ pub fn balance(options: &options::balance::Balance) -> Result<Done> {
         }
     }
     let balanced = balance::balance(&file, &request).map_err(|fault| {
-        let links = if matches!(fault, Fault::NoEffect) {
+        let links = if matches!(fault, BalanceError::NoEffect) {
             balance::effective(&file, &request)
         } else {
             Vec::new()
@@ -66,40 +66,40 @@ pub fn balance(options: &options::balance::Balance) -> Result<Done> {
         balanced: &balanced,
     };
     print_answer(&list::balance::answer(&view), options.format.into())?;
-    Ok(Done::Holds)
+    Ok(Completion::Holds)
 }
 
 /// Why there is no answer; `links` are the links with an effect.
-fn report(options: &options::balance::Balance, fault: &Fault, links: &[String]) -> Report {
+fn report(options: &options::balance::Balance, fault: &BalanceError, links: &[String]) -> Report {
     let name = plain::path(&options.file);
     match fault {
-        Fault::Machine(error) => core_report(*error),
-        Fault::Duty(fault) => duty_report(fault.clone()),
-        Fault::NoMotion => miette!(
+        BalanceError::Machine(error) => core_report(*error),
+        BalanceError::Duty(fault) => duty_report(fault.clone()),
+        BalanceError::NoMotion => miette!(
             help = "add a [motion], or give --least holding or --least inertia, which need none",
             "{name} has no [motion] over which the torque could be minimised"
         ),
-        Fault::Nothing => match options.least {
-            Goal::Inertia => miette!(
+        BalanceError::Nothing => match options.least {
+            BalanceGoal::Inertia => miette!(
                 "the reduced inertia of {name} is the same at every position: there is nothing to balance"
             ),
             _ => miette!("the drive of {name} gives no torque: there is nothing to balance"),
         },
-        Fault::SpringForInertia => miette!(
+        BalanceError::SpringForInertia => miette!(
             help = "remove --spring, or choose another --least",
             "a spring has no inertia and no effect on --least inertia"
         ),
-        Fault::Parts(parted) => miette!(
+        BalanceError::Parts(parted) => miette!(
             help = "keep the spring that closes the contact as it is, or choose another --least",
             "with the optimum, {} ({}): {}",
             parted.what,
             parted.state,
             parted.force
         ),
-        Fault::NoEffect => {
+        BalanceError::NoEffect => {
             let (such, or) = match options.least {
-                Goal::Inertia => ("a link whose speed changes over the turn", ""),
-                Goal::Holding => (
+                BalanceGoal::Inertia => ("a link whose speed changes over the turn", ""),
+                BalanceGoal::Holding => (
                     "a link that rises and falls",
                     ", or a spring whose length changes",
                 ),

@@ -8,7 +8,7 @@ use indicatif::ProgressBar;
 
 use crate::busy;
 use crate::commands::core_error::duty_report;
-use crate::commands::{Done, print_answer, read_warned};
+use crate::commands::{Completion, print_answer, read_warned};
 use crate::options::bus::Bus as Options;
 use jred_analysis::duty::{Duty, Sampling};
 use jred_file::model::machine::MachineFile;
@@ -17,7 +17,7 @@ use jred_file::model::supply::Supply;
 use jred_file::model::variator;
 use jred_file::plain;
 use jred_report::list::{self, listing};
-use jred_sizing::bus::answer::{Answer, Axis};
+use jred_sizing::bus::analysis::{BusAnalysis, BusAxis};
 use jred_sizing::bus::supply::BusData;
 use jred_sizing::bus::{Watch, power};
 use jred_sizing::catalogue::Catalogue;
@@ -42,7 +42,7 @@ impl Watch for Bar<'_> {
 ///
 /// # Errors
 /// Bad input.
-pub fn run(options: &Options) -> Result<Done> {
+pub fn run(options: &Options) -> Result<Completion> {
     bounded(options)?;
     let catalogue = options.catalogue.open()?;
     let files = options.files.iter().map(|path| read_warned(path));
@@ -70,13 +70,13 @@ pub fn run(options: &Options) -> Result<Done> {
     // Drawn on standard error, only if it is a terminal.
     busy::rows(0, 0);
     let bar = ProgressBar::new(0);
-    let answer = Answer::new(axes, options.in_step, &own.supply, &catalogue, &Bar(&bar))?;
+    let answer = BusAnalysis::new(axes, options.in_step, &own.supply, &catalogue, &Bar(&bar))?;
     bar.finish_and_clear();
     print_answer(&list::bus::answer(&answer, options.format)?, options.format)?;
     Ok(if answer.holds() {
-        Done::Holds
+        Completion::Holds
     } else {
-        Done::Violated
+        Completion::Violated
     })
 }
 
@@ -175,7 +175,7 @@ fn axis(
     catalogue: &Catalogue,
     name: Option<&str>,
     sampling: Sampling,
-) -> Result<Axis> {
+) -> Result<BusAxis> {
     variator::refuse(file, "bus")?;
     let motion = file.required_motion()?;
     let mut own = catalogue.clone();
@@ -200,7 +200,7 @@ fn axis(
         candidate.motor.on(drive.amplifier),
         drive.amplifier,
     );
-    Ok(Axis {
+    Ok(BusAxis {
         title: file.title.clone(),
         drive: drive.name(),
         curve,

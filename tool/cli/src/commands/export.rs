@@ -4,7 +4,7 @@ use miette::{Result, miette};
 
 use crate::busy;
 use crate::commands::core_error::{core_report, duty_report};
-use crate::commands::{Done, print_answer, quantity, read_warned, warn};
+use crate::commands::{Completion, print_answer, quantity, read_warned, warn};
 use crate::options;
 use crate::output;
 use jred::machine::Reducible as _;
@@ -110,7 +110,7 @@ fn reciprocal(options: &options::Export) -> Result<bool> {
 ///
 /// # Errors
 /// Bad input, or a file that cannot be written.
-pub(super) fn run(options: &options::Export) -> Result<Done> {
+pub(super) fn run(options: &options::Export) -> Result<Completion> {
     let file = read_warned(&options.file)?;
     output::check([("--out", &options.out)])?;
     let name = name(options)?;
@@ -154,7 +154,7 @@ pub(super) fn run(options: &options::Export) -> Result<Done> {
         Ok(export) => export,
         Err(Failure::NotReached(why)) => {
             output::say(&why);
-            return Ok(Done::Violated);
+            return Ok(Completion::Violated);
         }
         Err(Failure::Impossible { message, help }) => {
             return Err(miette!(help = help, "{message}"));
@@ -176,14 +176,14 @@ pub(super) fn run(options: &options::Export) -> Result<Done> {
     warn(&file, [omega, 0.0])?;
     let done = show(options, &export)?;
     Ok(if options.prove && !proof_holds(&export) {
-        Done::Violated
+        Completion::Violated
     } else {
         done
     })
 }
 
 /// Prints the table and the path of its file.
-fn show(options: &options::Export, export: &Export) -> Result<Done> {
+fn show(options: &options::Export, export: &Export) -> Result<Completion> {
     let mut answer = list::export::answer(export);
     let format = match (&options.out, options.format) {
         (None, OutputForm::Json) => Format::Json,

@@ -12,9 +12,9 @@ use crate::commands::core_error::core_report;
 use crate::commands::plan;
 use crate::commands::vary::{catalogue, study};
 use crate::commands::{
-    Done, drive_named, envelope, print_answer, profile_written, quantity, rate, read_warned,
+    Completion, drive_named, envelope, print_answer, profile_written, quantity, rate, read_warned,
 };
-use crate::options::fastest::{Asked, Fastest as Options};
+use crate::options::fastest::{Fastest as Options, ReserveOption};
 use crate::output::{self, Files};
 use jred::machine::Reducible as _;
 use jred_file::argument::{self, Argument};
@@ -30,11 +30,11 @@ use jred_motion::fastest::field::Field;
 use jred_motion::fastest::joint_force::reached;
 use jred_motion::fastest::ruled::{Judge, ruled};
 use jred_motion::fastest::winding::{Winding, cooled};
-use jred_motion::fastest::{KeptPart, Limits, NoMotion, Reserve, Rms, Task};
+use jred_motion::fastest::{KeptPart, MoveLimits, NoMotion, Reserve, Rms, Task};
+use jred_motion::path_dynamics::{Actuator, PathDynamics};
 use jred_motion::trace::Trace;
-use jred_motion::way::{Actuator, Way};
 use jred_report::list;
-use jred_report::list::fastest::Warmth;
+use jred_report::list::fastest::WindingHeat;
 use jred_report::page;
 use jred_sizing::catalogue::{Drive, Motor, MotorKind};
 use jred_sizing::motor::envelope::Envelope;
@@ -42,16 +42,16 @@ use jred_sizing::select::filter::Filter;
 use jred_sizing::select::fit;
 use jred_sizing::study::chosen::ChosenDrive;
 use limits::limits;
-use motion::{Motion, of_motion};
+use motion::{MotionInput, of_motion};
 
 /// Share by which a speed may exceed the largest one, for the rounding of its unit.
 const ROUNDING: f64 = 1e-9;
 
 /// The motor or drive with its name, and the limits of its gearbox.
-struct Chosen {
+struct DriveInput {
     name: String,
     actuator: Actuator,
-    limits: Limits,
+    limits: MoveLimits,
     /// The drive, if it is from a catalogue.
     drive: Option<ChosenDrive>,
     /// The winding, if a drive is given.
@@ -62,7 +62,7 @@ struct Chosen {
 ///
 /// # Errors
 /// Bad input, or no motion within the limits.
-pub fn fastest(options: &Options) -> Result<Done> {
+pub fn fastest(options: &Options) -> Result<Completion> {
     let file = read_warned(&options.file)?;
     variator::refuse(&file, "fastest")?;
     drive_train::refuse(&file, "fastest")?;
@@ -84,18 +84,18 @@ pub fn fastest(options: &Options) -> Result<Done> {
         Some(task) => {
             let task = Task { limits, ..task };
             passable(options, &file, &chosen.actuator, &task)?;
-            Motion::Move(Box::new(task))
+            MotionInput::Move(Box::new(task))
         }
         None => of_motion(&file, &limits, rms)?,
     };
     let actuator = &chosen.actuator;
-    let make = |limits: &Limits, rms: Option<Rms>| {
+    let make = |limits: &MoveLimits, rms: Option<Rms>| {
         let at = |rms: Option<Rms>| parts.fastest(&file, actuator, limits, rms);
         let Some(limit) = warmth else {
             return at(rms).map(|cycle| (cycle, None));
         };
         cooled(limit, (&file, actuator), rms, at).map(|found| {
-            let warmth = Warmth {
+            let warmth = WindingHeat {
                 ambient: limit.0.ambient(),
                 temperatures: found.temperatures,
                 limit: found.limit,
@@ -104,7 +104,7 @@ pub fn fastest(options: &Options) -> Result<Done> {
             (found.cycle, Some(warmth))
         })
     };
-    let by_rules = options.reserve == Some(Asked::Rules);
+    let by_rules = options.reserve == Some(ReserveOption::Rules);
     let made = match chosen.drive.as_ref().filter(|_| by_rules) {
         None => make(&limits, rms).map(|(cycle, warmth)| (cycle, warmth, None)),
         Some(drive) => {
@@ -158,9 +158,9 @@ pub fn fastest(options: &Options) -> Result<Done> {
     let exceeds = cycle.kept.iter().any(KeptPart::exceeds);
     let violated = judged.is_some_and(|judged| judged.violated().next().is_some());
     Ok(if broken.is_some() || exceeds || violated {
-        Done::Violated
+        Completion::Violated
     } else {
-        Done::Holds
+        Completion::Holds
     })
 }
 
@@ -195,8 +195,8 @@ fn written(options: &Options, file: &MachineFile) -> Vec<String> {
 fn reserve(options: &Options, file: &MachineFile) -> Reserve {
     match options.reserve {
         None => Reserve::default(),
-        Some(Asked::Share(share)) => Reserve::of_motor(share),
-        Some(Asked::Rules) => Reserve::of(&file.rules),
+        Some(ReserveOption::Share(share)) => Reserve::of_motor(share),
+        Some(ReserveOption::Rules) => Reserve::of(&file.rules),
     }
 }
 
@@ -234,16 +234,16 @@ fn task(options: &Options, file: &MachineFile) -> Result<Option<Task>> {
             speed("from-speed", &options.from_speed)?,
             speed("to-speed", &options.to_speed)?,
         ],
-        limits: Limits::default(),
+        limits: MoveLimits::default(),
         endless: false,
     }))
 }
 
 /// Refuses end speeds above the limit of motor and options, which no distance can reach.
 fn passable(options: &Options, file: &MachineFile, actuator: &Actuator, task: &Task) -> Result<()> {
-    let way = &Way::new(file, actuator.clone(), 1.0);
+    let dynamics = &PathDynamics::new(file, actuator.clone(), 1.0);
     let limits = task.limits;
-    let (top, limit) = Field { way, limits }.top();
+    let (top, limit) = Field { dynamics, limits }.top();
     let given = [
         ("from-speed", &options.from_speed),
         ("to-speed", &options.to_speed),
@@ -279,7 +279,7 @@ fn motor_coordinate(file: &MachineFile) -> Coordinate {
 }
 
 /// The limit of the RMS torque.
-fn rms(options: &Options, file: &MachineFile, chosen: &Chosen) -> Result<Option<Rms>> {
+fn rms(options: &Options, file: &MachineFile, chosen: &DriveInput) -> Result<Option<Rms>> {
     match options.max_rms.as_deref() {
         None => Ok(None),
         Some(text) if text.eq_ignore_ascii_case("s1") => {
@@ -305,7 +305,7 @@ fn rms(options: &Options, file: &MachineFile, chosen: &Chosen) -> Result<Option<
 }
 
 /// The drive of the command line, or the best one.
-fn chosen(options: &Options, file: &MachineFile) -> Result<Chosen> {
+fn chosen(options: &Options, file: &MachineFile) -> Result<DriveInput> {
     if let Some(torque) = &options.torque {
         return plain_motor(options, file, torque);
     }
@@ -324,13 +324,13 @@ fn chosen(options: &Options, file: &MachineFile) -> Result<Chosen> {
     };
     let own = drive.drive();
     let envelope = envelope(&own, file);
-    Ok(Chosen {
+    Ok(DriveInput {
         name: own.name(),
         actuator: Actuator::new(&own, envelope),
-        limits: Limits {
+        limits: MoveLimits {
             gearbox_torque: own.gearbox.and_then(|gearbox| gearbox.peak_torque),
             gearbox_speed: own.gearbox.and_then(|gearbox| gearbox.max_speed),
-            ..Limits::default()
+            ..MoveLimits::default()
         },
         winding: Some(Winding::new(&own, file)),
         drive: Some(drive),
@@ -338,7 +338,7 @@ fn chosen(options: &Options, file: &MachineFile) -> Result<Chosen> {
 }
 
 /// A motor with constant torque, up to its largest speed if that is given.
-fn plain_motor(options: &Options, file: &MachineFile, torque: &str) -> Result<Chosen> {
+fn plain_motor(options: &Options, file: &MachineFile, torque: &str) -> Result<DriveInput> {
     let kind = fit::input_kind(file);
     let coordinate = motor_coordinate(file);
     let effort = quantity(
@@ -375,10 +375,10 @@ fn plain_motor(options: &Options, file: &MachineFile, torque: &str) -> Result<Ch
         Some(speed) => format!("{torque} up to {speed}"),
         None => format!("{torque} at every speed"),
     };
-    Ok(Chosen {
+    Ok(DriveInput {
         name,
         actuator: Actuator::new(&drive, Envelope::of(&motor)),
-        limits: Limits::default(),
+        limits: MoveLimits::default(),
         drive: None,
         winding: None,
     })

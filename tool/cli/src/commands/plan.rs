@@ -3,16 +3,16 @@
 use miette::{Result, miette};
 
 use crate::commands::core_error::core_report;
-use crate::options::plan::{Form, PlanFile};
+use crate::options::plan::{PlanFile, PlanFormat};
 use crate::output::{self, Files};
 use jred::machine::Reducible as _;
 use jred_export::{plan_c_source, plan_source};
 use jred_file::model::machine::MachineFile;
 use jred_file::plain;
+use jred_motion::path_dynamics::Actuator;
 use jred_motion::plan::Plan;
 use jred_motion::plan::ramp::least_ramp;
 use jred_motion::trace::Trace;
-use jred_motion::way::Actuator;
 use jred_report::list;
 
 /// Writes the plan, if requested; returns a sentence about it. `gearbox`: largest torque at the gearbox output (N·m).
@@ -38,13 +38,13 @@ pub(super) fn write(
     }
     let says = list::plan::text(&plan, trace);
     let title = format!("{}: {says}", file.title);
-    let bytes = match Form::of(path) {
-        Some(Form::Rust) => plan_source(&title, machine, &plan.words).into_bytes(),
-        Some(Form::C) => {
+    let bytes = match PlanFormat::of(path) {
+        Some(PlanFormat::Rust) => plan_source(&title, machine, &plan.words).into_bytes(),
+        Some(PlanFormat::C) => {
             let name = path.file_name().unwrap_or_default().to_string_lossy();
             plan_c_source(&title, &name, machine, &plan.words).into_bytes()
         }
-        Some(Form::Image) | None => plan.bytes(),
+        Some(PlanFormat::Image) | None => plan.bytes(),
     };
     files.add(path, &bytes)?;
     Ok(Some(format!(

@@ -4,7 +4,7 @@ use miette::{Result, miette};
 
 use crate::commands::core_error::duty_report;
 use crate::commands::vary::catalogue;
-use crate::commands::{Done, print_answer, read_warned};
+use crate::commands::{Completion, print_answer, read_warned};
 use crate::options::search::Ratio;
 use jred_analysis::duty::Duty;
 use jred_file::read;
@@ -20,7 +20,7 @@ use jred_sizing::study::ratio::Ratios;
 ///
 /// # Errors
 /// Bad input.
-pub fn ratio(options: &Ratio) -> Result<Done> {
+pub fn ratio(options: &Ratio) -> Result<Completion> {
     let mut file = read_warned(&options.file)?;
     if let Some(set) = options.supply.rule_set()? {
         file.rules = read::rules_based_on(&file.rules, set)?;
@@ -58,5 +58,9 @@ pub fn ratio(options: &Ratio) -> Result<Done> {
     let any = rows.iter().any(|row| row.found.is_ok());
     let top = options.top.map(|top| top as usize);
     print_answer(&sheet(&study, rows, top).answer(), options.format)?;
-    Ok(if any { Done::Holds } else { Done::Violated })
+    Ok(if any {
+        Completion::Holds
+    } else {
+        Completion::Violated
+    })
 }

@@ -3,7 +3,7 @@
 use miette::{Result, miette};
 
 use crate::commands::core_error::core_report;
-use crate::commands::{Done, print_answer, quantity, warn};
+use crate::commands::{Completion, print_answer, quantity, warn};
 use crate::options;
 use crate::output;
 use jred::machine::Reducible as _;
@@ -24,7 +24,7 @@ use jred_report::table::output::Format;
 ///
 /// # Errors
 /// Bad input, or a file that cannot be written.
-pub(super) fn run(options: &options::Reduce) -> Result<Done> {
+pub(super) fn run(options: &options::Reduce) -> Result<Completion> {
     let file = checked::read(&options.file)?;
     output::check([("--report", &options.report)])?;
     variator::refuse(&file, "reduce")?;

@@ -7,9 +7,9 @@ use miette::{Report, Result, miette};
 use crate::commands::core_error::{core_report, duty_report};
 use crate::commands::plan;
 use crate::commands::{
-    Done, drive_asked, print_answer, profile_written, read_warned, warn_of_supply,
+    Completion, drive_asked, print_answer, profile_written, read_warned, warn_of_supply,
 };
-use crate::options::retime::{Ends, RAMP, Retime};
+use crate::options::retime::{EndAcceleration, RAMP, Retime};
 use crate::output::{self, Files};
 use jred_file::model::drive_train;
 use jred_file::model::machine::MachineFile;
@@ -21,8 +21,8 @@ use jred_motion::contact::broken;
 use jred_motion::fastest::ruled::Judge;
 use jred_motion::gentlest::{Fault, without_drive};
 use jred_motion::moves::{Move, NoMoves};
+use jred_motion::path_dynamics::Actuator;
 use jred_motion::retime::{self, Obstacle, Request};
-use jred_motion::way::Actuator;
 use jred_report::list;
 use jred_report::page;
 use jred_sizing::motor::envelope::Envelope;
@@ -32,7 +32,7 @@ use jred_sizing::study::chosen::ChosenDrive;
 ///
 /// # Errors
 /// Bad input, or no motion of moves and pauses.
-pub fn retime(options: &Retime) -> Result<Done> {
+pub fn retime(options: &Retime) -> Result<Completion> {
     let file = read_warned(&options.file)?;
     variator::refuse(&file, "retime")?;
     drive_train::refuse(&file, "retime")?;
@@ -109,15 +109,19 @@ pub fn retime(options: &Retime) -> Result<Done> {
         .iter()
         .filter(|check| check.verdict == RuleVerdict::Fail && check.id.follows_motion());
     let exceeds = violated.next().is_some() || broken.is_some();
-    Ok(if exceeds { Done::Violated } else { Done::Holds })
+    Ok(if exceeds {
+        Completion::Violated
+    } else {
+        Completion::Holds
+    })
 }
 
 /// The share of a move's time in which the acceleration rises.
 fn ramp(options: &Retime) -> Result<f64> {
     match (options.ends, options.ramp) {
-        (Ends::Zero, given) => Ok(given.unwrap_or(RAMP)),
-        (Ends::Free, None) => Ok(0.0),
-        (Ends::Free, Some(_)) => Err(miette!(
+        (EndAcceleration::Zero, given) => Ok(given.unwrap_or(RAMP)),
+        (EndAcceleration::Free, None) => Ok(0.0),
+        (EndAcceleration::Free, Some(_)) => Err(miette!(
             help = "give --ends zero as well, or leave --ramp out",
             "--ramp is the time in which the acceleration rises from zero; with --ends free it begins with a jump"
         )),

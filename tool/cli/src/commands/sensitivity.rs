@@ -5,7 +5,7 @@ use miette::Result;
 
 use crate::busy;
 use crate::commands::vary::study;
-use crate::commands::{Done, print_answer, warn_of_motion};
+use crate::commands::{Completion, print_answer, warn_of_motion};
 use crate::options::search::Sensitivity as Options;
 use jred_report::list::sensitivity::sheet;
 use jred_sizing::study::chosen::ChosenDrive;
@@ -15,7 +15,7 @@ use jred_sizing::study::sensitivity::{Reach, Sensitivity};
 ///
 /// # Errors
 /// Bad input.
-pub fn sensitivity(options: &Options) -> Result<Done> {
+pub fn sensitivity(options: &Options) -> Result<Completion> {
     let filter = options.search.filter();
     let sampling = options.supply.course.with(&options.accuracy);
     let study = study(&options.file, &options.supply, &filter, sampling)?;
@@ -38,8 +38,8 @@ pub fn sensitivity(options: &Options) -> Result<Done> {
     let sheet = sheet(&study, &one, &sensitivity, reach);
     print_answer(&sheet.answer(), options.format)?;
     Ok(if sensitivity.is_broken() {
-        Done::Violated
+        Completion::Violated
     } else {
-        Done::Holds
+        Completion::Holds
     })
 }

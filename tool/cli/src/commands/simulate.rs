@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use miette::{Report, Result, miette};
 
 use crate::commands::core_error::core_report;
-use crate::commands::{Done, drive_asked, envelope, print_answer, rate, warn_of_motion};
+use crate::commands::{Completion, drive_asked, envelope, print_answer, rate, warn_of_motion};
 use crate::options::simulate::Simulate;
 use crate::output;
 use jred_analysis::checked;
@@ -19,7 +19,7 @@ use jred_file::model::variator;
 use jred_file::number::words::counted;
 use jred_file::plain;
 use jred_file::text::key::SPEED;
-use jred_motion::driven::{Loads, Unfit, driven};
+use jred_motion::drive_simulation::{Loads, UnfitDrive, driven};
 use jred_report::list;
 use jred_report::page;
 use jred_sizing::study::chosen::ChosenDrive;
@@ -28,7 +28,7 @@ use jred_sizing::study::chosen::ChosenDrive;
 ///
 /// # Errors
 /// Bad input, or a file that cannot be written.
-pub(super) fn run(options: &Simulate) -> Result<Done> {
+pub(super) fn run(options: &Simulate) -> Result<Completion> {
     let Some((path, others)) = options.files.split_first() else {
         return Err(miette!("no machine file is given"));
     };
@@ -171,13 +171,13 @@ fn with_drive(
 }
 
 /// Why a drive cannot be simulated.
-fn refusal(unfit: &Unfit, name: &str) -> Report {
+fn refusal(unfit: &UnfitDrive, name: &str) -> Report {
     match unfit {
-        Unfit::NoPeak => miette!(
+        UnfitDrive::NoPeak => miette!(
             help = "fill in peak_torque or peak_curve in the catalogue; docs/catalogue.md describes them",
             "the drive {name} cannot be simulated: its peak torque is not known"
         ),
-        Unfit::SelfLocking { gearbox } => miette!(
+        UnfitDrive::SelfLocking { gearbox } => miette!(
             help = "take a gearbox through which the machine can drive the motor",
             "the drive {name} cannot be simulated: the gearbox {gearbox} locks itself, and the equation of motion has no single solution when it does"
         ),

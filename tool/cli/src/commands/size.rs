@@ -7,8 +7,8 @@ use miette::{Report, Result, miette};
 use crate::commands::core_error::{core_report, duty_report};
 use crate::commands::retime::report;
 use crate::commands::vary::catalogue;
-use crate::commands::{Done, print, print_answer};
-use crate::options::{Moved, Size};
+use crate::commands::{Completion, print, print_answer};
+use crate::options::{MotionChoice, Size};
 use crate::output;
 use jred_analysis::checked;
 use jred_analysis::duty::Duty;
@@ -19,7 +19,7 @@ use jred_file::model::{drive_train, variator};
 use jred_file::number::words::counted;
 use jred_file::plain;
 use jred_file::read;
-use jred_motion::suited::Judging;
+use jred_motion::co_design::CoDesignInput;
 use jred_report::list;
 use jred_report::list::listing;
 use jred_report::page;
@@ -38,7 +38,7 @@ const TOP: usize = 10;
 ///
 /// # Errors
 /// Bad input, or a file that cannot be written.
-pub fn size(options: &Size) -> Result<Done> {
+pub fn size(options: &Size) -> Result<Completion> {
     let mut file = checked::read(&options.file)?;
     if let Some(set) = options.supply.rule_set()? {
         file.rules = read::rules_based_on(&file.rules, set)?;
@@ -54,13 +54,13 @@ pub fn size(options: &Size) -> Result<Done> {
     fit_input(&mut catalogue, &file)?;
     let motors = catalogue.prepare(&file.site);
     let mut made = None;
-    if options.motion == Moved::Best {
+    if options.motion == MotionChoice::Best {
         drive_train::refuse(&file, "size --motion best")?;
         file.refuse_scheduled("size --motion best")?;
         let narrow = |selection: &mut Selection| {
             options.search.apply(&filter, selection);
         };
-        let judging = Judging {
+        let judging = CoDesignInput {
             file: &file,
             own: motion,
             catalogue: &catalogue,
@@ -120,9 +120,9 @@ pub fn size(options: &Size) -> Result<Done> {
     };
     answer.print()?;
     Ok(if selection.fit.is_empty() {
-        Done::Violated
+        Completion::Violated
     } else {
-        Done::Holds
+        Completion::Holds
     })
 }
 
@@ -198,7 +198,10 @@ impl Answer<'_, '_> {
 }
 
 /// The motion made for the best drive, printed before the list, and its data; `None`: the file's motion is kept.
-fn suited(judging: &Judging, options: &Size) -> Result<(Option<Motion>, list::suited::MotionData)> {
+fn suited(
+    judging: &CoDesignInput,
+    options: &Size,
+) -> Result<(Option<Motion>, list::suited::MotionData)> {
     let suited = judging
         .best()
         .map_err(|obstacle| report(&options.file, None, judging.file, &obstacle))?;
@@ -219,7 +222,7 @@ fn pareto(
     objectives: &[Objective],
     file: &MachineFile,
     selection: &Selection,
-) -> Result<Done> {
+) -> Result<Completion> {
     let front = Front::new(selection, objectives);
     if let Some(obstacle) = front.obstacle() {
         return Err(obstacle.into());
@@ -230,9 +233,9 @@ fn pareto(
     );
     print_answer(&list::front::answer(&front, &title), options.format)?;
     Ok(if front.points.is_empty() {
-        Done::Violated
+        Completion::Violated
     } else {
-        Done::Holds
+        Completion::Holds
     })
 }
 

@@ -3,7 +3,7 @@
 use miette::{Result, miette};
 
 use crate::commands::simulate::{read_all, starts};
-use crate::commands::{Done, print_answer, rate};
+use crate::commands::{Completion, print_answer, rate};
 use crate::options;
 use crate::output::{self, print};
 use jred_analysis::checked;
@@ -27,7 +27,7 @@ const DRAWN: usize = 360;
 ///
 /// # Errors
 /// Bad input, or no steady cycle.
-pub fn steady(options: &options::Steady) -> Result<Done> {
+pub fn steady(options: &options::Steady) -> Result<Completion> {
     let Some((path, others)) = options.files.split_first() else {
         return Err(miette!("no machine file is given"));
     };
@@ -65,7 +65,7 @@ pub fn steady(options: &options::Steady) -> Result<Done> {
     {
         print(&format!("report written to {}\n", plain::path(path)))?;
     }
-    Ok(Done::Holds)
+    Ok(Completion::Holds)
 }
 
 /// The requested mean speed.

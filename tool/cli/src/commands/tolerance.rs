@@ -4,7 +4,7 @@ use jred_file::plain;
 use miette::{Result, miette};
 
 use crate::commands::vary::{stopped, study};
-use crate::commands::{Done, print_answer, warn_of_motion};
+use crate::commands::{Completion, print_answer, warn_of_motion};
 use crate::options::search::Tolerance as Options;
 use crate::output;
 use crate::rows::run::run;
@@ -20,7 +20,7 @@ use jred_sizing::study::tolerance::{Samples, Scatter};
 ///
 /// # Errors
 /// Bad input, or a file that cannot be written.
-pub fn tolerance(options: &Options) -> Result<Done> {
+pub fn tolerance(options: &Options) -> Result<Completion> {
     let filter = options.search.filter();
     let sampling = options.supply.course.sampling();
     let study = study(&options.file, &options.supply, &filter, sampling)?;
@@ -73,9 +73,9 @@ pub fn tolerance(options: &Options) -> Result<Done> {
         return stopped(ended, &plan);
     }
     Ok(if summary.hold == summary.machines {
-        Done::Holds
+        Completion::Holds
     } else {
-        Done::Violated
+        Completion::Violated
     })
 }
 

@@ -4,11 +4,11 @@ use std::path::Path;
 
 use miette::{Result, miette};
 
-use crate::commands::{Done, print, warn_of_motion};
-use crate::options::search::{Merge, Rows, SizingOptions, Vary};
+use crate::commands::{Completion, print, warn_of_motion};
+use crate::options::search::{Merge, RowOptions, SizingOptions, Vary};
 use crate::output;
 use crate::rows::merge::merge;
-use crate::rows::run::{Ended, Plan, run};
+use crate::rows::run::{Plan, RunEnd, run};
 use jred_analysis::duty::Sampling;
 use jred_file::number::words::{Word as _, counted};
 use jred_file::plain;
@@ -16,11 +16,11 @@ use jred_file::text::problem::Problem;
 use jred_report::table::rows::{RowFormat, table};
 use jred_sizing::catalogue::Catalogue;
 use jred_sizing::select::filter::Filter;
-use jred_sizing::study::axis::{Axis, Grid};
+use jred_sizing::study::axis::{Grid, Variation};
 use jred_sizing::study::cell::Cell;
 use jred_sizing::study::common::Study;
-use jred_sizing::study::grid::{GridStudy, Verdict};
-use jred_sizing::study::task::Task as _;
+use jred_sizing::study::grid::{GridStudy, GridVerdict};
+use jred_sizing::study::task::RowSource as _;
 
 /// Largest number of drives judged at once: their results take 170 MB.
 const MOST_DRIVES: usize = 2_000_000;
@@ -56,7 +56,7 @@ pub fn study(
     Ok(Study::open(file, catalogue, supply.rule_set()?, sampling)?)
 }
 
-impl Rows {
+impl RowOptions {
     /// The plan of these options.
     pub fn plan(&self) -> Plan {
         Plan {
@@ -72,7 +72,7 @@ impl Rows {
 ///
 /// # Errors
 /// Bad input, or a file that cannot be written.
-pub fn vary(options: &Vary) -> Result<Done> {
+pub fn vary(options: &Vary) -> Result<Completion> {
     let filter = options.search.filter();
     let study = study(
         &options.file,
@@ -86,7 +86,7 @@ pub fn vary(options: &Vary) -> Result<Done> {
     let axes = options
         .vary
         .iter()
-        .map(|text| Axis::parse(&study.document, text));
+        .map(|text| Variation::parse(&study.document, text));
     let grid = Grid::new(axes.collect::<Result<_, Problem>>()?)?;
     let task = GridStudy {
         study: &study,
@@ -117,8 +117,8 @@ pub fn vary(options: &Vary) -> Result<Done> {
     let done = stopped(ended, &plan)?;
     // One share is not the full result, and a scheduler would repeat a job that ends with 1.
     Ok(
-        if done == Done::Holds && counts.fit == 0 && plan.shard.is_none() {
-            Done::Violated
+        if done == Completion::Holds && counts.fit == 0 && plan.shard.is_none() {
+            Completion::Violated
         } else {
             done
         },
@@ -135,10 +135,10 @@ struct Counts {
 
 impl Counts {
     fn add(&mut self, verdict: Option<&Cell>) {
-        match verdict.and_then(Cell::text).and_then(Verdict::of_word) {
-            Some(Verdict::Fits) => self.fit += 1,
-            Some(Verdict::NoneFits) => self.none += 1,
-            Some(Verdict::Refused) | None => self.refused += 1,
+        match verdict.and_then(Cell::text).and_then(GridVerdict::of_word) {
+            Some(GridVerdict::Fits) => self.fit += 1,
+            Some(GridVerdict::NoneFits) => self.none += 1,
+            Some(GridVerdict::Refused) | None => self.refused += 1,
         }
     }
 
@@ -158,9 +158,9 @@ impl Counts {
 ///
 /// # Errors
 /// None at present.
-pub fn stopped(ended: Ended, plan: &Plan) -> Result<Done> {
+pub fn stopped(ended: RunEnd, plan: &Plan) -> Result<Completion> {
     if ended.is_complete() {
-        return Ok(Done::Holds);
+        return Ok(Completion::Holds);
     }
     let cure = match &plan.out {
         Some(path) => format!(
@@ -173,14 +173,14 @@ pub fn stopped(ended: Ended, plan: &Plan) -> Result<Done> {
         "stopped after {} of {} rows; {cure}",
         ended.rows, ended.of
     ));
-    Ok(Done::Stopped)
+    Ok(Completion::Stopped)
 }
 
 /// Runs `jred merge`.
 ///
 /// # Errors
 /// Shares that do not form one study.
-pub fn run_merge(options: &Merge) -> Result<Done> {
+pub fn run_merge(options: &Merge) -> Result<Completion> {
     let rows = merge(&options.out, &options.parts)?;
     print(&format!(
         "{} written to {}\n",

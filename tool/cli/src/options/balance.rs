@@ -6,8 +6,8 @@ use clap::{ArgGroup, Args};
 
 use super::sampling::SamplingOptions;
 use super::word::word;
-use jred_motion::balance::Goal;
-use jred_report::list::inspection::Format;
+use jred_motion::balance::BalanceGoal;
+use jred_report::list::inspection::AnswerFormat;
 
 /// `jred balance`
 #[derive(Debug, Args)]
@@ -17,8 +17,8 @@ pub struct Balance {
     /// Machine file.
     pub file: PathBuf,
     /// Quantity to minimise.
-    #[arg(long, value_parser = word::<Goal>(), default_value_t)]
-    pub least: Goal,
+    #[arg(long, value_parser = word::<BalanceGoal>(), default_value_t)]
+    pub least: BalanceGoal,
     /// A link that may carry a counterweight, its largest mass, and the largest distance of its parts from the origin of the link's frame, e.g.
     /// "crank, 20 kg, 250 mm"; may be repeated.
     #[arg(long, value_name = "LINK, MASS, REACH")]
@@ -27,8 +27,8 @@ pub struct Balance {
     #[arg(long, value_name = "NAME")]
     pub spring: Vec<String>,
     /// Output format.
-    #[arg(long, value_parser = word::<Format>(), default_value_t)]
-    pub format: Format,
+    #[arg(long, value_parser = word::<AnswerFormat>(), default_value_t)]
+    pub format: AnswerFormat,
     /// Sampling of the motion.
     #[command(flatten)]
     pub sampling: SamplingOptions,

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::plan::PlanFile;
-use super::retime::Ends;
+use super::retime::EndAcceleration;
 use super::search::SizingOptions;
 use super::word::word;
 use jred_file::argument;
@@ -14,20 +14,20 @@ use jred_report::table::output::Format;
 
 /// The requested reserve.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Asked {
+pub enum ReserveOption {
     /// A share of torque and speed.
     Share(f64),
     /// The share that the rules require.
     Rules,
 }
 
-fn asked(text: &str) -> Result<Asked, String> {
+fn asked(text: &str) -> Result<ReserveOption, String> {
     if text.eq_ignore_ascii_case("rules") {
-        return Ok(Asked::Rules);
+        return Ok(ReserveOption::Rules);
     }
     let share = argument::any(&jred_file::units::kind::SHARE)(text)?;
     if (0.0..1.0).contains(&share) {
-        return Ok(Asked::Share(share));
+        return Ok(ReserveOption::Share(share));
     }
     Err("it must be at least 0 % and less than 100 %, such as \"10 %\", or \"rules\"".to_owned())
 }
@@ -87,7 +87,7 @@ pub struct Fastest {
     /// for motor, gearbox and amplifier (`[rules]` of the file), the motor's heat with --max-rms or --max-winding-temperature; no reserve if not
     /// given.
     #[arg(long, value_name = "SHARE|rules", value_parser = asked, allow_hyphen_values = true)]
-    pub reserve: Option<Asked>,
+    pub reserve: Option<ReserveOption>,
     /// Largest speed of the drive link, e.g. "90 rpm" ("0.2 m/s").
     #[arg(long, value_name = "SPEED", allow_hyphen_values = true)]
     pub max_speed: Option<String>,
@@ -111,8 +111,8 @@ pub struct Fastest {
     #[arg(long, value_name = "RATE", allow_hyphen_values = true)]
     pub max_torque_rate: Option<String>,
     /// Acceleration at the ends of the motion; zero with --max-jerk or --max-torque-rate, otherwise free.
-    #[arg(long, value_parser = word::<Ends>())]
-    pub ends: Option<Ends>,
+    #[arg(long, value_parser = word::<EndAcceleration>())]
+    pub ends: Option<EndAcceleration>,
     /// Largest RMS torque over the motion with its pauses, e.g. "2 N m"; "s1": the motor's S1 torque at the mean speed, without the reserve
     /// of --reserve rules.
     #[arg(long, value_name = "TORQUE|s1", allow_hyphen_values = true)]

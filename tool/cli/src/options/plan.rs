@@ -21,7 +21,7 @@ pub struct PlanFile {
 
 /// Format of a plan.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Form {
+pub enum PlanFormat {
     /// Rust source.
     Rust,
     /// Source of C and C++.
@@ -30,7 +30,7 @@ pub enum Form {
     Image,
 }
 
-impl Form {
+impl PlanFormat {
     /// The format for a file extension, case-insensitive.
     pub fn of(path: &Path) -> Option<Self> {
         let ending = path.extension()?.to_ascii_lowercase();
@@ -45,7 +45,7 @@ impl Form {
 
 fn plan_file() -> impl TypedValueParser<Value = PathBuf> {
     output_file().try_map(|path| {
-        if Form::of(&path).is_some() {
+        if PlanFormat::of(&path).is_some() {
             return Ok(path);
         }
         Err(

@@ -15,7 +15,7 @@ use jred_report::table::output::Format;
 
 jred_file::words! {
     /// Acceleration at the ends of a move.
-    pub enum Ends default Free {
+    pub enum EndAcceleration default Free {
         /// The acceleration may jump at rest, which gives the best result.
         Free = "free",
         /// The acceleration is zero at rest and continuous: for machines that must not be shaken.
@@ -35,8 +35,8 @@ pub struct Retime {
     #[arg(long, value_parser = word::<Goal>(), default_value_t)]
     pub objective: Goal,
     /// Acceleration at the ends of a move.
-    #[arg(long, value_parser = word::<Ends>(), default_value_t)]
-    pub ends: Ends,
+    #[arg(long, value_parser = word::<EndAcceleration>(), default_value_t)]
+    pub ends: EndAcceleration,
     /// With --ends zero: share of a move's time in which the acceleration rises to its first peak, e.g. "5 %"; 10 % if not given.
     #[arg(long, value_name = "SHARE", value_parser = ramp)]
     pub ramp: Option<f64>,

@@ -39,7 +39,7 @@ pub struct SizingOptions {
 /// Which drives are considered and how they are ranked.
 #[derive(Clone, Debug, Default, Args)]
 #[command(next_help_heading = "Which drives")]
-pub struct Search {
+pub struct SelectionOptions {
     /// Rank by this instead of the smallest motor first.
     #[arg(long, value_parser = word::<Objective>())]
     pub rank: Option<Objective>,
@@ -79,7 +79,7 @@ impl SizingOptions {
     }
 }
 
-impl Search {
+impl SelectionOptions {
     /// Removes drives that do not pass the filter and ranks the rest; returns a sentence for each decision without data.
     pub fn apply(&self, filter: &Filter, selection: &mut Selection) -> Vec<String> {
         let unknown = filter.sift(selection);
@@ -215,7 +215,7 @@ fn objectives(text: &str) -> Result<Vec<Objective>, String> {
 /// Output options of a study.
 #[derive(Clone, Debug, Args)]
 #[command(next_help_heading = "Rows")]
-pub struct Rows {
+pub struct RowOptions {
     /// Format of the rows; a file contains CSV or JSON lines.
     #[arg(long, value_parser = word::<RowFormat>(), default_value_t)]
     pub format: RowFormat,
@@ -256,10 +256,10 @@ pub struct Vary {
     pub accuracy: Accuracy,
     /// Rows.
     #[command(flatten)]
-    pub rows: Rows,
+    pub rows: RowOptions,
     /// Which drives.
     #[command(flatten)]
-    pub search: Search,
+    pub search: SelectionOptions,
 }
 
 /// `jred merge`
@@ -342,7 +342,7 @@ pub struct Sensitivity {
     pub accuracy: Accuracy,
     /// Which drives.
     #[command(flatten)]
-    pub search: Search,
+    pub search: SelectionOptions,
     /// Output format.
     #[arg(long, value_parser = word::<Format>(), default_value_t)]
     pub format: Format,
@@ -384,8 +384,8 @@ pub struct Tolerance {
     pub supply: SizingOptions,
     /// Which drives.
     #[command(flatten)]
-    pub search: Search,
+    pub search: SelectionOptions,
     /// Rows.
     #[command(flatten)]
-    pub rows: Rows,
+    pub rows: RowOptions,
 }

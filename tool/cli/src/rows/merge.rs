@@ -18,7 +18,7 @@ use jred_sizing::study::header::Header;
 const MAX_PIPE: u64 = 64 << 20;
 
 /// A share, read line by line.
-struct Part {
+struct ShardFile {
     path: PathBuf,
     form: RowFormat,
     /// `None`: a share without rows, in CSV.
@@ -32,7 +32,7 @@ struct Part {
     lines: u64,
 }
 
-impl Part {
+impl ShardFile {
     fn open(path: &Path) -> Result<Self> {
         let file = disk::open(path, MAX_PIPE)
             .into_diagnostic()
@@ -109,7 +109,7 @@ impl Part {
 pub fn merge(out: &Path, paths: &[PathBuf]) -> Result<u64> {
     let mut parts = paths
         .iter()
-        .map(|path| Part::open(path))
+        .map(|path| ShardFile::open(path))
         .collect::<Result<Vec<_>>>()?;
     if parts.is_empty() {
         return Err(miette!("name the files to merge"));
@@ -172,7 +172,12 @@ pub fn merge(out: &Path, paths: &[PathBuf]) -> Result<u64> {
 }
 
 /// Writes the rows in order, each exactly once.
-fn rows(parts: &mut [Part], header: &Header, study: &str, out: &mut impl Write) -> Result<u64> {
+fn rows(
+    parts: &mut [ShardFile],
+    header: &Header,
+    study: &str,
+    out: &mut impl Write,
+) -> Result<u64> {
     let count = header.rows;
     let mut heap = BinaryHeap::new();
     for (k, part) in parts.iter_mut().enumerate() {

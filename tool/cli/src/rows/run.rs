@@ -15,7 +15,7 @@ use crate::output;
 use jred_report::table::rows::RowFormat;
 use jred_sizing::study::cell::Cell;
 use jred_sizing::study::shard::Shard;
-use jred_sizing::study::task::Task;
+use jred_sizing::study::task::RowSource;
 
 /// Output of a run, and its rows.
 #[derive(Clone, Debug)]
@@ -32,14 +32,14 @@ pub struct Plan {
 
 /// End of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Ended {
+pub struct RunEnd {
     /// Completed rows of this share.
     pub rows: u64,
     /// All rows of the share.
     pub of: u64,
 }
 
-impl Ended {
+impl RunEnd {
     /// Whether every row is complete.
     pub const fn is_complete(self) -> bool {
         self.rows == self.of
@@ -71,7 +71,11 @@ const BLOCK: u64 = 16;
 ///
 /// # Errors
 /// Files that cannot be written, or that belong to another study.
-pub fn run(task: &impl Task, plan: &Plan, seen: &mut dyn FnMut(u64, &[Cell])) -> Result<Ended> {
+pub fn run(
+    task: &impl RowSource,
+    plan: &Plan,
+    seen: &mut dyn FnMut(u64, &[Cell]),
+) -> Result<RunEnd> {
     heed_signals();
     let mut header = task.header();
     header.shard = plan.shard;
@@ -131,7 +135,7 @@ pub fn run(task: &impl Task, plan: &Plan, seen: &mut dyn FnMut(u64, &[Cell])) ->
     }
     bar.finish_and_clear();
     busy::end();
-    Ok(Ended { rows: done, of })
+    Ok(RunEnd { rows: done, of })
 }
 
 /// A bar on standard error; hidden if that is not a terminal.

@@ -14,10 +14,10 @@ const GROWTH: f64 = 10.0;
 /// Most steps of Newton's method to one minimum.
 const MOST_STEPS: usize = 200;
 /// Half the square of Newton's decrement at which a minimum counts as reached.
-const REACHED: f64 = 1e-6;
+const MINIMUM_DECREMENT: f64 = 1e-6;
 
 /// The same where rounding stops the descent. It is large against rounding, but hardly widens the gap.
-const LOST: f64 = 1e-2;
+const ROUNDING_DECREMENT: f64 = 1e-2;
 
 /// A constraint.
 #[derive(Clone, Debug)]
@@ -30,7 +30,7 @@ pub(super) enum Bound {
 
 /// The problem.
 #[derive(Clone, Debug)]
-pub(super) struct Problem {
+pub(super) struct QuadraticProgram {
     /// H, row by row.
     pub(super) curvature: Vec<Vec<f64>>,
     /// g.
@@ -68,7 +68,7 @@ impl Bound {
     }
 }
 
-impl Problem {
+impl QuadraticProgram {
     /// f.
     pub(super) fn value(&self, x: &[f64]) -> f64 {
         let rows = self.curvature.iter().zip(x).zip(&self.slope);
@@ -145,7 +145,7 @@ impl Problem {
         let mut height = self.height(s, &x)?;
         for _ in 0..MOST_STEPS {
             let (step, falls) = self.step(s, &x)?;
-            if falls <= REACHED {
+            if falls <= MINIMUM_DECREMENT {
                 return Some(x);
             }
             let mut share = 1.0;
@@ -161,7 +161,7 @@ impl Problem {
                 share *= 0.5;
                 if share < 1e-12 {
                     // The gain of the step is lost in the rounding of the height.
-                    return (falls < LOST).then_some(x);
+                    return (falls < ROUNDING_DECREMENT).then_some(x);
                 }
             }
         }
@@ -171,7 +171,7 @@ impl Problem {
 
 #[cfg(test)]
 mod tests {
-    use super::{Bound, Problem};
+    use super::{Bound, QuadraticProgram};
 
     /// The point of a disc of radius 1 nearest to (3, 4): a cone with two unknowns fixed at 1.
     #[test]
@@ -184,7 +184,7 @@ mod tests {
             Bound::Linear(1.0, vec![(0, 1.0)]),
             Bound::Linear(1.0, vec![(3, 1.0)]),
         ];
-        let problem = Problem {
+        let problem = QuadraticProgram {
             curvature,
             slope: vec![0.0, -6.0, -8.0, 0.0],
             bounds,
@@ -206,7 +206,7 @@ mod tests {
             Bound::Linear(-2.0, vec![(0, -1.0), (1, -2.0)]),
             Bound::Linear(-2.0, vec![(0, -2.0), (1, -1.0)]),
         ];
-        let problem = Problem {
+        let problem = QuadraticProgram {
             curvature: vec![vec![0.0; 2]; 2],
             slope: vec![1.0; 2],
             bounds,

@@ -6,14 +6,16 @@ use jred_analysis::duty::{Duty, Instant, Sampling};
 use jred_file::model::coordinate::positions;
 use jred_file::model::machine::MachineFile;
 
-use super::{Counterweight, Fault, Goal, POSITIONS, ROUNDING, Request, largest};
+use super::{
+    BalanceError, BalanceGoal, BalanceRequest, Counterweight, POSITIONS, ROUNDING, largest,
+};
 
 /// How much finer the motion is sampled for the peak. With other bodies the peak moves, also between the instants, where it is higher by the square
 /// of a step.
 const FINER: usize = 10;
 
 /// The quantity to minimise, at each sample: a base and a column for each unknown.
-pub(super) struct Rows {
+pub(super) struct DesignMatrix {
     /// Weights of the samples in the mean.
     pub(super) weights: Vec<f64>,
     /// Without the unknowns.
@@ -27,7 +29,7 @@ pub(super) struct Rows {
 }
 
 /// A sample: a position and the motion of the machine there.
-struct Place {
+struct MotionSample {
     weight: f64,
     phi: f64,
     omega: f64,
@@ -35,8 +37,8 @@ struct Place {
     value: f64,
 }
 
-impl Rows {
-    pub(super) fn new(file: &MachineFile, request: &Request) -> Result<Self, Fault> {
+impl DesignMatrix {
+    pub(super) fn new(file: &MachineFile, request: &BalanceRequest) -> Result<Self, BalanceError> {
         let places = places(file, request)?;
         let mechanism = file.machine.mechanism();
         let elements: Vec<&Element> = (request.springs.iter())
@@ -76,7 +78,7 @@ impl Rows {
             rows.base.push(base);
             rows.weights.push(place.weight);
         }
-        if request.goal == Goal::Inertia {
+        if request.goal == BalanceGoal::Inertia {
             rows.deviate();
         }
         rows.forget_roundings(request);
@@ -84,7 +86,7 @@ impl Rows {
     }
 
     /// Clears columns in which even the largest counterweight changes nothing beyond rounding.
-    fn forget_roundings(&mut self, request: &Request) {
+    fn forget_roundings(&mut self, request: &BalanceRequest) {
         let units = request.counterweights.iter().flat_map(Counterweight::most);
         for (column, unit) in self.columns.iter_mut().zip(units) {
             if largest(column) * unit <= ROUNDING * self.largest {
@@ -117,17 +119,21 @@ pub(super) fn product(weights: &[f64], a: &[f64], b: &[f64]) -> f64 {
 }
 
 /// The samples at which the machine is evaluated.
-fn places(file: &MachineFile, request: &Request) -> Result<Vec<Place>, Fault> {
-    if matches!(request.goal, Goal::Rms | Goal::Peak) {
-        let motion = file.motion.as_ref().ok_or(Fault::NoMotion)?;
-        let finer = if request.goal == Goal::Peak { FINER } else { 1 };
+fn places(file: &MachineFile, request: &BalanceRequest) -> Result<Vec<MotionSample>, BalanceError> {
+    if matches!(request.goal, BalanceGoal::Rms | BalanceGoal::Peak) {
+        let motion = file.motion.as_ref().ok_or(BalanceError::NoMotion)?;
+        let finer = if request.goal == BalanceGoal::Peak {
+            FINER
+        } else {
+            1
+        };
         let sampling = Sampling {
             steps: finer * request.sampling.steps,
             ..request.sampling
         };
         let duty = Duty::new(file, motion, sampling)?;
         let train = file.train_inertia();
-        let place = |i: &Instant| Place {
+        let place = |i: &Instant| MotionSample {
             weight: i.weight / duty.duration,
             phi: i.phi,
             omega: i.omega,
@@ -139,13 +145,13 @@ fn places(file: &MachineFile, request: &Request) -> Result<Vec<Place>, Fault> {
     let domain = file.machine.domain();
     let place = |phi: f64| {
         let reduction = file.machine.bare_reduction(phi).map_err(Error::from)?;
-        Ok(Place {
+        Ok(MotionSample {
             weight: 1.0 / POSITIONS as f64,
             phi,
             omega: 0.0,
             alpha: 0.0,
             value: match request.goal {
-                Goal::Inertia => reduction.inertia,
+                BalanceGoal::Inertia => reduction.inertia,
                 _ => -reduction.load_torque(),
             },
         })
@@ -156,15 +162,15 @@ fn places(file: &MachineFile, request: &Request) -> Result<Vec<Place>, Fault> {
 /// Effect of one unit of m, S_u, S_v and Θ of a body on a link.
 fn parts(
     file: &MachineFile,
-    goal: Goal,
+    goal: BalanceGoal,
     link: usize,
     frames: &Frames,
-    place: &Place,
-) -> Result<[f64; 4], Fault> {
+    place: &MotionSample,
+) -> Result<[f64; 4], BalanceError> {
     let Some(frame) = frames.get(link) else {
         return Ok([0.0; 4]);
     };
-    let of = |mass: f64, com: [f64; 2], inertia: f64| -> Result<f64, Fault> {
+    let of = |mass: f64, com: [f64; 2], inertia: f64| -> Result<f64, BalanceError> {
         let body = if mass == 0.0 {
             Link::rotor(inertia)
         } else {
@@ -174,9 +180,9 @@ fn parts(
         let [j, slope, _] = body.reduced_inertia(frame);
         let [_, potential_slope] = body.potential_energy(frame, file.machine.gravity());
         Ok(match goal {
-            Goal::Inertia => j,
-            Goal::Holding => potential_slope,
-            Goal::Rms | Goal::Peak => {
+            BalanceGoal::Inertia => j,
+            BalanceGoal::Holding => potential_slope,
+            BalanceGoal::Rms | BalanceGoal::Peak => {
                 j * place.alpha + 0.5 * slope * place.omega * place.omega + potential_slope
             }
         })

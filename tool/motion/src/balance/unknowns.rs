@@ -4,9 +4,9 @@ use jred::machine::Element;
 use jred_file::model::machine::MachineFile;
 use jred_file::model::with_mass::AttachedMass;
 
-use super::barrier::{Bound, Problem};
-use super::rows::{Rows, product};
-use super::{Counterweight, Fault, Goal, Request, largest};
+use super::barrier::{Bound, QuadraticProgram};
+use super::rows::{DesignMatrix, product};
+use super::{BalanceError, BalanceGoal, BalanceRequest, Counterweight, largest};
 
 /// Largest torque of an unknown, in terms of the machine's largest torque: it bounds springs, whose stiffness is otherwise unbounded where
 /// they have no effect.
@@ -16,7 +16,7 @@ const MOST_TORQUE: f64 = 1e3;
 const MOST_FREE: f64 = 3.0;
 
 /// Share of the goal below which a change is ignored.
-const NOTHING: f64 = 1e-5;
+const IGNORED_CHANGE: f64 = 1e-5;
 
 /// Gap at which the search ends, as a share of the square (or of the peak) without counterweights and springs.
 const GAP: f64 = 1e-13;
@@ -28,12 +28,12 @@ const PEAK_GAP: f64 = 1e-7;
 const MOST_ROUNDS: usize = 100;
 
 /// The goal and the unknowns, each in its own unit.
-struct Scaled {
+struct ScaledProblem {
     base: Vec<f64>,
     columns: Vec<Vec<f64>>,
 }
 
-impl Scaled {
+impl ScaledProblem {
     fn values(&self, x: &[f64]) -> Vec<f64> {
         let mut values = self.base.clone();
         for (column, x) in self.columns.iter().zip(x) {
@@ -54,20 +54,20 @@ fn highest(values: &[f64], bound: f64) -> Vec<usize> {
 }
 
 /// Penalty for a body as large as allowed, or a spring as stiff as allowed, relative to the torque that it relieves.
-const DISLIKE: f64 = 1e-10;
+const SIZE_PENALTY: f64 = 1e-10;
 
 /// A length below this share of its reference length is residue of the search and becomes zero.
-const ROUNDED: f64 = 1e-6;
+const LENGTH_RESIDUE: f64 = 1e-6;
 
 /// Bodies and springs, in the order of the request; `None`: no body or spring.
-pub(super) struct Made {
+pub(super) struct BalanceParts {
     pub(super) masses: Vec<Option<AttachedMass>>,
     pub(super) springs: Vec<Option<Element>>,
 }
 
 /// The unknowns and their units: x is p divided by its unit.
 pub(super) struct Unknowns<'a> {
-    request: &'a Request,
+    request: &'a BalanceRequest,
     units: Vec<f64>,
     /// Largest free length or free angle of each spring; `None`: unbounded in both directions.
     free: Vec<Option<f64>>,
@@ -77,10 +77,10 @@ pub(super) struct Unknowns<'a> {
 impl<'a> Unknowns<'a> {
     pub(super) fn new(
         file: &MachineFile,
-        request: &'a Request,
-        rows: &Rows,
+        request: &'a BalanceRequest,
+        rows: &DesignMatrix,
         scale: f64,
-    ) -> Result<Self, Fault> {
+    ) -> Result<Self, BalanceError> {
         let most: Vec<f64> = rows.columns.iter().map(|c| largest(c)).collect();
         let bodies = request.counterweights.iter();
         let mut units: Vec<f64> = bodies.flat_map(Counterweight::most).collect();
@@ -92,7 +92,7 @@ impl<'a> Unknowns<'a> {
             .zip(&units)
             .fold(0.0, |m: f64, (c, u)| m.max(c * u));
         if effect <= 1e-9 * scale {
-            return Err(Fault::NoEffect);
+            return Err(BalanceError::NoEffect);
         }
         let found = request.springs.iter().filter_map(|k| file.elements.get(*k));
         let springs: Vec<Element> = found.map(|named| named.element).collect();
@@ -107,15 +107,20 @@ impl<'a> Unknowns<'a> {
     }
 
     /// The best x, and a lower bound of the minimum in terms of `scale` or its square.
-    pub(super) fn least(&self, goal: Goal, rows: &Rows, scale: f64) -> (Vec<f64>, f64) {
-        let scaled = Scaled {
+    pub(super) fn least(
+        &self,
+        goal: BalanceGoal,
+        rows: &DesignMatrix,
+        scale: f64,
+    ) -> (Vec<f64>, f64) {
+        let scaled = ScaledProblem {
             base: rows.base.iter().map(|v| v / scale).collect(),
             columns: (rows.columns.iter().zip(&self.units))
                 .map(|(column, unit)| column.iter().map(|v| v * unit / scale).collect())
                 .collect(),
         };
         match goal {
-            Goal::Peak => self.least_peak(&scaled),
+            BalanceGoal::Peak => self.least_peak(&scaled),
             _ => self.least_squares(&scaled, &rows.weights),
         }
     }
@@ -123,22 +128,22 @@ impl<'a> Unknowns<'a> {
     /// Penalty of each unknown. Of several equal optima it selects the lightest body and the softest spring.
     fn dislike(&self) -> impl Iterator<Item = f64> {
         let bodies = self.request.counterweights.iter();
-        let bodies = bodies.flat_map(|_| [DISLIKE, 0.0, 0.0, DISLIKE]);
+        let bodies = bodies.flat_map(|_| [SIZE_PENALTY, 0.0, 0.0, SIZE_PENALTY]);
         let springs = self.springs.iter();
-        bodies.chain(springs.flat_map(|_| [DISLIKE / MOST_TORQUE, 0.0]))
+        bodies.chain(springs.flat_map(|_| [SIZE_PENALTY / MOST_TORQUE, 0.0]))
     }
 
     /// Largest possible penalty.
     fn most_disliked(&self) -> f64 {
-        DISLIKE * (2 * self.request.counterweights.len() + self.springs.len()) as f64
+        SIZE_PENALTY * (2 * self.request.counterweights.len() + self.springs.len()) as f64
     }
 
-    fn least_squares(&self, scaled: &Scaled, weights: &[f64]) -> (Vec<f64>, f64) {
+    fn least_squares(&self, scaled: &ScaledProblem, weights: &[f64]) -> (Vec<f64>, f64) {
         let (bounds, start) = self.bounds();
-        let Scaled { base, columns } = scaled;
+        let ScaledProblem { base, columns } = scaled;
         let weighted = |a: &[f64], b: &[f64]| 2.0 * product(weights, a, b);
         let row = |a: &Vec<f64>| columns.iter().map(|b| weighted(a, b)).collect();
-        let problem = Problem {
+        let problem = QuadraticProgram {
             curvature: columns.iter().map(row).collect(),
             slope: (columns
                 .iter()
@@ -156,10 +161,10 @@ impl<'a> Unknowns<'a> {
 
     /// The peak is one more unknown, which no torque may exceed. At first only a few samples are constrained; samples that exceed the peak are added
     /// in rounds. The minimum over some samples is a lower bound for all.
-    fn least_peak(&self, scaled: &Scaled) -> (Vec<f64>, f64) {
+    fn least_peak(&self, scaled: &ScaledProblem) -> (Vec<f64>, f64) {
         let n = self.units.len();
         let (bounds, start) = self.bounds();
-        let mut problem = Problem {
+        let mut problem = QuadraticProgram {
             curvature: vec![vec![0.0; n + 1]; n + 1],
             slope: self.dislike().collect(),
             bounds,
@@ -227,7 +232,11 @@ impl<'a> Unknowns<'a> {
     }
 
     /// Bodies and springs of a point x.
-    pub(super) fn made(&self, x: &[f64], rows: &Rows) -> Result<Made, Fault> {
+    pub(super) fn made(
+        &self,
+        x: &[f64],
+        rows: &DesignMatrix,
+    ) -> Result<BalanceParts, BalanceError> {
         let p: Vec<f64> = x
             .iter()
             .zip(&self.units)
@@ -246,7 +255,7 @@ impl<'a> Unknowns<'a> {
                     .sum::<f64>()
             };
             let most = (0..rows.base.len()).fold(0.0, |most: f64, k| most.max(effect(k).abs()));
-            most > NOTHING * largest(&rows.base)
+            most > IGNORED_CHANGE * largest(&rows.base)
         };
         let masses = counterweights
             .zip(bodies.chunks(4))
@@ -261,7 +270,7 @@ impl<'a> Unknowns<'a> {
             }
             // A free length that is small against the spring is residue of the search.
             let free = preload / k;
-            let free = if free.abs() < ROUNDED * longest {
+            let free = if free.abs() < LENGTH_RESIDUE * longest {
                 0.0
             } else {
                 free
@@ -274,12 +283,12 @@ impl<'a> Unknowns<'a> {
             };
             spring
                 .map(Some)
-                .map_err(|error| Fault::Machine(error.into()))
+                .map_err(|error| BalanceError::Machine(error.into()))
         };
         let pairs = self.springs.iter().zip(&rows.longest);
         let pairs = pairs.zip(springs.chunks(2));
         let pairs = pairs.zip(rows.columns[bodies.len()..].chunks(2));
-        Ok(Made {
+        Ok(BalanceParts {
             masses,
             springs: pairs
                 .map(|((spring, p), columns)| made(spring, p, columns))
@@ -317,7 +326,7 @@ fn body(bound: &Counterweight, columns: &[Vec<f64>], p: &[f64]) -> Option<Attach
     // A coordinate that is small against the reach is residue of the search.
     let coordinate = |moment: f64| {
         let at = moment / mass;
-        if at.abs() < ROUNDED * bound.reach {
+        if at.abs() < LENGTH_RESIDUE * bound.reach {
             0.0
         } else {
             at

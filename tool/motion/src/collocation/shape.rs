@@ -5,12 +5,12 @@
 
 /// g(u) with g(0) = 0 and g(1) = 1, in cubic pieces.
 #[derive(Clone, Debug)]
-pub(crate) struct Shape {
+pub(crate) struct Parametrization {
     /// Start of each piece, and its Taylor series there.
     pieces: Vec<(f64, [f64; 4])>,
 }
 
-impl Shape {
+impl Parametrization {
     /// A path whose ends are at rest or not, with ramps of the acceleration over a share of u (0: no ramp).
     pub(crate) fn new(rest: [bool; 2], ramp: f64) -> Self {
         Self::with_ramps(rest, [ramp; 2], &[])
@@ -136,14 +136,14 @@ fn rise(passes: &[[f64; 2]]) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::Shape;
+    use super::Parametrization;
 
     /// Every path goes from 0 to 1, rises, has no slope at rest, and with ramps no second derivative there.
     #[test]
     fn ends_are_as_asked() {
         for rest in [[true, true], [true, false], [false, true], [false, false]] {
             for ramp in [0.0, 0.1, 0.3] {
-                let shape = Shape::new(rest, ramp);
+                let shape = Parametrization::new(rest, ramp);
                 let [first, last] = [0.0, 1.0].map(|u| shape.at(u));
                 assert!(first[0].abs() < 1e-15 && (last[0] - 1.0).abs() < 1e-15);
                 for (end, rest) in [first, last].into_iter().zip(rest) {

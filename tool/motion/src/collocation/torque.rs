@@ -3,7 +3,7 @@
 //! The torque is piecewise linear in the load R at the drive link. It bends where the power at a stage changes direction. Newton's method needs a
 //! second derivative there, so the torque is averaged over R ± r, which makes each bend a parabola.
 
-use crate::way::{Demand, Place, Way};
+use crate::path_dynamics::{Demand, PathDynamics, Place};
 
 /// The torque for a place, a speed and an acceleration.
 #[derive(Clone, Copy, Debug, Default)]
@@ -21,16 +21,21 @@ pub(crate) struct Torque {
 }
 
 /// Relative difference below which two slopes count as equal.
-pub(crate) const STRAIGHT: f64 = 1e-9;
+pub(crate) const SLOPE_TOLERANCE: f64 = 1e-9;
 
 /// Most bends in one range. Without it, loads so large that their last digits exceed the range would show any number.
 const MOST_BENDS: u32 = 8;
 
 impl Torque {
     /// Without rounding.
-    pub(crate) fn exact(way: &Way, place: &Place, speed: f64, acceleration: f64) -> Self {
+    pub(crate) fn exact(
+        dynamics: &PathDynamics,
+        place: &Place,
+        speed: f64,
+        acceleration: f64,
+    ) -> Self {
         Self::of(place, acceleration, |place| {
-            way.demand(place, speed, acceleration)
+            dynamics.demand(place, speed, acceleration)
         })
     }
 
@@ -63,13 +68,13 @@ impl Torque {
 
     /// Averaged over the loads R ± `range`.
     pub(crate) fn rounded(
-        way: &Way,
+        dynamics: &PathDynamics,
         place: &Place,
         [speed, acceleration]: [f64; 2],
         range: f64,
     ) -> Self {
         Self::rounded_of(place, acceleration, range, |place| {
-            way.demand(place, speed, acceleration)
+            dynamics.demand(place, speed, acceleration)
         })
     }
 
@@ -92,7 +97,7 @@ impl Torque {
         };
         let [low, high] = [-range, range].map(at);
         let rise = high.by_load - low.by_load;
-        if rise <= STRAIGHT * high.by_load {
+        if rise <= SLOPE_TOLERANCE * high.by_load {
             return Self {
                 value: 0.5 * (low.value + high.value),
                 ..low
@@ -120,7 +125,7 @@ fn mean(
     let [low, high] = ends;
     let width = to - from;
     let rise = high.by_load - low.by_load;
-    if rise <= STRAIGHT * high.by_load {
+    if rise <= SLOPE_TOLERANCE * high.by_load {
         return [0.5 * (low.value + high.value), low.by_acceleration];
     }
     // Intersection of the two lines.
@@ -128,7 +133,7 @@ fn mean(
     let right = width - left;
     let corner = low.value + low.by_load * left;
     let between = at(from + left);
-    let [first, last] = if bends > 1 && between.value > corner + STRAIGHT * rise * width {
+    let [first, last] = if bends > 1 && between.value > corner + SLOPE_TOLERANCE * rise * width {
         [
             mean([from, from + left], [low, between], at, bends - 1),
             mean([from + left, to], [between, high], at, bends - 1),
@@ -145,7 +150,7 @@ fn mean(
 #[cfg(test)]
 mod tests {
     use super::Torque;
-    use crate::way::{Demand, Place};
+    use crate::path_dynamics::{Demand, Place};
 
     /// Slopes by the load, with their offsets: two bends, at loads of 0 and 1, as of a motor behind two lossy stages.
     const LINES: [[f64; 2]; 3] = [[0.6, 0.0], [1.0, 0.0], [1.5, -0.5]];

@@ -4,7 +4,7 @@ use jred::machine::motion::State;
 
 use super::NoMotion;
 use super::field::Field;
-use super::sweep::Piece;
+use super::sweep::SweepPiece;
 use super::track::{Ends, Survey, Track};
 use crate::trace::{Node, Trace};
 
@@ -25,13 +25,13 @@ const GRID: f64 = 1024.0;
 const FEWEST_IN_STEP: f64 = 16.0;
 
 /// Share of a cell within which two places count as one.
-const SAME: f64 = 1e-12;
+const PLACE_TOLERANCE: f64 = 1e-12;
 
 /// Most Newton steps to a place.
 const MOST_TRIALS: u32 = 6;
 
 /// Share of the allowed excess that is used at the checked places.
-const KEPT: f64 = 0.75;
+const USED_EXCESS: f64 = 0.75;
 
 /// Rounding errors of a speed, in units of the last place, by which the sweep may miss it.
 const ROUNDINGS: f64 = 1e4;
@@ -54,10 +54,10 @@ fn felt(a: &Node, b: &Node, share: f64, roundings: f64) -> State<f64> {
 }
 
 /// Rounding errors of a speed within a sweep: of a step that was integrated, not cut where two curves meet.
-const MADE: f64 = 64.0;
+const STEP_ROUNDINGS: f64 = 64.0;
 
 /// Where the limits leave no acceleration on a motion.
-pub(super) struct Closed {
+pub(super) struct BlockedMotion {
     /// The first such place, as an error.
     pub(super) why: NoMotion,
     /// Distances at which cells must be split so that the machine is known better there.
@@ -82,7 +82,7 @@ fn passes(near: f64, f: impl Fn(f64) -> [f64; 2]) -> f64 {
 }
 
 fn is_near(x: f64, other: f64, length: f64) -> bool {
-    (x - other).abs() <= SAME * length
+    (x - other).abs() <= PLACE_TOLERANCE * length
 }
 
 /// Limits must leave an acceleration everywhere on the path: below the speeds where they do, the motion may have come from above.
@@ -93,14 +93,14 @@ pub(super) fn check(
     field: &Field,
     ends: &Ends,
     track: &Track,
-    pieces: &[Piece],
-) -> Result<(), Box<Closed>> {
+    pieces: &[SweepPiece],
+) -> Result<(), Box<BlockedMotion>> {
     if !field.may_be_empty() {
         return Ok(());
     }
     let forces = field.limits.forces.is_some();
-    let mut closed: Option<Closed> = None;
-    for Piece { cell, step, .. } in pieces {
+    let mut closed: Option<BlockedMotion> = None;
+    for SweepPiece { cell, step, .. } in pieces {
         let cell = &track.cells[*cell];
         for end in [0, 1] {
             let (place, z) = (cell.spot(step.u[end]), step.z[end]);
@@ -114,7 +114,7 @@ pub(super) fn check(
             if low <= high + known {
                 continue;
             }
-            let found = closed.get_or_insert_with(|| Closed {
+            let found = closed.get_or_insert_with(|| BlockedMotion {
                 why: NoMotion::empty(field, &place, z),
                 places: Vec::new(),
             });
@@ -135,12 +135,12 @@ pub(super) fn check(
 pub(super) fn largest_excess(
     survey: &Survey,
     ends: &Ends,
-    (track, pieces): (&Track, &[Piece]),
+    (track, pieces): (&Track, &[SweepPiece]),
     trace: &Trace,
     within: f64,
 ) -> Result<((f64, f64), Vec<f64>), NoMotion> {
     let field = survey.field;
-    let direction = field.way.direction;
+    let direction = field.dynamics.direction;
     let mut largest = (0.0_f64, ends.from);
     let mut places = Vec::new();
     if within.is_infinite() {
@@ -180,16 +180,16 @@ pub(super) fn largest_excess(
             };
             let own = excess(state.alpha);
             most = most.max(own);
-            if own > KEPT * within {
-                curable = curable.max(excess(felt(a, b, share, MADE).alpha));
+            if own > USED_EXCESS * within {
+                curable = curable.max(excess(felt(a, b, share, STEP_ROUNDINGS).alpha));
             }
         }
         if most > largest.0 {
             largest = (most, a.phi);
         }
-        if curable > KEPT * within {
+        if curable > USED_EXCESS * within {
             // The error falls with the third power of the step.
-            let parts = (curable / (KEPT * within))
+            let parts = (curable / (USED_EXCESS * within))
                 .cbrt()
                 .ceil()
                 .clamp(2.0, MOST_PARTS) as usize;

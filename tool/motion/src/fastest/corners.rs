@@ -14,7 +14,7 @@ use super::joint_force::JointForce;
 const PLACES: f64 = 360.0;
 
 /// Share of its largest value below which the friction of a load vanishes.
-const NOTHING: f64 = 1e-6;
+const ZERO_FRICTION: f64 = 1e-6;
 
 /// Share of its largest value: if the slope of a limited force by the acceleration falls below it, cells may not cross that place.
 const SINKS: f64 = 0.3;
@@ -23,7 +23,7 @@ const SINKS: f64 = 0.3;
 const CHANGES: u32 = 61;
 
 /// Share of its largest value by which a quantity must change to count as changing.
-const SAME: f64 = 1e-12;
+const LEAST_CHANGE: f64 = 1e-12;
 
 /// Distances from the start, inside the path, at which the machine is not smooth.
 ///
@@ -33,7 +33,7 @@ const SAME: f64 = 1e-12;
 /// # Errors
 /// The mechanism cannot be placed somewhere on the path.
 pub fn corners(field: &Field, from: f64, length: f64) -> Result<Vec<f64>, Error> {
-    let turns = field.way.file.machine.domain() == Domain::Turn;
+    let turns = field.dynamics.file.machine.domain() == Domain::Turn;
     let mut found: Vec<f64> = edges(field, from);
     found.extend(reversals(field, from, length)?);
     found.extend(of_tool(field, from)?);
@@ -56,7 +56,7 @@ pub fn corners(field: &Field, from: f64, length: f64) -> Result<Vec<f64>, Error>
 
 /// Number of corners of one turn, or of a stroke, that the machine itself names.
 pub fn count(field: &Field) -> usize {
-    let machine = &field.way.file.machine;
+    let machine = &field.dynamics.file.machine;
     (0..).map_while(|k| machine.edge(k)).count()
 }
 
@@ -66,17 +66,18 @@ pub fn count(field: &Field) -> usize {
 /// The mechanism cannot be placed somewhere.
 pub fn changes(field: &Field, from: f64) -> Result<bool, Error> {
     let limited = field.limits.tool.is_some() || field.limits.forces.is_some();
-    if field.way.file.machine.domain() != Domain::Turn || count(field) > 0 || limited {
+    if field.dynamics.file.machine.domain() != Domain::Turn || count(field) > 0 || limited {
         return Ok(true);
     }
-    let torques = field.way.actuator.torques(0.0).map(f64::abs);
-    let torque = torques[0].max(torques[1]) * field.way.motor_speed(1.0);
-    let first = field.way.place(from)?;
+    let torques = field.dynamics.actuator.torques(0.0).map(f64::abs);
+    let torque = torques[0].max(torques[1]) * field.dynamics.motor_speed(1.0);
+    let first = field.dynamics.place(from)?;
     for k in 0..CHANGES {
         let place = field
-            .way
+            .dynamics
             .place(from + TAU * f64::from(k) / f64::from(CHANGES))?;
-        let same = |value: f64, other: f64, scale: f64| (value - other).abs() <= SAME * scale;
+        let same =
+            |value: f64, other: f64, scale: f64| (value - other).abs() <= LEAST_CHANGE * scale;
         let is_same = same(place.inertia, first.inertia, first.inertia)
             && same(place.inertia_slope, 0.0, first.inertia)
             && same(place.load, first.load, torque)
@@ -90,16 +91,16 @@ pub fn changes(field: &Field, from: f64) -> Result<bool, Error> {
 }
 
 fn edges(field: &Field, from: f64) -> Vec<f64> {
-    let machine = &field.way.file.machine;
+    let machine = &field.dynamics.file.machine;
     let edges = (0..).map_while(|k| machine.edge(k));
     edges
-        .map(|phi| (phi - from) * field.way.direction)
+        .map(|phi| (phi - from) * field.dynamics.direction)
         .collect()
 }
 
 /// Ends of the parts in which the tool's speed is limited, and places where the active limit of the drive link's speed changes.
 fn of_tool(field: &Field, from: f64) -> Result<Vec<f64>, Error> {
-    let machine = &field.way.file.machine;
+    let machine = &field.dynamics.file.machine;
     let mechanism = machine.mechanism();
     let (top, _) = field.top();
     let tools = &field.limits.tool;
@@ -128,7 +129,7 @@ fn of_tool(field: &Field, from: f64) -> Result<Vec<f64>, Error> {
         }
     }
     Ok((found.into_iter())
-        .map(|phi| (phi - from) * field.way.direction)
+        .map(|phi| (phi - from) * field.dynamics.direction)
         .collect())
 }
 
@@ -140,13 +141,13 @@ fn lows(
     share: f64,
     quantity: impl Fn(f64) -> Result<f64, Error>,
 ) -> Result<Vec<f64>, Error> {
-    let whole = field.way.file.machine.domain() == Domain::Turn && length > TAU;
+    let whole = field.dynamics.file.machine.domain() == Domain::Turn && length > TAU;
     let length = if whole { TAU } else { length };
     let count = PLACES as usize;
     // A whole turn has no ends, so one place before and one after it is evaluated too.
     let outside = usize::from(whole);
     let place = |k: usize| length * (k as f64 - outside as f64) / PLACES;
-    let at = |x: f64| quantity(from + field.way.direction * x);
+    let at = |x: f64| quantity(from + field.dynamics.direction * x);
     let values: Vec<f64> = (0..=count + 2 * outside)
         .map(|k| at(place(k)))
         .collect::<Result<_, _>>()?;
@@ -178,10 +179,10 @@ fn of_forces(field: &Field, from: f64, length: f64) -> Result<Vec<f64>, Error> {
 
 /// Places where the friction of a load vanishes.
 fn reversals(field: &Field, from: f64, length: f64) -> Result<Vec<f64>, Error> {
-    let file = field.way.file;
+    let file = field.dynamics.file;
     let machine = &file.machine;
     let mut found = Vec::new();
-    for load in file.machine_at(&field.way.now(), from)?.loads() {
+    for load in file.machine_at(&field.dynamics.now(), from)?.loads() {
         let friction = |phi: f64| -> Result<f64, Error> {
             let frames = machine.mechanism().frames(phi)?;
             let frame = frames.get(load.link());
@@ -190,7 +191,7 @@ fn reversals(field: &Field, from: f64, length: f64) -> Result<Vec<f64>, Error> {
         if load.has_fixed_direction() {
             continue;
         }
-        found.extend(lows(field, (from, length), NOTHING, friction)?);
+        found.extend(lows(field, (from, length), ZERO_FRICTION, friction)?);
     }
     Ok(found)
 }

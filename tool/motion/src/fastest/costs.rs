@@ -2,11 +2,11 @@
 
 use jred_file::model::machine::MachineFile;
 
-use super::cycle::Made;
-use super::field::{Binding, Limits};
+use super::cycle::FastestMove;
+use super::field::{Binding, MoveLimits};
 use super::tool_speed::ToolSpeeds;
 use super::{Task, time};
-use crate::way::Actuator;
+use crate::path_dynamics::Actuator;
 
 /// Share by which torque and speed of the motor are raised to measure their cost.
 pub const MORE: f64 = 0.1;
@@ -25,7 +25,7 @@ pub struct Cost {
 pub(super) fn costs(
     file: &MachineFile,
     actuator: &Actuator,
-    made: &Made,
+    made: &FastestMove,
     priced: bool,
 ) -> Vec<Cost> {
     let mut met: Vec<Binding> = Vec::new();
@@ -57,7 +57,7 @@ pub(super) fn costs(
 }
 
 /// Motor and limits without a limit, or with more of the motor's own.
-fn without(actuator: &Actuator, limits: &Limits, limit: Binding) -> (Actuator, Limits) {
+fn without(actuator: &Actuator, limits: &MoveLimits, limit: Binding) -> (Actuator, MoveLimits) {
     let mut actuator = actuator.clone();
     let mut limits = *limits;
     match limit {

@@ -4,20 +4,20 @@ use jred_file::model::machine::MachineFile;
 
 use super::costs::costs;
 pub use super::costs::{Cost, MORE};
-use super::field::Limits;
+use super::field::MoveLimits;
 use super::kept::KeptPart;
 pub use super::motor_load::MotorLoad;
 use super::motor_load::load;
 use super::obstacle::input;
-use super::rms::{Asked, Refused, Rms, slowest, within};
+use super::rms::{Continuation, Rms, RmsError, slowest, within};
 use super::{Fastest, NoMotion, Task, priced, solve};
-use crate::moves::{Move, Part, Passing};
+use crate::moves::{EndStates, Move, Part};
+use crate::path_dynamics::{Actuator, PathDynamics};
 use crate::trace::Trace;
-use crate::way::{Actuator, Way};
 
 /// A move made as fast as possible.
 #[derive(Clone, Debug)]
-pub struct Made {
+pub struct FastestMove {
     /// The task.
     pub task: Task,
     /// Time of the move in the given motion (s); `None`: it was not part of one.
@@ -32,7 +32,7 @@ pub struct Made {
 #[derive(Clone, Debug)]
 pub struct Cycle {
     /// The moves.
-    pub moves: Vec<Made>,
+    pub moves: Vec<FastestMove>,
     /// The whole motion.
     pub trace: Trace,
     /// Duration of the given motion (s).
@@ -72,17 +72,17 @@ impl Cycle {
 pub fn cycle(
     file: &MachineFile,
     actuator: &Actuator,
-    limits: Limits,
+    limits: MoveLimits,
     rms: Option<Rms>,
     parts: &[Part],
 ) -> Result<Cycle, (usize, NoMotion)> {
     let steps = parts.iter().filter_map(Part::step);
     let ways = steps.map(|(step, _)| [step.from, step.to]);
     let slow = slowest(file, actuator, ways).map_err(|why| (0, why.into()))?;
-    let at = |asked: &mut Asked| at_price(file, actuator, &limits, parts, asked);
+    let at = |asked: &mut Continuation| at_price(file, actuator, &limits, parts, asked);
     let found = within(rms, slow, input(file), at).map_err(|why| match why {
-        Refused::Move(why) => why,
-        Refused::Limit(why) => (0, why),
+        RmsError::Move(why) => why,
+        RmsError::Limit(why) => (0, why),
     });
     found.map(Cycle::priced)
 }
@@ -90,12 +90,12 @@ pub fn cycle(
 fn at_price(
     file: &MachineFile,
     actuator: &Actuator,
-    limits: &Limits,
+    limits: &MoveLimits,
     parts: &[Part],
-    asked: &mut Asked,
+    asked: &mut Continuation,
 ) -> Result<Cycle, (usize, NoMotion)> {
     let start = parts.first().map_or(0.0, Part::from);
-    let coordinate = Way::new(file, actuator.clone(), 1.0).coordinate();
+    let coordinate = PathDynamics::new(file, actuator.clone(), 1.0).coordinate();
     let mut trace = Trace::from_rest(coordinate, start);
     let mut moves = Vec::new();
     let mut dwells = 0.0;
@@ -113,7 +113,8 @@ fn at_price(
                 kept.push(part);
             }
             Part::Move(step) | Part::Passing(step, _) => {
-                let Passing { speeds, .. } = part.step().map(|(_, ends)| ends).unwrap_or_default();
+                let EndStates { speeds, .. } =
+                    part.step().map(|(_, ends)| ends).unwrap_or_default();
                 let task = Task {
                     from: step.from,
                     to: step.to,
@@ -157,7 +158,7 @@ pub fn single(
     task: Task,
     rms: Option<Rms>,
 ) -> Result<Cycle, NoMotion> {
-    let at = |asked: &mut Asked| -> Result<Cycle, NoMotion> {
+    let at = |asked: &mut Continuation| -> Result<Cycle, NoMotion> {
         let made = make(file, actuator, &task, None, asked, 0)?;
         let trace = made.fastest.trace.clone();
         Ok(Cycle {
@@ -172,7 +173,7 @@ pub fn single(
     };
     let slow = slowest(file, actuator, [[task.from, task.to]])?;
     let found = within(rms, slow, input(file), at).map_err(|why| match why {
-        Refused::Move(why) | Refused::Limit(why) => why,
+        RmsError::Move(why) | RmsError::Limit(why) => why,
     });
     found.map(Cycle::priced)
 }
@@ -184,7 +185,7 @@ pub fn single(
 pub fn endless(
     file: &MachineFile,
     actuator: &Actuator,
-    limits: Limits,
+    limits: MoveLimits,
     step: &Move,
 ) -> Result<Cycle, NoMotion> {
     let task = Task {
@@ -199,7 +200,7 @@ pub fn endless(
         actuator,
         &task,
         Some(step.duration),
-        &mut Asked::default(),
+        &mut Continuation::default(),
         0,
     )?;
     let trace = made.fastest.trace.clone();
@@ -222,9 +223,9 @@ fn make(
     actuator: &Actuator,
     task: &Task,
     before: Option<f64>,
-    asked: &mut Asked,
+    asked: &mut Continuation,
     number: usize,
-) -> Result<Made, NoMotion> {
+) -> Result<FastestMove, NoMotion> {
     let fastest = match asked.price {
         None => solve(file, actuator, task)?,
         Some(price) => {
@@ -233,7 +234,7 @@ fn make(
             fastest
         }
     };
-    Ok(Made {
+    Ok(FastestMove {
         costs: Vec::new(),
         task: *task,
         before,

@@ -5,18 +5,18 @@
 
 use jred_file::model::machine::MachineFile;
 
-use super::course::Course;
 use super::field::Field;
-use super::{Fastest, NoMotion, Task, way};
+use super::path_search::PathSearch;
+use super::{Fastest, NoMotion, Task, dynamics};
+use crate::path_dynamics::Actuator;
 use crate::trace::Trace;
-use crate::way::Actuator;
 
 /// Most turns until the speed repeats: first successive turns, then bisection between speeds that are too fast and speeds that are not.
 const TURNS: u32 = 200;
 const FALLS: u32 = 12;
 
 /// Relative difference of the speeds at the two ends at which the search stops.
-const SAME: f64 = 1e-10;
+const SPEED_TOLERANCE: f64 = 1e-10;
 
 /// Shares of the speed by which finer cells may slow the turn.
 const FINER: [f64; 4] = [1e-10, 1e-9, 1e-8, 1e-7];
@@ -31,20 +31,23 @@ pub(super) fn solve(
     task: &Task,
     within: f64,
 ) -> Result<Fastest, NoMotion> {
-    let way = way(file, actuator, task)?;
+    let dynamics = dynamics(file, actuator, task)?;
     let limits = task.limits;
-    let field = Field { way: &way, limits };
+    let field = Field {
+        dynamics: &dynamics,
+        limits,
+    };
     let (top, _) = field.top();
     if !top.is_finite() {
         return Err(NoMotion::NoSpeedLimit);
     }
-    let course = Course::new(&field, task)?;
+    let course = PathSearch::new(&field, task)?;
     let at = |speed: f64, within: f64| course.fastest([speed; 2], within);
     // Bracket: at `high` the speed is too fast to repeat; at `low` it repeats, or the machine stops.
     let (mut high, mut low) = (top, 0.0);
     let mut stopped = None;
     for turn in 0..TURNS {
-        if high - low <= SAME * high {
+        if high - low <= SPEED_TOLERANCE * high {
             break;
         }
         let speed = if turn < FALLS {
@@ -56,8 +59,8 @@ pub(super) fn solve(
             Err(NoMotion::StartTooFast { most, .. } | NoMotion::EndTooFast { most, .. }) => {
                 high = most.min(speed);
                 // The next turn is the same except for rounding.
-                if speed - high <= SAME * speed && turn < FALLS {
-                    (low, stopped) = (high * (1.0 - SAME), None);
+                if speed - high <= SPEED_TOLERANCE * speed && turn < FALLS {
+                    (low, stopped) = (high * (1.0 - SPEED_TOLERANCE), None);
                 }
             }
             Err(why) if turn == 0 => return Err(why),

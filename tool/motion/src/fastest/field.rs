@@ -10,12 +10,12 @@ use super::joint_force::{JointForces, Spot};
 pub use super::reserve::Reserve;
 use super::sweep::Side;
 use super::tool_speed::ToolSpeeds;
-use super::track::Seen;
-use crate::way::{Place, Way};
+use super::track::PathPoint;
+use crate::path_dynamics::{PathDynamics, Place};
 
 /// Limits in addition to the motor's torque-speed curve (SI, at the drive link unless noted); `None`: no limit.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Limits {
+pub struct MoveLimits {
     /// Largest speed (rad/s, or m/s).
     pub speed: Option<f64>,
     /// Largest speeds of the tool in parts of the path.
@@ -40,7 +40,7 @@ pub struct Limits {
     pub reserve: Reserve,
 }
 
-impl Limits {
+impl MoveLimits {
     /// Whether jerk or torque rate is limited.
     pub const fn has_rates(&self) -> bool {
         self.jerk.is_some() || self.torque_rate.is_some()
@@ -142,9 +142,9 @@ impl Binding {
 #[derive(Clone, Debug)]
 pub struct Field<'w, 'a> {
     /// Machine and drive.
-    pub way: &'w Way<'a>,
+    pub dynamics: &'w PathDynamics<'a>,
     /// The other limits.
-    pub limits: Limits,
+    pub limits: MoveLimits,
 }
 
 /// The speed at z = ½·v².
@@ -155,7 +155,7 @@ pub fn speed(z: f64) -> f64 {
 impl Field<'_, '_> {
     /// Whether limits may leave no acceleration at a place and speed: limits of different kinds can conflict.
     pub fn may_be_empty(&self) -> bool {
-        let Limits {
+        let MoveLimits {
             acceleration,
             deceleration,
             gearbox_torque,
@@ -170,7 +170,7 @@ impl Field<'_, '_> {
 
     /// The speed limits. Where two are equal, the first one is reported.
     pub fn speeds(&self) -> impl Iterator<Item = (f64, Binding)> {
-        let per_speed = self.way.motor_speed(1.0);
+        let per_speed = self.dynamics.motor_speed(1.0);
         let limits = &self.limits;
         [
             (Some(self.motor_end() / per_speed), Binding::MotorSpeed),
@@ -189,7 +189,9 @@ impl Field<'_, '_> {
     /// # Errors
     /// The mechanism cannot be placed there.
     pub fn tool_speed(&self, phi: f64) -> Result<f64, Error> {
-        self.limits.tool.at(self.way.file.machine.mechanism(), phi)
+        self.limits
+            .tool
+            .at(self.dynamics.file.machine.mechanism(), phi)
     }
 
     /// The lowest speed limit, and which one it is.
@@ -202,7 +204,7 @@ impl Field<'_, '_> {
     }
 
     pub(super) fn motor_end(&self) -> f64 {
-        let envelope = &self.way.actuator.envelope;
+        let envelope = &self.dynamics.actuator.envelope;
         let ends = [false, true].map(|braking| envelope.limit(braking).end());
         let reserve = &self.limits.reserve;
         let most = envelope.max_speed() * reserve.leaves(reserve.speed);
@@ -211,9 +213,9 @@ impl Field<'_, '_> {
 
     /// The motor's torque at a speed of the drive link. The speed is clamped, so that rounding does not step beyond the largest one.
     fn motor_torque(&self, v: f64, braking: bool) -> f64 {
-        let limit = self.way.actuator.envelope.limit(braking);
+        let limit = self.dynamics.actuator.envelope.limit(braking);
         let reserve = &self.limits.reserve;
-        let torque = limit.torque(self.way.motor_speed(v).min(limit.end()));
+        let torque = limit.torque(self.dynamics.motor_speed(v).min(limit.end()));
         let torque = torque * reserve.leaves(reserve.torque);
         if braking { -torque } else { torque }
     }
@@ -228,10 +230,10 @@ impl Field<'_, '_> {
     pub fn needed_and_given(&self, place: &Place, limit: Binding, braking: bool) -> [f64; 2] {
         if limit == Binding::GearboxTorque {
             let given = self.limits.gearbox_torque.unwrap_or(f64::INFINITY);
-            let needed = self.way.gearbox_demand(place, 0.0, 0.0).torque;
+            let needed = self.dynamics.gearbox_demand(place, 0.0, 0.0).torque;
             return [needed, if braking { -given } else { given }];
         }
-        let needed = self.way.demand(place, 0.0, 0.0).torque;
+        let needed = self.dynamics.demand(place, 0.0, 0.0).torque;
         [needed, self.motor_torque(0.0, braking)]
     }
 
@@ -264,9 +266,12 @@ impl Field<'_, '_> {
     pub fn most_by(&self, place: &Spot, z: f64) -> (f64, Binding) {
         let v = speed(z);
         let torque = self.motor_torque(v, false);
-        let mut most = (self.way.acceleration(place, v, torque), Binding::Driving);
+        let mut most = (
+            self.dynamics.acceleration(place, v, torque),
+            Binding::Driving,
+        );
         if let Some(torque) = self.limits.gearbox_torque {
-            let a = self.way.gearbox_acceleration(place, v, torque);
+            let a = self.dynamics.gearbox_acceleration(place, v, torque);
             most = lower(most, (a, Binding::GearboxTorque));
         }
         if let Some(a) = self.limits.acceleration {
@@ -282,9 +287,12 @@ impl Field<'_, '_> {
     pub fn least_by(&self, place: &Spot, z: f64) -> (f64, Binding) {
         let v = speed(z);
         let torque = self.motor_torque(v, true);
-        let mut least = (self.way.acceleration(place, v, torque), Binding::Braking);
+        let mut least = (
+            self.dynamics.acceleration(place, v, torque),
+            Binding::Braking,
+        );
         if let Some(torque) = self.limits.gearbox_torque {
-            let a = self.way.gearbox_acceleration(place, v, -torque);
+            let a = self.dynamics.gearbox_acceleration(place, v, -torque);
             least = higher(least, (a, Binding::GearboxTorque));
         }
         if let Some(a) = self.limits.deceleration {
@@ -298,12 +306,12 @@ impl Field<'_, '_> {
 
     /// The largest share by which a state (speed and acceleration along the path) exceeds a limit, and which limit; negative if it exceeds none.
     /// Torques are measured by the motor's torque at rest, because the limit itself may be zero.
-    pub fn excess_by(&self, seen: &Seen, v: f64, acceleration: f64) -> (f64, Binding) {
-        let way = self.way;
+    pub fn excess_by(&self, seen: &PathPoint, v: f64, acceleration: f64) -> (f64, Binding) {
+        let dynamics = self.dynamics;
         let place = &seen.place;
         let limits = self.motor_torques(v);
         let scale = self.motor_torques(0.0).map(f64::abs);
-        let torque = way.demand(place, v, acceleration).torque;
+        let torque = dynamics.demand(place, v, acceleration).torque;
         let (top, which) = self.top();
         let share = |value: f64, limit: Option<f64>| {
             limit.map_or(f64::NEG_INFINITY, |limit| value / limit - 1.0)
@@ -311,11 +319,11 @@ impl Field<'_, '_> {
         let gearbox = self.limits.gearbox_torque;
         let gearbox = share(
             gearbox.map_or(0.0, |_| {
-                way.gearbox_demand(place, v, acceleration).torque.abs()
+                dynamics.gearbox_demand(place, v, acceleration).torque.abs()
             }),
             gearbox,
         );
-        let Limits {
+        let MoveLimits {
             acceleration: most,
             deceleration,
             ..
@@ -340,11 +348,11 @@ impl Field<'_, '_> {
     fn part(&self, place: &Place, z: f64, a: f64, limit: Binding) -> u32 {
         let v = speed(z);
         let piece = |braking: bool| {
-            let pieces = self.way.actuator.envelope.limit(braking).pieces();
+            let pieces = self.dynamics.actuator.envelope.limit(braking).pieces();
             if pieces.len() < 2 {
                 return 0;
             }
-            let speed = self.way.motor_speed(v);
+            let speed = self.dynamics.motor_speed(v);
             pieces.iter().take_while(|piece| piece.to < speed).count()
         };
         let (kind, which) = match limit {
@@ -354,7 +362,7 @@ impl Field<'_, '_> {
             Binding::JointForce(joint) => (2, joint),
             _ => (3, 0),
         };
-        let flow = self.way.flow(place, v, a) as u32;
+        let flow = self.dynamics.flow(place, v, a) as u32;
         kind | (which as u32 & 0xff) << 4 | flow << 12
     }
 }

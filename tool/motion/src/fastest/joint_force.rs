@@ -23,8 +23,8 @@ use jred_file::model::schedule::ScheduleInstant;
 use super::NoMotion;
 use super::field::{Field, speed};
 use super::track::Track;
+use crate::path_dynamics::Place;
 use crate::trace::Trace;
-use crate::way::Place;
 
 /// Share of the largest speed that counts as speed zero but keeps the friction of the motion.
 const CREEP: f64 = 1e-100;
@@ -134,7 +134,7 @@ impl JointForce {
 
 /// The largest force that a motion reaches in a limited joint.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Reached {
+pub struct JointForcePeak {
     /// Index of the joint.
     pub joint: usize,
     /// Its limit (N).
@@ -149,7 +149,7 @@ pub struct Reached {
     pub stands: bool,
 }
 
-impl Reached {
+impl JointForcePeak {
     /// Refuses a pause in which the force exceeds its limit.
     ///
     /// # Errors
@@ -193,8 +193,8 @@ pub fn reached(
     file: &MachineFile,
     forces: &JointForces,
     trace: &Trace,
-) -> Result<Vec<Reached>, Error> {
-    let first = |(joint, limit): (usize, f64)| Reached {
+) -> Result<Vec<JointForcePeak>, Error> {
+    let first = |(joint, limit): (usize, f64)| JointForcePeak {
         joint,
         limit,
         force: 0.0,
@@ -202,7 +202,7 @@ pub fn reached(
         t: 0.0,
         stands: false,
     };
-    let mut all: Vec<Reached> = forces.limits().map(first).collect();
+    let mut all: Vec<JointForcePeak> = forces.limits().map(first).collect();
     if all.is_empty() {
         return Ok(all);
     }
@@ -232,7 +232,7 @@ pub fn reached(
                 let force = found.reactions.get(own.joint);
                 let force = force.map_or(0.0, |own| own.force[0].hypot(own.force[1]));
                 if force > own.force {
-                    *own = Reached {
+                    *own = JointForcePeak {
                         force,
                         phi: state.phi,
                         t: a.t + share * b.step,
@@ -303,10 +303,10 @@ impl Field<'_, '_> {
         if !forces.is_some() {
             return Ok(Vec::new());
         }
-        let way = self.way;
-        let machine = way.file.machine_at(&way.now(), phi)?;
+        let dynamics = self.dynamics;
+        let machine = dynamics.file.machine_at(&dynamics.now(), phi)?;
         let reactions = |v: f64, a: f64| {
-            let found = machine.forces(phi, v * way.direction, a * way.direction)?;
+            let found = machine.forces(phi, v * dynamics.direction, a * dynamics.direction)?;
             Ok::<_, Error>(found.reactions)
         };
         // Each term is evaluated where it dominates, so that it is not lost in another term.

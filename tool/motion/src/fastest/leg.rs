@@ -4,7 +4,7 @@ use jred_file::number::quadrature::GAUSS_3;
 
 use super::field::{Field, speed};
 use super::sweep::Side;
-use super::track::Cell;
+use super::track::PathCell;
 
 /// Error of a step as a share of z, from the difference of orders 4 and 3; the real error is much smaller.
 const TOLERANCE: f64 = 1e-10;
@@ -25,7 +25,7 @@ const PART_HALVINGS: u32 = 44;
 const MOST_TRIALS: u32 = 12;
 
 /// Relative error of a step's end with which they stop.
-const CLOSE: f64 = 1e-14;
+const END_TOLERANCE: f64 = 1e-14;
 
 /// A step, in the direction of the motion.
 #[derive(Clone, Copy, Debug)]
@@ -45,21 +45,21 @@ impl Step {
     pub fn time(&self, length: f64) -> f64 {
         self.time.unwrap_or_else(|| {
             let [v0, v1] = self.z.map(speed);
-            let way = (self.u[1] - self.u[0]) * length;
+            let dynamics = (self.u[1] - self.u[0]) * length;
             let (sum, rise) = (v0 + v1, v1 - v0);
             // At the places of constant acceleration, where dx/v is constant.
             let part = |[s, weight]: [f64; 2]| {
                 let place = s * (2.0 * v0 + rise * s) / sum;
-                weight * (v0 + rise * s) / speed(self.hermite(place, way))
+                weight * (v0 + rise * s) / speed(self.hermite(place, dynamics))
             };
-            2.0 * way / sum * GAUSS_3.into_iter().map(part).sum::<f64>()
+            2.0 * dynamics / sum * GAUSS_3.into_iter().map(part).sum::<f64>()
         })
     }
 
     /// z at a share of the step: the cubic through both ends and slopes.
-    pub fn hermite(&self, s: f64, way: f64) -> f64 {
+    pub fn hermite(&self, s: f64, dynamics: f64) -> f64 {
         let [z0, z1] = self.z;
-        let [a0, a1] = self.a.map(|a| a * way);
+        let [a0, a1] = self.a.map(|a| a * dynamics);
         let rise = z1 - z0;
         z0 + s * (a0 + s * (3.0 * rise - 2.0 * a0 - a1 + s * (a0 + a1 - 2.0 * rise)))
     }
@@ -67,7 +67,7 @@ impl Step {
 
 /// Why a leg goes no further than this share of its cell.
 #[derive(Clone, Copy, Debug)]
-pub enum Stalled {
+pub enum Stall {
     /// The motion comes to rest.
     AtRest(f64),
     /// It needs too many steps.
@@ -79,7 +79,7 @@ pub const MOST_STEPS: usize = 1_500_000;
 
 /// A point of a leg: share of the cell, z, slope.
 #[derive(Clone, Copy, Debug)]
-pub struct Point {
+pub struct PhasePoint {
     /// Share of the cell.
     pub u: f64,
     /// z = ½·v².
@@ -91,11 +91,11 @@ pub struct Point {
 }
 
 /// Result of a step: z, its slope with the part of the field, the error, and the duration where it was integrated over time.
-type Made = (f64, (f64, u32), f64, Option<f64>);
+type StepResult = (f64, (f64, u32), f64, Option<f64>);
 
 /// A step from a point.
 #[derive(Clone, Copy)]
-struct One {
+struct FieldStep {
     to: f64,
     z: f64,
     a: f64,
@@ -103,9 +103,9 @@ struct One {
     time: Option<f64>,
 }
 
-impl One {
-    fn end(&self, u: f64) -> Point {
-        Point {
+impl FieldStep {
+    fn end(&self, u: f64) -> PhasePoint {
+        PhasePoint {
             u,
             z: self.z,
             a: self.a,
@@ -114,7 +114,7 @@ impl One {
     }
 
     /// As a step in the direction of the motion.
-    fn step(&self, from: Point) -> Step {
+    fn step(&self, from: PhasePoint) -> Step {
         let end = self.end(self.to);
         let [first, last] = if end.u > from.u {
             [from, end]
@@ -138,7 +138,7 @@ pub struct Leg<'c> {
     /// The largest or the least.
     pub side: Side,
     /// The cell.
-    pub cell: &'c Cell,
+    pub cell: &'c PathCell,
 }
 
 impl Leg<'_> {
@@ -148,28 +148,33 @@ impl Leg<'_> {
     }
 
     /// The point at a share of the cell with this z.
-    pub fn point(&self, u: f64, z: f64) -> Point {
+    pub fn point(&self, u: f64, z: f64) -> PhasePoint {
         let (a, part) = self.field.side_part(self.side, &self.cell.spot(u), z);
-        Point { u, z, a, part }
+        PhasePoint { u, z, a, part }
     }
 
     /// Integrates from a point to a share of the cell, forwards or backwards; adds the steps to `steps` in the order of integration.
     ///
     /// # Errors
     /// The motion comes to rest before, or needs too many steps.
-    pub fn go(&self, from: Point, to: f64, steps: &mut Vec<Step>) -> Result<Point, Stalled> {
+    pub fn go(
+        &self,
+        from: PhasePoint,
+        to: f64,
+        steps: &mut Vec<Step>,
+    ) -> Result<PhasePoint, Stall> {
         self.halved(from, to, 0, steps)
     }
 
     fn halved(
         &self,
-        from: Point,
+        from: PhasePoint,
         to: f64,
         depth: u32,
         steps: &mut Vec<Step>,
-    ) -> Result<Point, Stalled> {
+    ) -> Result<PhasePoint, Stall> {
         if steps.len() > MOST_STEPS {
-            return Err(Stalled::Stiff(from.u));
+            return Err(Stall::Stiff(from.u));
         }
         if let Some((step, error)) = self.one(from, to) {
             let end = step.end(to);
@@ -185,7 +190,7 @@ impl Leg<'_> {
                 return Ok(end);
             }
         } else if depth >= STOPPED {
-            return Err(Stalled::AtRest(from.u));
+            return Err(Stall::AtRest(from.u));
         }
         let middle = from.u.midpoint(to);
         let between = self.halved(from, middle, depth + 1, steps)?;
@@ -193,11 +198,11 @@ impl Leg<'_> {
     }
 
     /// One step with its error: over the position where z changes little, else over time.
-    fn one(&self, from: Point, to: f64) -> Option<(One, f64)> {
+    fn one(&self, from: PhasePoint, to: f64) -> Option<(FieldStep, f64)> {
         let (z, (a, part), error, time) = self
             .over_way(from, to)
             .or_else(|| self.over_time(from, to))?;
-        let one = One {
+        let one = FieldStep {
             to,
             z,
             a,
@@ -208,7 +213,7 @@ impl Leg<'_> {
     }
 
     /// The step to the nearest place in another part of the field, so that steps end where the field bends.
-    fn other_part(&self, from: Point, to: f64) -> Option<One> {
+    fn other_part(&self, from: PhasePoint, to: f64) -> Option<FieldStep> {
         let (mut near, mut far) = (from.u, to);
         let mut found = None;
         for _ in 0..PART_HALVINGS {
@@ -225,7 +230,7 @@ impl Leg<'_> {
     }
 
     /// The classical Runge-Kutta step over the position; `None` where z changes much.
-    fn over_way(&self, from: Point, to: f64) -> Option<Made> {
+    fn over_way(&self, from: PhasePoint, to: f64) -> Option<StepResult> {
         let h = (to - from.u) * self.cell.length;
         if (from.a * h).abs() > STEEP * from.z {
             return None;
@@ -245,18 +250,18 @@ impl Leg<'_> {
     }
 
     /// The same over time, with the duration found by Newton's method; `None` where the motion stops before.
-    fn over_time(&self, from: Point, to: f64) -> Option<Made> {
+    fn over_time(&self, from: PhasePoint, to: f64) -> Option<StepResult> {
         let length = self.cell.length;
         let heading = (to - from.u).signum();
-        let way = (to - from.u).abs() * length;
+        let dynamics = (to - from.u).abs() * length;
         let start = speed(from.z);
         let a0 = heading * from.a;
-        let square = start * start + 2.0 * a0 * way;
+        let square = start * start + 2.0 * a0 * dynamics;
         if square <= 0.0 {
             return None;
         }
         let at = |x: f64, v: f64| heading * self.at(from.u + heading * x / length, 0.5 * v * v);
-        let mut t = 2.0 * way / (start + square.sqrt());
+        let mut t = 2.0 * dynamics / (start + square.sqrt());
         for _ in 0..MOST_TRIALS {
             let half = 0.5 * t;
             let v2 = start + half * a0;
@@ -270,8 +275,8 @@ impl Leg<'_> {
             if v <= 0.0 {
                 return None;
             }
-            let missing = way - x;
-            if missing.abs() <= CLOSE * way {
+            let missing = dynamics - x;
+            if missing.abs() <= END_TOLERANCE * dynamics {
                 let z = 0.5 * v * v;
                 let end = self.point(to, z);
                 let error = (t / 6.0 * (a4 - heading * end.a)).abs() * v;

@@ -9,8 +9,8 @@ use jred_file::number::numerics;
 use jred_file::number::quadrature::GAUSS_2;
 
 use super::field::Reserve;
+use crate::path_dynamics::{Actuator, BothDirections};
 use crate::trace::{Node, Trace};
-use crate::way::{Actuator, BothWays};
 
 /// The load of a motor in a motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -41,7 +41,7 @@ pub(super) fn load(
     trace: &Trace,
     reserve: &Reserve,
 ) -> Result<MotorLoad, Error> {
-    let ways = BothWays::new(file, actuator);
+    let ways = BothDirections::new(file, actuator);
     let forwards = ways.forwards();
     let (mut squares, mut turns) = (0.0, 0.0);
     let mut peaks = [0.0_f64; 2];

@@ -14,7 +14,7 @@ use jred_sizing::select::fit::input_kind;
 
 use super::field::{Binding, Field, speed};
 use super::joint_force::{JointForce, Spot};
-use super::slowed::Slowing;
+use super::settable_limit::SettableLimit;
 use super::sweep::Obstacle;
 use super::track::Track;
 
@@ -44,7 +44,7 @@ pub enum NoMotion {
         /// Its name, with the joint of a force.
         name: Box<str>,
         /// A limit of speed or acceleration that denies the machine the kinetic energy to go on.
-        eased: Option<Slowing>,
+        eased: Option<SettableLimit>,
         /// Torque that keeps the machine moving there (N·m), and the torque that the limit gives.
         torques: [f64; 2],
         /// Their unit: N for a linear motor.
@@ -225,7 +225,7 @@ pub(super) fn input(file: &MachineFile) -> Coordinate {
 
 /// Name of a limit; for a force with its joint.
 fn in_words(limit: Binding, field: &Field) -> Box<str> {
-    let name = limit.name_in(field.way.file);
+    let name = limit.name_in(field.dynamics.file);
     if let Binding::JointForce(_) = limit {
         format!("limit of the {name}").into()
     } else {
@@ -254,7 +254,7 @@ impl NoMotion {
             least,
             most,
             names: [least, most].map(|(_, limit)| in_words(limit, field)),
-            axis: field.way.file.axis(),
+            axis: field.dynamics.file.axis(),
         }))
     }
 
@@ -263,10 +263,10 @@ impl NoMotion {
         field: &Field,
         track: &Track,
         obstacle: Obstacle,
-        eased: Option<Slowing>,
+        eased: Option<SettableLimit>,
     ) -> Self {
-        let axis = field.way.file.axis();
-        let unit = input(field.way.file);
+        let axis = field.dynamics.file.axis();
+        let unit = input(field.dynamics.file);
         let place = |index: usize, u: f64| track.cells[index].spot(u);
         match obstacle {
             Obstacle::Stops(index, u) => {

@@ -5,7 +5,7 @@ use std::convert::Infallible;
 use jred_file::number::numerics::edge;
 
 use super::field::{Binding, Field, speed};
-use super::sweep::{Along, Piece};
+use super::sweep::{SweepCurve, SweepPiece};
 use super::track::{Ends, Track};
 
 /// A part of the motion that follows one limit.
@@ -22,15 +22,15 @@ pub struct Phase {
 }
 
 /// Share of the total time below which a phase between two phases of one limit is dropped.
-const BLINK: f64 = 1e-6;
+const SHORTEST_PHASE: f64 = 1e-6;
 
 /// Share of z within which a motion is at a limit of its speed.
-const AT: f64 = 1e-6;
+const LIMIT_TOLERANCE: f64 = 1e-6;
 
 /// Whether z is at the tool's speed limit.
 fn tool_limits(field: &Field, phi: f64, z: f64) -> bool {
     let tool = field.tool_speed(phi).unwrap_or(f64::INFINITY);
-    z >= 0.5 * tool.powi(2) * (1.0 - AT)
+    z >= 0.5 * tool.powi(2) * (1.0 - LIMIT_TOLERANCE)
 }
 
 /// The phases of a motion.
@@ -38,7 +38,7 @@ pub(super) fn phases(
     field: &Field,
     ends: &Ends,
     track: &Track,
-    pieces: &[Piece],
+    pieces: &[SweepPiece],
     times: &[f64],
 ) -> Vec<Phase> {
     let mut phases: Vec<Phase> = Vec::new();
@@ -52,12 +52,12 @@ pub(super) fn phases(
         let binding = |s: f64| {
             let place = cell.spot(step.u[0] + s * width);
             match piece.along {
-                Along::Side(side) => field.side_by(side, &place, z(s)).1,
-                Along::Cap if tool_limits(field, place.phi, z(s)) => Binding::ToolSpeed,
-                Along::Cap if cell.caps[1] < 0.5 * field.top().0.powi(2) => {
+                SweepCurve::Side(side) => field.side_by(side, &place, z(s)).1,
+                SweepCurve::Cap if tool_limits(field, place.phi, z(s)) => Binding::ToolSpeed,
+                SweepCurve::Cap if cell.caps[1] < 0.5 * field.top().0.powi(2) => {
                     field.most_by(&place, z(s)).1
                 }
-                Along::Cap => top,
+                SweepCurve::Cap => top,
             }
         };
         // Inside the step, because two limits may be equal at its ends.
@@ -65,7 +65,7 @@ pub(super) fn phases(
         let mut add = |limit: Binding, from: f64, to: f64| {
             let phi = |s: f64| {
                 let x = cell.x + (step.u[0] + s * width) * cell.length;
-                ends.from + field.way.direction * x
+                ends.from + field.dynamics.direction * x
             };
             let end = (phi(to), t + to * time, speed(z(to)));
             if let Some(phase) = phases.last_mut().filter(|phase| phase.limit == limit) {
@@ -96,7 +96,7 @@ fn without_blinks(phases: Vec<Phase>, whole: f64) -> Vec<Phase> {
     let mut kept: Vec<Phase> = Vec::with_capacity(phases.len());
     for mut phase in phases {
         if let [.., before, blink] = kept.as_mut_slice()
-            && blink.t[1] - blink.t[0] <= BLINK * whole
+            && blink.t[1] - blink.t[0] <= SHORTEST_PHASE * whole
         {
             if before.limit == phase.limit {
                 (before.phi[1], before.t[1], before.speed[1]) =

@@ -4,11 +4,11 @@ use jred::error::Error;
 use jred_file::model::machine::MachineFile;
 
 use super::Binding;
-use super::cycle::Made;
+use super::cycle::FastestMove;
 use super::field::Field;
 use super::joint_force::Spot;
 use super::sweep::Side;
-use crate::way::{Actuator, Way};
+use crate::path_dynamics::{Actuator, PathDynamics};
 
 /// Positions at which the limits are evaluated.
 const POSITIONS: usize = 361;
@@ -35,12 +35,12 @@ impl Plane {
     ///
     /// # Errors
     /// The mechanism cannot be placed somewhere.
-    pub fn of(file: &MachineFile, actuator: &Actuator, made: &Made) -> Result<Self, Error> {
+    pub fn of(file: &MachineFile, actuator: &Actuator, made: &FastestMove) -> Result<Self, Error> {
         let [from, to] = [made.task.from, made.task.to];
         let direction = (to - from).signum();
-        let way = Way::new(file, actuator.clone(), direction);
+        let dynamics = PathDynamics::new(file, actuator.clone(), direction);
         let field = Field {
-            way: &way,
+            dynamics: &dynamics,
             limits: made.task.limits,
         };
         let mut plane = Self {
@@ -56,7 +56,7 @@ impl Plane {
             let forces: Vec<_> = (field.forces(phi)?.iter())
                 .map(|force| [*force; 3])
                 .collect();
-            let place = Spot::new(way.place(phi)?, &forces, [1.0, 0.0, 0.0]);
+            let place = Spot::new(dynamics.place(phi)?, &forces, [1.0, 0.0, 0.0]);
             let z = |v: f64| 0.5 * v * v;
             let top = top.min(field.tool_speed(phi)?);
             let closed = if field.may_be_empty() {
@@ -102,7 +102,7 @@ fn first(highest: f64, holds: impl Fn(f64) -> bool) -> Option<f64> {
 }
 
 /// The nodes of each phase, including its ends.
-fn stretches(made: &Made, direction: f64) -> Vec<(Binding, Vec<[f64; 2]>)> {
+fn stretches(made: &FastestMove, direction: f64) -> Vec<(Binding, Vec<[f64; 2]>)> {
     let nodes = made.fastest.trace.nodes();
     let stride = nodes.len().div_ceil(POINTS).max(1);
     let phases = made.fastest.phases.iter();

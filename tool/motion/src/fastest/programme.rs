@@ -27,17 +27,17 @@ mod refine;
 mod starts;
 
 use crate::collocation::pieces::dot;
-use crate::collocation::shape::Shape;
+use crate::collocation::shape::Parametrization;
 
-use super::field::{Binding, Field, Limits};
+use super::field::{Binding, Field, MoveLimits};
 use super::obstacle::input;
 use super::track::Ends;
 use super::{Fastest, NoMotion};
-use interior::{Point, Programme as _, Stuck, minimise};
+use interior::{PrimalDual, Programme as _, StuckStation, minimise};
 pub use limits::Price;
-use limits::{Margins, Problem};
-use mesh::{Border, Form, Mesh};
-use outcome::{Worst, widen};
+use limits::{Margins, MeshProblem};
+use mesh::{Border, BoundaryConditions, Mesh};
+use outcome::{LargestExcess, widen};
 
 /// Number of pieces of the first mesh, and the largest number.
 const PIECES: [usize; 2] = [24, 1500];
@@ -76,7 +76,7 @@ const PROGRAMME_EXCESS: f64 = 2e-7;
 const WIDENED: u32 = 24;
 
 /// The request.
-pub(super) struct Asked<'a> {
+pub(super) struct MoveRequest<'a> {
     pub(super) field: &'a Field<'a, 'a>,
     pub(super) ends: &'a Ends,
     /// Time (s) of the fastest motion without rate limits and without a price of heat.
@@ -91,9 +91,9 @@ pub(super) struct Asked<'a> {
 
 /// A motion on a mesh.
 #[derive(Clone, Debug)]
-struct Found {
+struct MeshMotion {
     mesh: Mesh,
-    point: Point,
+    point: PrimalDual,
     time: f64,
     /// Range (N·m) over which bends of the torque are rounded, and its share of the largest load of the motion.
     range: f64,
@@ -102,9 +102,9 @@ struct Found {
 
 /// A motion as the start of a search with another price.
 #[derive(Clone, Debug)]
-pub struct Warm {
+pub struct WarmStart {
     borders: Vec<Border>,
-    found: Found,
+    found: MeshMotion,
     margins: Vec<Margins>,
     /// Relative change of the time at the last refinement.
     change: f64,
@@ -116,17 +116,17 @@ pub enum Start<'w> {
     /// Constant paces.
     Nothing,
     /// Another motion, with new pieces.
-    Near(&'w Warm),
+    Near(&'w WarmStart),
     /// Another motion on its own pieces, so that a small change of the price changes the motion little.
-    Beside(&'w Warm),
+    Beside(&'w WarmStart),
 }
 
-impl Asked<'_> {
+impl MoveRequest<'_> {
     /// The motion.
     ///
     /// # Errors
     /// The mechanism cannot be placed somewhere, a load jumps under a limit of the torque rate, or no motion was found.
-    pub(super) fn solve(&self, start: Start) -> Result<(Fastest, Warm), NoMotion> {
+    pub(super) fn solve(&self, start: Start) -> Result<(Fastest, WarmStart), NoMotion> {
         self.refuse_jumps()?;
         let found = self.solve_from(start, true);
         // On coarse pieces, eased limits may lead to a fast motion that does not exist on finer ones.
@@ -139,7 +139,7 @@ impl Asked<'_> {
     }
 
     /// The same; `eased`: whether motions under eased limits are starts too.
-    fn solve_from(&self, start: Start, eased: bool) -> Result<(Fastest, Warm), NoMotion> {
+    fn solve_from(&self, start: Start, eased: bool) -> Result<(Fastest, WarmStart), NoMotion> {
         let shape = self.shape();
         let beside = match start {
             Start::Beside(warm) => self.beside(&shape, warm)?,
@@ -153,7 +153,7 @@ impl Asked<'_> {
             }
         };
         let mut trace = self.trace(&shape, &warm.found);
-        let mut worst = Worst::NONE;
+        let mut worst = LargestExcess::NONE;
         for round in 0..WIDENED {
             // With margins the loads of the motion change, so its previous range may be too narrow.
             let mut next = None;
@@ -182,7 +182,7 @@ impl Asked<'_> {
                 widen(&mut warm.margins, &each, 2 * round > WIDENED);
             }
         }
-        if worst.excess > super::course::MOST_EXCESS {
+        if worst.excess > super::path_search::MOST_EXCESS {
             return Err(self.not_found(worst.limit, worst.phi, worst.excess));
         }
         let time = trace.duration();
@@ -208,12 +208,12 @@ impl Asked<'_> {
             phi,
             missed,
             rates: [self.limits().jerk, self.limits().torque_rate].map(|limit| limit.is_some()),
-            unit: input(self.field.way.file),
-            axis: self.field.way.file.axis(),
+            unit: input(self.field.dynamics.file),
+            axis: self.field.dynamics.file.axis(),
         }
     }
 
-    fn limits(&self) -> &Limits {
+    fn limits(&self) -> &MoveLimits {
         &self.field.limits
     }
 
@@ -228,28 +228,31 @@ impl Asked<'_> {
     }
 
     /// The path, shaped for its ends.
-    fn shape(&self) -> Shape {
+    fn shape(&self) -> Parametrization {
         let ramp = if self.limits().level_ends {
             self.ramp()
         } else {
             0.0
         };
-        Shape::new(self.rest(), ramp)
+        Parametrization::new(self.rest(), ramp)
     }
 
     /// Start and signed length of the path.
     fn course(&self) -> [f64; 2] {
-        [self.ends.from, self.ends.length * self.field.way.direction]
+        [
+            self.ends.from,
+            self.ends.length * self.field.dynamics.direction,
+        ]
     }
 
-    fn mesh(&self, shape: &Shape, borders: &[Border]) -> Result<Mesh, NoMotion> {
+    fn mesh(&self, shape: &Parametrization, borders: &[Border]) -> Result<Mesh, NoMotion> {
         let [start, distance] = self.course();
         let pace = |end: usize| {
             let [_, slope, ..] = shape.series(end as f64, end as f64);
             (self.ends.speeds[end] * self.unit / (distance.abs() * slope)).powi(2)
         };
         let rest = self.rest();
-        let form = Form {
+        let form = BoundaryConditions {
             rest,
             pace: [0, 1].map(|end| if rest[end] { 0.0 } else { pace(end) }),
             level: self.limits().level_ends,
@@ -264,8 +267,13 @@ impl Asked<'_> {
         )?)
     }
 
-    fn problem<'m>(&'m self, mesh: &'m Mesh, margins: &'m [Margins], range: f64) -> Problem<'m> {
-        Problem {
+    fn problem<'m>(
+        &'m self,
+        mesh: &'m Mesh,
+        margins: &'m [Margins],
+        range: f64,
+    ) -> MeshProblem<'m> {
+        MeshProblem {
             field: self.field,
             mesh,
             unit: self.unit,
@@ -319,9 +327,9 @@ impl Asked<'_> {
         Ok(self)
     }
 
-    fn found(&self, mesh: Mesh, (point, range): (Point, f64), share: f64) -> Found {
+    fn found(&self, mesh: Mesh, (point, range): (PrimalDual, f64), share: f64) -> MeshMotion {
         let time = self.time(&mesh, &point.x);
-        Found {
+        MeshMotion {
             mesh,
             point,
             time,
@@ -333,13 +341,13 @@ impl Asked<'_> {
     /// The motion on these borders, started from a motion on other borders; an empty slice of margins means no margins.
     fn next(
         &self,
-        shape: &Shape,
+        shape: &Parametrization,
         borders: &[Border],
-        before: &Found,
+        before: &MeshMotion,
         margins: &[Margins],
         barrier: [f64; 2],
         [range, share]: [f64; 2],
-    ) -> Result<Result<Found, Stuck>, NoMotion> {
+    ) -> Result<Result<MeshMotion, StuckStation>, NoMotion> {
         let mesh = self.mesh(shape, borders)?;
         let none = vec![Margins::default(); mesh.elements.len()];
         let margins = if margins.is_empty() { &none } else { margins };
@@ -367,20 +375,20 @@ impl Asked<'_> {
         if self.limits().torque_rate.is_none() {
             return Ok(());
         }
-        let way = self.field.way;
+        let dynamics = self.field.dynamics;
         let scale = self.field.motor_torques(0.0).map(f64::abs)[1];
         let near = self.ends.inside(1e-3 * self.ends.length);
         for x in &self.ends.corners {
-            let place = |x: f64| way.place(self.ends.from + way.direction * x);
+            let place = |x: f64| dynamics.place(self.ends.from + dynamics.direction * x);
             let sides = [place(x - near)?, place(x + near)?];
             let speed = self.ends.length / self.bound;
-            let [before, after] = sides.map(|place| way.demand(&place, speed, 0.0).torque);
+            let [before, after] = sides.map(|place| dynamics.demand(&place, speed, 0.0).torque);
             if (after - before).abs() > 1e-6 * scale {
                 return Err(NoMotion::LoadJumps {
-                    phi: self.ends.from + way.direction * x,
+                    phi: self.ends.from + dynamics.direction * x,
                     torques: [before, after],
-                    unit: input(way.file),
-                    axis: way.file.axis(),
+                    unit: input(dynamics.file),
+                    axis: dynamics.file.axis(),
                 });
             }
         }

@@ -19,8 +19,8 @@ use jred_file::model::machine::MachineFile;
 
 use super::NoMotion;
 use super::cycle::{Cycle, MotorLoad};
-use super::programme::{Price, Start, Warm};
-use crate::way::{Actuator, Way};
+use super::programme::{Price, Start, WarmStart};
+use crate::path_dynamics::{Actuator, PathDynamics};
 
 /// A limit of the RMS torque over a motion with its pauses.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -71,16 +71,16 @@ const PLACES: u32 = 360;
 
 /// The next motions, and results of the previous ones.
 #[derive(Debug, Default)]
-pub(super) struct Asked {
+pub(super) struct Continuation {
     /// The objective; `None`: the time, with the limits only.
     pub(super) price: Option<Price>,
     /// Of each move.
-    warm: Vec<Warm>,
+    warm: Vec<WarmStart>,
     /// Whether the price changes so little that the pieces are kept.
     is_beside: bool,
 }
 
-impl Asked {
+impl Continuation {
     /// Start of the search for a move.
     pub(super) fn start(&self, number: usize) -> Start<'_> {
         match self.warm.get(number) {
@@ -91,7 +91,7 @@ impl Asked {
     }
 
     /// Keeps a move for the next price.
-    pub(super) fn keep(&mut self, number: usize, warm: Warm) {
+    pub(super) fn keep(&mut self, number: usize, warm: WarmStart) {
         match self.warm.get_mut(number) {
             Some(own) => *own = warm,
             None => self.warm.push(warm),
@@ -100,7 +100,7 @@ impl Asked {
 }
 
 /// Why there is no cycle.
-pub(super) enum Refused<E> {
+pub(super) enum RmsError<E> {
     /// A move cannot be made.
     Move(E),
     /// The limit cannot be kept.
@@ -118,10 +118,10 @@ pub(super) fn slowest(
 ) -> Result<f64, Error> {
     let mut least = f64::INFINITY;
     for [from, to] in ways {
-        let way = Way::new(file, actuator.clone(), (to - from).signum());
+        let dynamics = PathDynamics::new(file, actuator.clone(), (to - from).signum());
         for k in 0..=PLACES {
-            let place = way.place(from + (to - from) * f64::from(k) / f64::from(PLACES))?;
-            least = least.min(way.demand(&place, 0.0, 0.0).torque.abs());
+            let place = dynamics.place(from + (to - from) * f64::from(k) / f64::from(PLACES))?;
+            least = least.min(dynamics.demand(&place, 0.0, 0.0).torque.abs());
         }
     }
     Ok(least)
@@ -144,10 +144,10 @@ pub(super) fn within<E>(
     rms: Option<Rms>,
     slow: f64,
     unit: Coordinate,
-    at: impl Fn(&mut Asked) -> Result<Cycle, E>,
-) -> Result<(Cycle, bool), Refused<E>> {
-    let mut asked = Asked::default();
-    let free = at(&mut asked).map_err(Refused::Move)?;
+    at: impl Fn(&mut Continuation) -> Result<Cycle, E>,
+) -> Result<(Cycle, bool), RmsError<E>> {
+    let mut asked = Continuation::default();
+    let free = at(&mut asked).map_err(RmsError::Move)?;
     let Some(rms) = rms else {
         return Ok((free, false));
     };
@@ -173,7 +173,7 @@ pub(super) fn within<E>(
                 stopped = true;
                 break;
             }
-            Err(why) => return Err(Refused::Move(why)),
+            Err(why) => return Err(RmsError::Move(why)),
         };
         let own = [share, over(&found)];
         if own[1] <= 0.0 {
@@ -184,7 +184,7 @@ pub(super) fn within<E>(
         cheap = own;
     }
     let Some((mut dear, mut best)) = best else {
-        return Err(Refused::Limit(NoMotion::RmsTooLarge {
+        return Err(RmsError::Limit(NoMotion::RmsTooLarge {
             rms: least,
             allowed: limit,
             slow,
@@ -214,7 +214,7 @@ pub(super) fn within<E>(
             Ok(found) => found,
             // Within the limit and hardly below it: this is the result.
             Err(_) if dear[1] >= -UNUSED[1] => break,
-            Err(why) => return Err(Refused::Move(why)),
+            Err(why) => return Err(RmsError::Move(why)),
         };
         let own = [next, over(&found)];
         // The RMS torque falls with the share; a rise is rounding.

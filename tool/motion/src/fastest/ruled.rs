@@ -17,25 +17,25 @@ use jred_sizing::catalogue::Drive;
 use jred_sizing::judge::Context;
 use jred_sizing::judge::Findings;
 use jred_sizing::judge::check::Check;
-use jred_sizing::motor::envelope::Prepared;
+use jred_sizing::motor::envelope::MotorLimits;
 
 use super::cycle::Cycle;
-use super::field::Limits;
+use super::field::MoveLimits;
 use super::{NoMotion, Rms};
 use crate::trace::Trace;
 
 /// Share of a limit that a motion may use. A reserve leaves a millionth less than all of it, and a profile that is read back has other last digits.
-const ALLOWED: f64 = 1.0 - 5e-7;
+const USABLE_SHARE: f64 = 1.0 - 5e-7;
 
 /// Share by which the final use of a limit may stay below it.
-const NEAR: f64 = 1e-3;
+const USE_TOLERANCE: f64 = 1e-3;
 
 /// Most motions for one cap, and most rounds over all caps.
 const TRIES: u32 = 10;
 const ROUNDS: u32 = 4;
 
 /// If the use falls by a smaller share than this while the cap falls by more, the use does not depend on the cap.
-const FOLLOWS: f64 = 1e-3;
+const LEAST_RESPONSE: f64 = 1e-3;
 
 /// A quantity that is lowered at every instant to satisfy a rule of the whole motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -93,7 +93,7 @@ impl Caps {
     }
 
     /// The limits with the caps applied.
-    fn on(&self, limits: &Limits) -> Limits {
+    fn on(&self, limits: &MoveLimits) -> MoveLimits {
         let least = |limit: Option<f64>, cap: f64| {
             let both = limit.map_or(cap, |limit| limit.min(cap));
             Some(both).filter(|limit| limit.is_finite())
@@ -122,7 +122,7 @@ impl Caps {
 pub struct Judge<'a> {
     file: &'a MachineFile,
     drive: Drive<'a>,
-    prepared: Prepared,
+    prepared: MotorLimits,
     sampling: Sampling,
 }
 
@@ -132,7 +132,7 @@ impl<'a> Judge<'a> {
         Self {
             file,
             drive,
-            prepared: Prepared::new(drive.motor, drive.amplifier, &file.site),
+            prepared: MotorLimits::new(drive.motor, drive.amplifier, &file.site),
             sampling,
         }
     }
@@ -173,13 +173,13 @@ impl<'a> Judge<'a> {
             .iter()
             .filter(|(rule, _)| Cap::of(*rule, heat) == Some(cap));
         let used = own.map(|(rule, finding)| self.file.rules.use_of_limit(rule, finding));
-        used.fold(0.0, f64::max) / ALLOWED
+        used.fold(0.0, f64::max) / USABLE_SHARE
     }
 }
 
 /// The judgement of a motion, and the lowered caps.
 #[derive(Clone, Debug)]
-pub struct Judged {
+pub struct Judgement {
     /// All rules.
     pub checks: Vec<Check>,
     /// The rules that the search tries to satisfy.
@@ -188,7 +188,7 @@ pub struct Judged {
     pub caps: Vec<(Cap, f64)>,
 }
 
-impl Judged {
+impl Judgement {
     /// Rules of the search that are satisfied.
     pub fn kept(&self) -> impl Iterator<Item = &Check> {
         let sought = |check: &&Check| self.sought.contains(&check.id);
@@ -204,10 +204,10 @@ impl Judged {
 }
 
 /// Why there is no motion, with the index of the move.
-type Refused = (Option<usize>, NoMotion);
+type Refusal = (Option<usize>, NoMotion);
 
 /// A motion that was tried, with its accompanying result.
-struct Tried<W> {
+struct RuleTrial<W> {
     caps: Caps,
     cycle: Cycle,
     with: W,
@@ -215,7 +215,7 @@ struct Tried<W> {
 }
 
 /// The value in the motion of a quantity that a cap limits: a higher cap has no effect.
-fn has<W>(tried: &Tried<W>, cap: Cap) -> f64 {
+fn has<W>(tried: &RuleTrial<W>, cap: Cap) -> f64 {
     let value = |rule| tried.findings.get(rule).map_or(f64::INFINITY, |f| f.value);
     let own = match cap {
         Cap::MotorTorque => 1.0,
@@ -229,21 +229,21 @@ fn has<W>(tried: &Tried<W>, cap: Cap) -> f64 {
 /// The search for the fastest motion that the rules accept.
 struct Search<'s, W> {
     judge: &'s Judge<'s>,
-    limits: &'s Limits,
+    limits: &'s MoveLimits,
     rms: Option<Rms>,
     /// Whether the motor's heat is limited by rules.
     heat: bool,
-    make: &'s Make<'s, W>,
+    make: &'s MotionSource<'s, W>,
 }
 
 /// Makes the motion for some limits, with an accompanying result.
-type Make<'s, W> = dyn Fn(&Limits, Option<Rms>) -> Result<(Cycle, W), Refused> + 's;
+type MotionSource<'s, W> = dyn Fn(&MoveLimits, Option<Rms>) -> Result<(Cycle, W), Refusal> + 's;
 
 impl<W> Search<'_, W> {
-    fn at(&self, caps: Caps) -> Result<Tried<W>, Refused> {
+    fn at(&self, caps: Caps) -> Result<RuleTrial<W>, Refusal> {
         let (cycle, with) = (self.make)(&caps.on(self.limits), caps.rms(self.rms))?;
         let findings = self.judge.findings(&cycle.trace);
-        Ok(Tried {
+        Ok(RuleTrial {
             findings: findings.map_err(|error| (None, error.into()))?,
             caps,
             cycle,
@@ -251,20 +251,20 @@ impl<W> Search<'_, W> {
         })
     }
 
-    fn used(&self, tried: &Tried<W>, cap: Cap) -> f64 {
+    fn used(&self, tried: &RuleTrial<W>, cap: Cap) -> f64 {
         self.judge.used(&tried.findings, cap, self.heat)
     }
 
-    fn keeps_all(&self, tried: &Tried<W>, but: &[Cap]) -> bool {
+    fn keeps_all(&self, tried: &RuleTrial<W>, but: &[Cap]) -> bool {
         let sought = Cap::ALL.iter().filter(|cap| !but.contains(cap));
         sought.into_iter().all(|cap| self.used(tried, *cap) <= 1.0)
     }
 
     /// Lowers a cap until its rules are satisfied; `None` if lowering it does not satisfy them.
-    fn lowered(&self, cap: Cap, from: &Tried<W>) -> Option<Tried<W>> {
+    fn lowered(&self, cap: Cap, from: &RuleTrial<W>) -> Option<RuleTrial<W>> {
         // Cap and its use: too high, and low enough.
         let mut high = [has(from, cap), self.used(from, cap)];
-        let mut low: Option<([f64; 2], Tried<W>)> = None;
+        let mut low: Option<([f64; 2], RuleTrial<W>)> = None;
         // Largest value without a motion.
         let mut least = 0.0_f64;
         for round in 0..TRIES {
@@ -278,7 +278,7 @@ impl<W> Search<'_, W> {
             } else {
                 least.midpoint(high[0])
             };
-            if !next.is_finite() || next <= 0.0 || high[0] - least <= NEAR * high[0] {
+            if !next.is_finite() || next <= 0.0 || high[0] - least <= USE_TOLERANCE * high[0] {
                 break;
             }
             let Ok(tried) = self.at(from.caps.with(cap, next)) else {
@@ -288,12 +288,12 @@ impl<W> Search<'_, W> {
             let used = self.used(&tried, cap);
             if used <= 1.0 {
                 low = Some(([next, used], tried));
-                if used >= 1.0 - NEAR {
+                if used >= 1.0 - USE_TOLERANCE {
                     break;
                 }
             } else {
-                let falls = used < high[1] * (1.0 - FOLLOWS);
-                if !falls && next < high[0] * (1.0 - 10.0 * FOLLOWS) {
+                let falls = used < high[1] * (1.0 - LEAST_RESPONSE);
+                if !falls && next < high[0] * (1.0 - 10.0 * LEAST_RESPONSE) {
                     break;
                 }
                 high = [next, used];
@@ -303,11 +303,11 @@ impl<W> Search<'_, W> {
     }
 
     /// Raises a cap that became too low when another one was lowered, as far as all rules stay satisfied.
-    fn raised(&self, cap: Cap, from: Tried<W>, but: &[Cap]) -> Tried<W> {
+    fn raised(&self, cap: Cap, from: RuleTrial<W>, but: &[Cap]) -> RuleTrial<W> {
         let mut best = from;
         for _ in 0..TRIES / 2 {
             let used = self.used(&best, cap);
-            if !best.caps.get(cap).is_finite() || used <= 0.0 || used >= 1.0 - NEAR {
+            if !best.caps.get(cap).is_finite() || used <= 0.0 || used >= 1.0 - USE_TOLERANCE {
                 break;
             }
             let next = best.caps.get(cap) / used.max(0.5);
@@ -330,7 +330,7 @@ impl<W> Search<'_, W> {
     }
 
     /// Lowers caps until all rules that can be satisfied are; caps that cannot are added to `lost`.
-    fn settled(&self, from: Tried<W>, lost: &mut Vec<Cap>) -> Tried<W> {
+    fn settled(&self, from: RuleTrial<W>, lost: &mut Vec<Cap>) -> RuleTrial<W> {
         let mut now = from;
         for _ in 0..ROUNDS {
             let mut changed = false;
@@ -356,7 +356,7 @@ impl<W> Search<'_, W> {
 
 /// The cap at which the use would be slightly below its limit, by a power law through two points.
 fn between(low: [f64; 2], high: [f64; 2]) -> f64 {
-    let aim = 1.0 - 0.5 * NEAR;
+    let aim = 1.0 - 0.5 * USE_TOLERANCE;
     let share = (high[1] / aim).ln() / (high[1] / low[1]).ln();
     high[0] * (low[0] / high[0]).powf(share.clamp(0.02, 0.98))
 }
@@ -364,16 +364,16 @@ fn between(low: [f64; 2], high: [f64; 2]) -> f64 {
 /// The fastest motion within `limits` and a limit of the RMS torque that the rules of a drive accept, with its accompanying result.
 ///
 /// `heat`: the rules of the motor's heat must be satisfied too. `make` makes the fastest motion within limits. Rules that no slower motion satisfies
-/// stay violated: see [`Judged::violated`].
+/// stay violated: see [`Judgement::violated`].
 ///
 /// # Errors
 /// Those of `make`.
 pub fn ruled<W>(
     judge: &Judge<'_>,
-    (limits, rms): (&Limits, Option<Rms>),
+    (limits, rms): (&MoveLimits, Option<Rms>),
     heat: bool,
-    make: impl Fn(&Limits, Option<Rms>) -> Result<(Cycle, W), Refused>,
-) -> Result<(Cycle, W, Judged), Refused> {
+    make: impl Fn(&MoveLimits, Option<Rms>) -> Result<(Cycle, W), Refusal>,
+) -> Result<(Cycle, W, Judgement), Refusal> {
     let search = |rms, heat| Search {
         judge,
         limits,
@@ -402,7 +402,7 @@ pub fn ruled<W>(
         let value = found.caps.get(cap);
         value.is_finite().then_some((cap, value))
     });
-    let judged = Judged {
+    let judged = Judgement {
         sought: sought.collect(),
         caps: capped.collect(),
         checks,

@@ -14,14 +14,14 @@ use std::convert::Infallible;
 use jred_file::number::numerics::zero;
 
 use super::field::Field;
-use super::leg::{Leg, MOST_STEPS, Point, Stalled, Step};
-use super::track::{Cell, Track};
+use super::leg::{Leg, MOST_STEPS, PhasePoint, Stall, Step};
+use super::track::{PathCell, Track};
 
 /// Relative difference of z below which two curves coincide.
-const ON: f64 = 1e-12;
+const CURVE_TOLERANCE: f64 = 1e-12;
 
 /// Accuracy of a crossing as a share of its place.
-const CROSSING: f64 = 1e-15;
+const CROSSING_TOLERANCE: f64 = 1e-15;
 
 /// Most changes of the state within a cell. More are rounding where two curves touch; then the motion stays on the upper curve.
 const MOST_CHANGES: u32 = 16;
@@ -37,7 +37,7 @@ pub enum Side {
 
 /// The curve that a piece of the motion follows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Along {
+pub enum SweepCurve {
     /// The largest or the least acceleration.
     Side(Side),
     /// The speed limit.
@@ -46,13 +46,13 @@ pub enum Along {
 
 /// A step of a curve in a cell.
 #[derive(Clone, Copy, Debug)]
-pub struct Piece {
+pub struct SweepPiece {
     /// Index of the cell.
     pub cell: usize,
     /// The step.
     pub step: Step,
     /// The curve that it follows.
-    pub along: Along,
+    pub along: SweepCurve,
 }
 
 /// Where the motion is blocked.
@@ -78,24 +78,24 @@ pub fn fastest(
     field: &Field<'_, '_>,
     track: &Track,
     ends: [f64; 2],
-) -> Result<Vec<Piece>, Obstacle> {
+) -> Result<Vec<SweepPiece>, Obstacle> {
     let upper = upper(field, track, ends[1])?;
     let first = upper.last().map_or(0.0, |piece| piece.step.z[0]);
-    if ends[0] > first * (1.0 + ON) {
+    if ends[0] > first * (1.0 + CURVE_TOLERANCE) {
         return Err(Obstacle::StartTooFast(first));
     }
     forwards(field, track, &upper, ends)
 }
 
 /// The time (s) of each piece.
-pub fn times(track: &Track, pieces: &[Piece]) -> Vec<f64> {
-    let time = |piece: &Piece| piece.step.time(track.cells[piece.cell].length);
+pub fn times(track: &Track, pieces: &[SweepPiece]) -> Vec<f64> {
+    let time = |piece: &SweepPiece| piece.step.time(track.cells[piece.cell].length);
     pieces.iter().map(time).collect()
 }
 
 fn zero_of(f: impl Fn(f64) -> f64, between: [f64; 2], values: [f64; 2]) -> f64 {
     let sure = |u: f64| Ok::<_, Infallible>(f(u));
-    let Ok(u) = zero(sure, between, values, CROSSING);
+    let Ok(u) = zero(sure, between, values, CROSSING_TOLERANCE);
     u
 }
 
@@ -104,7 +104,7 @@ const MOST_RATIO: f64 = 1.5;
 
 /// The pieces along the speed limit from one share of a cell to a larger one. Between their ends z is a cubic, which would fall below zero if the
 /// limit grew many times in one piece.
-fn along_cap(cell: &Cell, index: usize, [from, to]: [f64; 2], pieces: &mut Vec<Piece>) {
+fn along_cap(cell: &PathCell, index: usize, [from, to]: [f64; 2], pieces: &mut Vec<SweepPiece>) {
     let u = [from, to];
     let z = u.map(|u| cell.cap(u));
     let middle = from.midpoint(to);
@@ -114,7 +114,7 @@ fn along_cap(cell: &Cell, index: usize, [from, to]: [f64; 2], pieces: &mut Vec<P
         along_cap(cell, index, [middle, to], pieces);
         return;
     }
-    pieces.push(Piece {
+    pieces.push(SweepPiece {
         cell: index,
         step: Step {
             u,
@@ -122,7 +122,7 @@ fn along_cap(cell: &Cell, index: usize, [from, to]: [f64; 2], pieces: &mut Vec<P
             a: u.map(|u| cell.cap_slope(u)),
             time: None,
         },
-        along: Along::Cap,
+        along: SweepCurve::Cap,
     });
 }
 
@@ -143,11 +143,11 @@ fn first_positive(f: impl Fn(f64) -> f64, from: f64, to: f64) -> Option<f64> {
 }
 
 /// The largest speeds from which limits and the end can be met: pieces from the end to the start.
-fn upper(field: &Field, track: &Track, end: f64) -> Result<Vec<Piece>, Obstacle> {
+fn upper(field: &Field, track: &Track, end: f64) -> Result<Vec<SweepPiece>, Obstacle> {
     let mut pieces = Vec::with_capacity(track.cells.len() + 64);
     let mut steps = Vec::new();
     let mut z = end;
-    let mut border: Option<Point> = None;
+    let mut border: Option<PhasePoint> = None;
     for (index, cell) in track.cells.iter().enumerate().rev() {
         let leg = Leg {
             field,
@@ -195,8 +195,8 @@ fn upper(field: &Field, track: &Track, end: f64) -> Result<Vec<Piece>, Obstacle>
             let Ok(point) = reached else {
                 let Err(why) = reached else { continue };
                 return Err(match why {
-                    Stalled::AtRest(at) => Obstacle::RunsAway(index, at),
-                    Stalled::Stiff(at) => Obstacle::Stiff(index, at),
+                    Stall::AtRest(at) => Obstacle::RunsAway(index, at),
+                    Stall::Stiff(at) => Obstacle::Stiff(index, at),
                 });
             };
             push(&mut pieces, index, steps.drain(..), leg.side);
@@ -204,20 +204,20 @@ fn upper(field: &Field, track: &Track, end: f64) -> Result<Vec<Piece>, Obstacle>
                 return Err(Obstacle::Stiff(index, 0.0));
             }
             (u, z) = (0.0, point.z);
-            border = Some(Point { u: 1.0, ..point }).filter(|_| cell.goes_on);
+            border = Some(PhasePoint { u: 1.0, ..point }).filter(|_| cell.goes_on);
         }
     }
     Ok(pieces)
 }
 
-fn push(pieces: &mut Vec<Piece>, cell: usize, steps: impl Iterator<Item = Step>, side: Side) {
-    let along = Along::Side(side);
-    pieces.extend(steps.map(|step| Piece { cell, step, along }));
+fn push(pieces: &mut Vec<SweepPiece>, cell: usize, steps: impl Iterator<Item = Step>, side: Side) {
+    let along = SweepCurve::Side(side);
+    pieces.extend(steps.map(|step| SweepPiece { cell, step, along }));
 }
 
 /// The first step (backwards) that rises above the speed limit, and where it does.
-fn above_cap(cell: &Cell, leg: &Leg, steps: &[Step]) -> Option<(usize, f64)> {
-    let is_above = |u: f64, z: f64| z > cell.cap(u) * (1.0 + ON);
+fn above_cap(cell: &PathCell, leg: &Leg, steps: &[Step]) -> Option<(usize, f64)> {
+    let is_above = |u: f64, z: f64| z > cell.cap(u) * (1.0 + CURVE_TOLERANCE);
     let k = steps
         .iter()
         .position(|step| is_above(step.u[0], step.z[0]))?;
@@ -236,7 +236,7 @@ fn above_cap(cell: &Cell, leg: &Leg, steps: &[Step]) -> Option<(usize, f64)> {
 }
 
 /// z of the curve through a point at another share of the cell.
-fn follow(leg: &Leg, from: Point, to: f64) -> f64 {
+fn follow(leg: &Leg, from: PhasePoint, to: f64) -> f64 {
     if (to - from.u).abs() <= 0.0 {
         return from.z;
     }
@@ -248,14 +248,14 @@ fn follow(leg: &Leg, from: Point, to: f64) -> f64 {
 fn forwards(
     field: &Field,
     track: &Track,
-    upper: &[Piece],
+    upper: &[SweepPiece],
     ends: [f64; 2],
-) -> Result<Vec<Piece>, Obstacle> {
+) -> Result<Vec<SweepPiece>, Obstacle> {
     let mut pieces = Vec::with_capacity(upper.len() + 64);
     let mut rest = upper;
     let mut z = ends[0];
     let mut steps = Vec::new();
-    let mut border: Option<Point> = None;
+    let mut border: Option<PhasePoint> = None;
     for (index, cell) in track.cells.iter().enumerate() {
         let count = rest
             .iter()
@@ -264,14 +264,14 @@ fn forwards(
             .count();
         let (before, own) = rest.split_at(rest.len() - count);
         rest = before;
-        let above = Upper { field, cell, own };
+        let above = UpperCurve { field, cell, own };
         let leg = Leg {
             field,
             side: Side::Most,
             cell,
         };
         let mut u = 0.0;
-        let mut on_upper = z >= above.z(0.0) * (1.0 - ON);
+        let mut on_upper = z >= above.z(0.0) * (1.0 - CURVE_TOLERANCE);
         let mut start = border.take().filter(|_| !on_upper);
         let mut changes = 0;
         while u < 1.0 {
@@ -298,8 +298,8 @@ fn forwards(
             let Ok(point) = reached else {
                 let Err(why) = reached else { continue };
                 return Err(match why {
-                    Stalled::AtRest(at) => Obstacle::Stops(index, at),
-                    Stalled::Stiff(at) => Obstacle::Stiff(index, at),
+                    Stall::AtRest(at) => Obstacle::Stops(index, at),
+                    Stall::Stiff(at) => Obstacle::Stiff(index, at),
                 });
             };
             push(&mut pieces, index, steps.drain(..), leg.side);
@@ -310,7 +310,7 @@ fn forwards(
             let next = track.cells.get(index + 1);
             border = next
                 .filter(|next| next.goes_on)
-                .map(|_| Point { u: 0.0, ..point });
+                .map(|_| PhasePoint { u: 0.0, ..point });
         }
     }
     // A speed slightly below that of the end is rounding; otherwise the path is too short to reach it.
@@ -321,16 +321,16 @@ fn forwards(
 }
 
 /// The upper curve in a cell, as pieces from the end to the start.
-struct Upper<'u> {
+struct UpperCurve<'u> {
     field: &'u Field<'u, 'u>,
-    cell: &'u Cell,
-    own: &'u [Piece],
+    cell: &'u PathCell,
+    own: &'u [SweepPiece],
 }
 
-impl Upper<'_> {
+impl UpperCurve<'_> {
     /// The piece that contains a share of the cell; at a border the later one.
-    fn piece(&self, u: f64) -> Option<&Piece> {
-        let covers = |piece: &&Piece| piece.step.u[0] <= u;
+    fn piece(&self, u: f64) -> Option<&SweepPiece> {
+        let covers = |piece: &&SweepPiece| piece.step.u[0] <= u;
         self.own.iter().find(covers).or(self.own.last())
     }
 
@@ -344,10 +344,10 @@ impl Upper<'_> {
 
     /// z at a share of the cell.
     fn z(&self, u: f64) -> f64 {
-        let Some(Piece { step, along, .. }) = self.piece(u) else {
+        let Some(SweepPiece { step, along, .. }) = self.piece(u) else {
             return 0.0;
         };
-        if *along == Along::Cap {
+        if *along == SweepCurve::Cap {
             return self.cell.cap(u);
         }
         if u <= step.u[0] {
@@ -362,7 +362,7 @@ impl Upper<'_> {
 
     /// The first step that rises above the upper curve, and where.
     fn crossed(&self, leg: &Leg, steps: &[Step]) -> Option<(usize, f64)> {
-        let is_above = |step: &Step| step.z[1] > self.z(step.u[1]) * (1.0 + ON);
+        let is_above = |step: &Step| step.z[1] > self.z(step.u[1]) * (1.0 + CURVE_TOLERANCE);
         let k = steps.iter().position(is_above)?;
         let step = steps[k];
         let left = leg.point(step.u[0], step.z[0]);
@@ -381,14 +381,14 @@ impl Upper<'_> {
         most: &Leg,
         may_leave: bool,
         index: usize,
-        pieces: &mut Vec<Piece>,
+        pieces: &mut Vec<SweepPiece>,
     ) -> (f64, bool) {
         let Some(piece) = self.piece(from) else {
             return (1.0, true);
         };
         let end = piece.step.u[1];
         match piece.along {
-            Along::Cap => {
+            SweepCurve::Cap => {
                 let cell = self.cell;
                 let falls = |u: f64| cell.cap_slope(u) - most.at(u, cell.cap(u));
                 let leaves = first_positive(falls, from, end).filter(|_| may_leave);
@@ -402,7 +402,7 @@ impl Upper<'_> {
                 pieces.push(*piece);
                 (end, true)
             }
-            Along::Side(_) => {
+            SweepCurve::Side(_) => {
                 let leg = self.leg();
                 let mut part = Vec::new();
                 let right = leg.point(end, piece.step.z[1]);

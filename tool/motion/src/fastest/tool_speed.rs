@@ -17,7 +17,7 @@ const POSITIONS: usize = 720;
 pub const MOST: usize = 8;
 
 /// Share of the largest transfer function below which the tool is at rest and sets no limit.
-const STANDS: f64 = 1e-6;
+const ZERO_TRANSFER: f64 = 1e-6;
 
 /// The largest speed of a point of a link, between two positions of the drive link.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -57,7 +57,7 @@ impl ToolSpeed {
         for phi in positions(mechanism.domain(), POSITIONS) {
             most = most.max(limit.slope(mechanism, phi)?);
         }
-        limit.stands = STANDS * most;
+        limit.stands = ZERO_TRANSFER * most;
         Ok((most > 0.0).then_some(limit))
     }
 

@@ -7,7 +7,7 @@ use jred::error::Error;
 use super::field::Field;
 use super::joint_force::{JointForce, Spot};
 use crate::memo::Memo;
-use crate::way::Place;
+use crate::path_dynamics::Place;
 
 /// Factor of z from one trial to the next where nothing limits the speed, and the most trials.
 const RISE: f64 = 16.0;
@@ -17,17 +17,17 @@ const RISES: i32 = 40;
 const TRIED_SPEEDS: u32 = 24;
 
 /// Share of a cell, or of a piece, by which a place at a corner is moved inside: a quantity that jumps there then has the value of its own side.
-pub(super) const INSIDE: f64 = 1e-9;
+pub(super) const CORNER_INSET: f64 = 1e-9;
 
 /// Largest relative change of the tool's speed limit within that distance, unless it jumps there.
-const GOES_ON: f64 = 1e-6;
+const CONTINUITY: f64 = 1e-6;
 
 /// Places closer than this share of the largest position are the same within rounding.
-const SAME: f64 = 16.0 * f64::EPSILON;
+const PLACE_TOLERANCE: f64 = 16.0 * f64::EPSILON;
 
 /// A cell of the path. Between its three places every quantity is the parabola through them.
 #[derive(Clone, Debug)]
-pub struct Cell {
+pub struct PathCell {
     /// Distance of its start from the start of the path (rad, or m).
     pub x: f64,
     /// Its length.
@@ -42,7 +42,7 @@ pub struct Cell {
     pub goes_on: bool,
 }
 
-impl Cell {
+impl PathCell {
     /// The machine at a share of the cell, 0 to 1.
     pub fn spot(&self, u: f64) -> Spot<'_> {
         let [a, b, c] = &self.places;
@@ -112,7 +112,7 @@ fn weights(u: f64) -> [f64; 3] {
 #[derive(Clone, Debug)]
 pub struct Track {
     /// The cells, in order.
-    pub cells: Vec<Cell>,
+    pub cells: Vec<PathCell>,
 }
 
 /// The ends of a path.
@@ -131,18 +131,18 @@ pub struct Ends {
 impl Ends {
     /// Distance below which two places are one.
     fn near(&self) -> f64 {
-        SAME * (self.from.abs() + self.length)
+        PLACE_TOLERANCE * (self.from.abs() + self.length)
     }
 
     /// Distance from the border of a cell of this length at which the machine has the values of the cell's own side.
     pub fn inside(&self, length: f64) -> f64 {
-        (INSIDE * length).max(self.near()).min(0.25 * length)
+        (CORNER_INSET * length).max(self.near()).min(0.25 * length)
     }
 }
 
 /// The machine at a place, independent of the speed.
 #[derive(Clone, Debug)]
-pub struct Seen {
+pub struct PathPoint {
     /// The machine.
     pub place: Place,
     /// The largest speed of the drive link that the tool's limit allows.
@@ -151,14 +151,14 @@ pub struct Seen {
     pub forces: Vec<JointForce>,
 }
 
-impl Seen {
+impl PathPoint {
     /// At a position.
     ///
     /// # Errors
     /// The mechanism cannot be placed there.
     pub fn new(field: &Field, phi: f64) -> Result<Self, Error> {
         Ok(Self {
-            place: field.way.place(phi)?,
+            place: field.dynamics.place(phi)?,
             tool: field.tool_speed(phi)?,
             forces: field.forces(phi)?,
         })
@@ -173,7 +173,7 @@ pub struct Survey<'f, 'w, 'a> {
     /// Position of the start (rad, or m).
     from: f64,
     /// By the distance from the start.
-    seen: Memo<u64, Seen>,
+    seen: Memo<u64, PathPoint>,
     /// The largest z, by the place and the border of its cell.
     caps: Memo<[u64; 2], f64>,
 }
@@ -193,15 +193,15 @@ impl<'f, 'w, 'a> Survey<'f, 'w, 'a> {
     ///
     /// # Errors
     /// The mechanism cannot be placed there.
-    pub fn seen(&self, x: f64) -> Result<Seen, Error> {
-        let position = self.from + self.field.way.direction * x;
+    pub fn seen(&self, x: f64) -> Result<PathPoint, Error> {
+        let position = self.from + self.field.dynamics.direction * x;
         self.seen
-            .of(x.to_bits(), || Seen::new(self.field, position))
+            .of(x.to_bits(), || PathPoint::new(self.field, position))
     }
 
     /// The same with the largest z; the place lies inside a cell with this border.
     fn at(&self, x: f64, border: f64) -> Result<(Place, f64, Vec<JointForce>), Error> {
-        let Seen {
+        let PathPoint {
             place,
             mut tool,
             forces,
@@ -210,7 +210,7 @@ impl<'f, 'w, 'a> Survey<'f, 'w, 'a> {
             if (x - border).abs() > 0.0 {
                 // A limit that continues beyond the border has no jump there.
                 let there = self.seen(border)?.tool;
-                if tool.is_finite() && (there - tool).abs() <= GOES_ON * tool {
+                if tool.is_finite() && (there - tool).abs() <= CONTINUITY * tool {
                     tool = there;
                 }
             }
@@ -232,7 +232,7 @@ impl Track {
         let (nodes, is_edge) = nodes(ends, count, finer);
         let at = |x: f64, border: f64| survey.at(x, border);
         let mut end_before = None;
-        let mut cells: Vec<Cell> = Vec::with_capacity(nodes.len());
+        let mut cells: Vec<PathCell> = Vec::with_capacity(nodes.len());
         for (k, pair) in nodes.windows(2).enumerate() {
             let &[x, end] = pair else { continue };
             let length = end - x;
@@ -247,7 +247,7 @@ impl Track {
             let middle = at(half, half)?;
             let last = at(if is_edge[k + 1] { end - inside } else { end }, end)?;
             let joints = first.2.iter().zip(&middle.2).zip(&last.2);
-            cells.push(Cell {
+            cells.push(PathCell {
                 x,
                 length,
                 places: [first.0, middle.0, last.0],

@@ -18,21 +18,21 @@ use jred_file::model::operation::Operation;
 use jred_file::model::surroundings::{REFERENCE, Surroundings};
 use jred_file::units::Sentence;
 use jred_sizing::catalogue::{DeratingBasis, Drive, Motor};
-use jred_sizing::motor::envelope::Prepared;
-use jred_sizing::thermal::course::{Course, Hottest};
+use jred_sizing::motor::envelope::MotorLimits;
+use jred_sizing::thermal::loss_curve::{LossCurve, PeakRise};
 use jred_sizing::thermal::{Heating, Model};
 
 use super::cycle::{Cost, Cycle};
 use super::{Binding, NoMotion, Rms};
+use crate::path_dynamics::{Actuator, BothDirections};
 use crate::trace::Trace;
-use crate::way::{Actuator, BothWays};
 
 /// Share of the allowed rise by which the greatest temperature may lie below its limit.
-const COOLER: f64 = 1e-4;
+const TEMPERATURE_TOLERANCE: f64 = 1e-4;
 
 /// Relative accuracy of the limit of the RMS torque, and the one with which it is decided that no motion is cool enough.
-const FOUND: f64 = 1e-4;
-const COARSE: f64 = 0.02;
+const RMS_TOLERANCE: f64 = 1e-4;
+const COARSE_RMS_TOLERANCE: f64 = 0.02;
 
 /// Most motions that are tried.
 const TRIES: u32 = 24;
@@ -51,7 +51,7 @@ const LEAST: f64 = 0.25;
 
 /// Why the temperature of a motor is unknown.
 #[derive(Clone, Copy, Debug)]
-pub enum Unknown {
+pub enum UnknownTemperature {
     /// Its model needs data that are missing.
     Figures(Sentence),
     /// The rise is known only as a share of the rated rise, and the winding's maximum temperature is missing.
@@ -62,7 +62,7 @@ pub enum Unknown {
 #[derive(Clone, Debug)]
 pub struct Winding {
     motor: Motor,
-    prepared: Prepared,
+    prepared: MotorLimits,
     surroundings: Surroundings,
     operation: Operation,
 }
@@ -84,7 +84,7 @@ pub struct Temperatures {
 
 /// A motion whose winding stays within a temperature limit.
 #[derive(Clone, Debug)]
-pub struct Cooled {
+pub struct ThermalResult {
     /// The motion.
     pub cycle: Cycle,
     /// Its temperatures.
@@ -100,7 +100,7 @@ impl Winding {
     pub fn new(drive: &Drive, file: &MachineFile) -> Self {
         Self {
             motor: drive.motor.clone(),
-            prepared: Prepared::new(drive.motor, drive.amplifier, &file.site),
+            prepared: MotorLimits::new(drive.motor, drive.amplifier, &file.site),
             surroundings: file.site.surroundings,
             operation: file.site.duty.operation,
         }
@@ -116,13 +116,13 @@ impl Winding {
         self.motor.thermal.max_temperature
     }
 
-    fn model(&self, duration: f64) -> Result<Model, Unknown> {
+    fn model(&self, duration: f64) -> Result<Model, UnknownTemperature> {
         Model::of(&self.motor, &self.prepared, &self.surroundings, duration)
-            .map_err(Unknown::Figures)
+            .map_err(UnknownTemperature::Figures)
     }
 
     /// Kelvin per unit of a model's rise; thin air increases it.
-    fn unit(&self, model: &Model) -> Result<f64, Unknown> {
+    fn unit(&self, model: &Model) -> Result<f64, UnknownTemperature> {
         let rated = if matches!(model, Model::Relative { .. }) {
             let derated = self.motor.derated(&self.surroundings);
             let from = match derated.temperature {
@@ -131,7 +131,9 @@ impl Winding {
                 _ => REFERENCE,
             };
             let limit = self.motor.thermal.max_temperature.map(|t| t - from);
-            limit.filter(|rise| *rise > 0.0).ok_or(Unknown::RatedRise)?
+            limit
+                .filter(|rise| *rise > 0.0)
+                .ok_or(UnknownTemperature::RatedRise)?
         } else {
             1.0
         };
@@ -142,9 +144,9 @@ impl Winding {
     ///
     /// # Errors
     /// The missing data.
-    pub fn known(&self) -> Result<(), Unknown> {
+    pub fn known(&self) -> Result<(), UnknownTemperature> {
         let model = self.model(1.0)?;
-        let course = Course::new(&[], 1.0);
+        let course = LossCurve::new(&[], 1.0);
         self.heating(&model, &course, 0.0)?;
         self.unit(&model).map(|_| ())
     }
@@ -156,8 +158,8 @@ impl Winding {
         file: &MachineFile,
         actuator: &Actuator,
         trace: &Trace,
-    ) -> Result<Course, Error> {
-        let ways = BothWays::new(file, actuator);
+    ) -> Result<LossCurve, Error> {
+        let ways = BothDirections::new(file, actuator);
         let longest = model.network().map(|network| PART * network.fastest());
         let mut points = Vec::new();
         for pair in trace.nodes().windows(2) {
@@ -177,11 +179,16 @@ impl Winding {
                 points.push(model.point(&self.motor, &self.prepared, t, [torque, speed]));
             }
         }
-        Ok(Course::new(&points, trace.duration()))
+        Ok(LossCurve::new(&points, trace.duration()))
     }
 
     /// The hottest rises for losses; at rest beside the cycle the motor gives `held` (N·m).
-    fn heating(&self, model: &Model, course: &Course, held: f64) -> Result<Heating, Unknown> {
+    fn heating(
+        &self,
+        model: &Model,
+        course: &LossCurve,
+        held: f64,
+    ) -> Result<Heating, UnknownTemperature> {
         let held = match self.operation {
             Operation::Intermittent { holding: true, .. } => held,
             _ => 0.0,
@@ -189,13 +196,13 @@ impl Winding {
         let rest = model.at_rest(&self.prepared, held);
         model
             .heated(|| course.clone(), || course.mean(), &self.operation, rest)
-            .map_err(Unknown::Figures)
+            .map_err(UnknownTemperature::Figures)
     }
 
     fn greatest(&self, unit: f64, heating: &Heating) -> f64 {
         match heating.hottest {
-            Hottest::Rise([winding, _]) => self.ambient() + unit * winding,
-            Hottest::Runaway => f64::INFINITY,
+            PeakRise::Rise([winding, _]) => self.ambient() + unit * winding,
+            PeakRise::Runaway => f64::INFINITY,
         }
     }
 
@@ -219,7 +226,7 @@ impl Winding {
         let at = |share: f64| {
             let scaled = course.scaled(share);
             let heating = self.heating(&model, &scaled, share * held)?;
-            Ok::<_, Unknown>((self.greatest(unit, &heating), heating))
+            Ok::<_, UnknownTemperature>((self.greatest(unit, &heating), heating))
         };
         let (greatest, heating) = at(1.0).map_err(unknown)?;
         let network = model.network();
@@ -275,9 +282,9 @@ pub fn cooled(
     (file, actuator): (&MachineFile, &Actuator),
     rms: Option<Rms>,
     at: impl Fn(Option<Rms>) -> Result<Cycle, (Option<usize>, NoMotion)>,
-) -> Result<Cooled, (Option<usize>, NoMotion)> {
+) -> Result<ThermalResult, (Option<usize>, NoMotion)> {
     let free = at(rms)?;
-    let margin = COOLER * (limit - winding.ambient());
+    let margin = TEMPERATURE_TOLERANCE * (limit - winding.ambient());
     let aim = limit - 0.5 * margin;
     let look = |cycle: &Cycle| {
         let found = winding.temperatures(file, actuator, cycle, aim);
@@ -285,7 +292,7 @@ pub fn cooled(
     };
     let (temperatures, mut share) = look(&free)?;
     if temperatures.greatest <= limit {
-        return Ok(Cooled {
+        return Ok(ThermalResult {
             cycle: free,
             temperatures,
             limit,
@@ -339,7 +346,11 @@ pub fn cooled(
             next = low.midpoint(high);
         }
         // If every motion is too warm, less accuracy is enough.
-        let near = if best.is_some() { FOUND } else { COARSE };
+        let near = if best.is_some() {
+            RMS_TOLERANCE
+        } else {
+            COARSE_RMS_TOLERANCE
+        };
         if high - low <= near * high {
             break;
         }
@@ -358,7 +369,7 @@ pub fn cooled(
             time: before.fastest.time,
         });
     }
-    Ok(Cooled {
+    Ok(ThermalResult {
         bound: Some([free.trace.duration(), cycle.load.rms]),
         cycle,
         temperatures,

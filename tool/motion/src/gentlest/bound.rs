@@ -35,10 +35,10 @@ const STEPS: i32 = 4;
 const GOLDEN: u32 = 40;
 
 /// Share of the cost below which a gap cannot be closed further, because of the quadrature and the search over w.
-const PROVED: f64 = 1e-9;
+const GAP_RESOLUTION: f64 = 1e-9;
 
 /// A cost of this size, in the units of the problem, is rounding error.
-const NONE: f64 = 1e-20;
+const COST_ROUNDING: f64 = 1e-20;
 
 /// The best of the bounds, in the units of the problem. The bound is of the exact problem, P of the one with rounded bends. `price` is λ: the
 /// multiplier found, or the saving by waiting. `None` if the result exceeds the motion's own `cost`, and so is not a bound.
@@ -47,7 +47,7 @@ pub(super) fn value(
     (found, cost): (&Minimum, f64),
     price: f64,
 ) -> Result<Option<f64>, Fault> {
-    let close = PROVED * cost + NONE;
+    let close = GAP_RESOLUTION * cost + COST_ROUNDING;
     let plain = with(problems, found, price, 0.0)?;
     if plain > cost + close {
         return Ok(None);
@@ -184,7 +184,7 @@ fn with(
             let [w, change] = mesh.pace(&found.x, &mesh.stations[station]);
             let root = w.sqrt();
             let [p, p1] = p[station];
-            let line = Line {
+            let line = StationBound {
                 p: p - c / (2.0 * root),
                 p1: p1 - c1 / (2.0 * root) + c * change / (4.0 * w * root),
                 c,
@@ -251,7 +251,7 @@ fn cubic(values: &[f64; 4], z: f64, h: f64) -> [f64; 2] {
 fn of_rest(problem: &Problem, u: f64) -> Result<f64, Fault> {
     let [g, slope, _] = problem.mesh.shape.at(u);
     let place = problem.place(g)?;
-    let rest = Torque::exact(problem.way, &place, 0.0, 0.0);
+    let rest = Torque::exact(problem.dynamics, &place, 0.0, 0.0);
     let by_change = rest.by_acceleration * 0.5 * slope * problem.length
         / (problem.duration * problem.duration * problem.unit);
     let [_, at_rest, _] = problem.cost.torque(rest.value / problem.unit);
@@ -259,7 +259,7 @@ fn of_rest(problem: &Problem, u: f64) -> Result<f64, Fault> {
 }
 
 /// V and its change at a station.
-struct Line {
+struct StationBound {
     p: f64,
     p1: f64,
     c: f64,
@@ -267,7 +267,7 @@ struct Line {
     multiplier: f64,
 }
 
-impl Line {
+impl StationBound {
     /// The infimum over all w and w′.
     fn least(&self, problem: &Problem, x: &[f64], station: usize) -> f64 {
         let [own, _] = problem.mesh.pace(x, &problem.mesh.stations[station]);

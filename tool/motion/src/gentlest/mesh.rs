@@ -7,11 +7,11 @@
 use jred::error::Error;
 use jred_file::number::quadrature::GAUSS_5;
 
-use super::{Ends, Travel};
+use super::{EndConditions, Travel};
 use crate::collocation::pieces::{Value, dot, first_columns, hermite};
-use crate::collocation::shape::Shape;
+use crate::collocation::shape::Parametrization;
+use crate::path_dynamics::Place;
 use crate::skyline::Skyline;
-use crate::way::Place;
 
 /// A piece of the path: w, w′ at its start, w, w′ at its end.
 #[derive(Clone, Copy, Debug)]
@@ -49,7 +49,7 @@ impl Station {
 /// The elements of a move.
 #[derive(Clone, Debug)]
 pub(super) struct Mesh {
-    pub(super) shape: Shape,
+    pub(super) shape: Parametrization,
     pub(super) elements: Vec<Element>,
     /// Parts of the elements, each with its own Gauss points: the element and its span.
     pub(super) cells: Vec<(usize, [f64; 2])>,
@@ -64,7 +64,7 @@ const RISE: [[f64; 2]; 1] = [[0.5, 0.75]];
 
 /// Slopes at a node.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Node {
+enum Continuity {
     /// One slope.
     Smooth,
     /// A slope on each side.
@@ -72,12 +72,12 @@ enum Node {
 }
 
 /// Elements of a motion with continuous acceleration: the ramps, and between them elements about as long as the requested ramp.
-fn ramped([first, last]: [f64; 2], asked: f64) -> Vec<(f64, Node)> {
+fn ramped([first, last]: [f64; 2], asked: f64) -> Vec<(f64, Continuity)> {
     let between = 1.0 - first - last;
     let count = (1.0 / asked - 2.0).round().max(2.0);
     let inner = (0..=count as usize).map(|k| first + between * k as f64 / count);
     let all = std::iter::once(0.0).chain(inner).chain([1.0]);
-    all.map(|u| (u, Node::Smooth)).collect()
+    all.map(|u| (u, Continuity::Smooth)).collect()
 }
 
 impl Mesh {
@@ -90,7 +90,7 @@ impl Mesh {
         (edges, parts): (&[f64], usize),
     ) -> Result<Self, Error> {
         let ends = travel.ends();
-        let shape = Shape::with_ramps(ends.rest, ramps, &RISE);
+        let shape = Parametrization::with_ramps(ends.rest, ramps, &RISE);
         let marks = edges.iter().map(|share| shape.place(*share));
         let bends = shape.knots().filter(|_| ends.ramp > 0.0);
         let marks = marks.chain(bends);
@@ -200,34 +200,34 @@ impl Mesh {
 }
 
 /// Shortest distance of an edge from another node, as a share of u.
-const APART: f64 = 1e-7;
+const EDGE_SPACING: f64 = 1e-7;
 
 /// About `parts` equal pieces, cut at marks.
-fn nodes(mut marks: Vec<f64>, parts: usize) -> Vec<(f64, Node)> {
+fn nodes(mut marks: Vec<f64>, parts: usize) -> Vec<(f64, Continuity)> {
     marks.extend([0.0, 1.0]);
     marks.sort_by(f64::total_cmp);
-    marks.dedup_by(|a, b| *a - *b < APART);
+    marks.dedup_by(|a, b| *a - *b < EDGE_SPACING);
     let mut nodes = Vec::new();
     for pair in marks.windows(2) {
         let [from, to] = [pair[0], pair[1]];
         let count = ((parts as f64 * (to - from)).ceil() as usize).max(2);
-        nodes.push((from, Node::Edge));
+        nodes.push((from, Continuity::Edge));
         for k in 1..count {
             let u = from + (to - from) * k as f64 / count as f64;
-            nodes.push((u, Node::Smooth));
+            nodes.push((u, Continuity::Smooth));
         }
     }
-    nodes.push((1.0, Node::Edge));
+    nodes.push((1.0, Continuity::Edge));
     nodes
 }
 
 /// The elements cut at the nodes of a finer mesh.
-fn cells(elements: &[Element], fine: &[(f64, Node)]) -> Vec<(usize, [f64; 2])> {
+fn cells(elements: &[Element], fine: &[(f64, Continuity)]) -> Vec<(usize, [f64; 2])> {
     let mut cells = Vec::new();
     for (index, element) in elements.iter().enumerate() {
         let [mut from, to] = element.span;
         for (u, _) in fine {
-            if *u > from + APART && *u < to - APART {
+            if *u > from + EDGE_SPACING && *u < to - EDGE_SPACING {
                 cells.push((index, [from, *u]));
                 from = *u;
             }
@@ -238,13 +238,13 @@ fn cells(elements: &[Element], fine: &[(f64, Node)]) -> Vec<(usize, [f64; 2])> {
 }
 
 /// The values at a node: slope on the left, w, slope on the right.
-type Values = [Value; 3];
+type NodeValues = [Value; 3];
 
 fn elements(
-    shape: &Shape,
+    shape: &Parametrization,
     travel: &Travel,
-    ends: Ends,
-    nodes: &[(f64, Node)],
+    ends: EndConditions,
+    nodes: &[(f64, Continuity)],
 ) -> (Vec<Element>, usize) {
     let last = nodes.len() - 1;
     let mut unknowns = 0;
@@ -253,7 +253,7 @@ fn elements(
         Value::Free(unknowns - 1)
     };
     let level = Value::Fixed(0.0);
-    let mut all: Vec<Values> = Vec::with_capacity(nodes.len());
+    let mut all: Vec<NodeValues> = Vec::with_capacity(nodes.len());
     for (k, (u, kind)) in nodes.iter().enumerate() {
         let end = match k {
             0 => Some(0),
@@ -290,12 +290,12 @@ fn elements(
             continue;
         }
         all.push(match kind {
-            Node::Smooth => {
+            Continuity::Smooth => {
                 let w = next();
                 let slope = next();
                 [slope, w, slope]
             }
-            Node::Edge => {
+            Continuity::Edge => {
                 let left = if k == 0 { level } else { next() };
                 let w = next();
                 let right = if k == last { level } else { next() };

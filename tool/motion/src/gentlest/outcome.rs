@@ -7,18 +7,18 @@ use jred_file::number::quadrature::GAUSS_5;
 use super::cost::Cost;
 use super::mesh::Mesh;
 use super::solve;
-use super::task::{Solved, Stage};
-use super::{Fault, GAP, Gentle, Objective, Optimum, Reason, bound};
+use super::task::{Solution, Stage};
+use super::{Fault, GAP, LeastEffortMove, Objective, Optimum, Reason, bound};
 
 /// A wait that costs less than moving slowly.
-pub(super) struct Waits {
+pub(super) struct Wait {
     duration: f64,
     at_end: bool,
     /// Holding torque there (N·m).
     torque: f64,
 }
 
-impl Waits {
+impl Wait {
     pub(super) fn new(duration: f64, held: &[f64; 2]) -> Self {
         let at_end = held[1].abs() <= held[0].abs();
         Self {
@@ -34,9 +34,14 @@ impl Waits {
     }
 }
 
-impl Solved<'_> {
+impl Solution<'_> {
     /// The result, with the relative change of the cost at the last mesh, and a lower bound on request.
-    pub(super) fn finish(self, change: f64, waits: &Waits, prove: bool) -> Result<Gentle, Fault> {
+    pub(super) fn finish(
+        self,
+        change: f64,
+        waits: &Wait,
+        prove: bool,
+    ) -> Result<LeastEffortMove, Fault> {
         let Self {
             task,
             moving,
@@ -45,7 +50,7 @@ impl Solved<'_> {
             mesh,
             found,
         } = self;
-        let way = task.way;
+        let dynamics = task.dynamics;
         // The exact problem, without rounding.
         let exact = Stage {
             range: 0.0,
@@ -66,7 +71,7 @@ impl Solved<'_> {
         let [holding, ..] = exact.cost.torque(waits.torque / scale.unit);
         let held = size * holding * waits.duration;
         let viscous = mesh.stations.iter().any(|s| s.place.viscous > 0.0)
-            || way.actuator.coefficients.0[3] > 0.0;
+            || dynamics.actuator.coefficients.0[3] > 0.0;
         // A wait that costs nothing has a multiplier of zero.
         let waiting = waits.duration > 0.0;
         let multiplier = if waiting { -holding } else { found.multiplier };
@@ -82,7 +87,7 @@ impl Solved<'_> {
         let cost = size * moving * cost + held;
         // It may exceed the cost by rounding; more is refuted.
         let bound = bound.map(|bound| bound.min(cost));
-        let bends = way.bends();
+        let bends = dynamics.bends();
         let convex = !viscous && !bends && !refuted && multiplier >= -1e-9 * found.cost;
         let proved =
             found.converged && convex || bound.is_some_and(|bound| cost - bound <= GAP * cost);
@@ -115,7 +120,7 @@ impl Solved<'_> {
             let place = if waits.at_end { phases.len() } else { 0 };
             phases.insert(place, still);
         }
-        Ok(Gentle {
+        Ok(LeastEffortMove {
             travel: *task.travel,
             moving,
             waits_at: task.travel.start
@@ -138,7 +143,7 @@ impl Solved<'_> {
 }
 
 /// Allowed error of a polynomial at half its time, for positions as a share of the path, for speeds as a share of the mean speed.
-const OFF: f64 = 1e-8;
+const POLYNOMIAL_ERROR: f64 = 1e-8;
 
 /// Most halvings of a cell.
 const HALVINGS: u32 = 16;
@@ -147,11 +152,11 @@ const HALVINGS: u32 = 16;
 fn phases(distance: f64, duration: f64, mesh: &Mesh, x: &[f64]) -> Vec<Phase> {
     let mut parts = Vec::with_capacity(mesh.cells.len());
     for &(index, ends) in &mesh.cells {
-        let mut open = vec![(Part::new(mesh, x, index, ends), ends, 0)];
+        let mut open = vec![(MotionSpan::new(mesh, x, index, ends), ends, 0)];
         while let Some((part, [from, to], depth)) = open.pop() {
             let middle = from.midpoint(to);
             let [first, second] = [[from, middle], [middle, to]]
-                .map(|ends| (Part::new(mesh, x, index, ends), ends, depth + 1));
+                .map(|ends| (MotionSpan::new(mesh, x, index, ends), ends, depth + 1));
             if depth < HALVINGS && !part.meets([&first.0, &second.0]) {
                 open.extend([second, first]);
             } else {
@@ -161,7 +166,7 @@ fn phases(distance: f64, duration: f64, mesh: &Mesh, x: &[f64]) -> Vec<Phase> {
     }
     // With smaller parts the integral of the time changes.
     let time: f64 = parts.iter().map(|part| part.time).sum();
-    let phase = |part: &Part| {
+    let phase = |part: &MotionSpan| {
         let [first, last] = part.states.map(|[_, speed, acceleration]| {
             let pace = time / duration;
             End::new(
@@ -180,13 +185,13 @@ fn phases(distance: f64, duration: f64, mesh: &Mesh, x: &[f64]) -> Vec<Phase> {
 }
 
 /// A cell or a part of it: shares of the path and of the time.
-struct Part {
+struct MotionSpan {
     time: f64,
     /// Position, speed and acceleration at both ends.
     states: [[f64; 3]; 2],
 }
 
-impl Part {
+impl MotionSpan {
     fn new(mesh: &Mesh, x: &[f64], cell: usize, [from, to]: [f64; 2]) -> Self {
         let h = to - from;
         let time = GAUSS_5.iter().map(|[z, weight]| {
@@ -211,8 +216,8 @@ impl Part {
             Polynomial::between(end - start, self.time, End::new(v, a), End::new(w, b));
         let [way, speed, ..] = polynomial.at(first.time);
         let [middle, exact, _] = first.states[1];
-        (first.time + second.time - self.time).abs() <= OFF
-            && (start + way - middle).abs() <= OFF
-            && (speed - exact).abs() <= OFF
+        (first.time + second.time - self.time).abs() <= POLYNOMIAL_ERROR
+            && (start + way - middle).abs() <= POLYNOMIAL_ERROR
+            && (speed - exact).abs() <= POLYNOMIAL_ERROR
     }
 }

@@ -6,7 +6,7 @@
 
 use jred_file::number::quadrature::GAUSS_5;
 
-use super::task::{Solved, Start, Task};
+use super::task::{EffortTask, Solution, Start};
 use super::{FIRST, Fault, solve};
 
 /// Lengths of the pieces: the longest, and the number of corrections at a moving end.
@@ -22,12 +22,12 @@ const REACHED: f64 = 0.9;
 const PENALTY: f64 = 10.0;
 const PLACES_BEHIND: u32 = 32;
 
-impl<'a> Task<'a> {
+impl<'a> EffortTask<'a> {
     /// The same task with the best pieces for the requested ramp, for a motion with this time in motion (s).
     ///
     /// # Errors
     /// The mechanism cannot be placed somewhere.
-    pub(super) fn fitted(&self, moving: f64) -> Result<Task<'a>, Fault> {
+    pub(super) fn fitted(&self, moving: f64) -> Result<EffortTask<'a>, Fault> {
         let asked = self.travel.ends().ramp;
         let mut task = self.clone();
         if asked == 0.0 {
@@ -50,7 +50,7 @@ impl<'a> Task<'a> {
     }
 
     /// Varies the lengths of the pieces at rest by smaller and smaller factors as long as that lowers the cost.
-    fn highest(self, moving: f64, rest: [bool; 2]) -> Result<Task<'a>, Fault> {
+    fn highest(self, moving: f64, rest: [bool; 2]) -> Result<EffortTask<'a>, Fault> {
         let mut best = (f64::INFINITY, self.ramps);
         // Each solution starts from the one before: neighbours differ little.
         let mut start: Option<Start> = None;
@@ -58,7 +58,7 @@ impl<'a> Task<'a> {
             if ramps.iter().any(|ramp| *ramp > LONGEST) {
                 return Ok(f64::INFINITY);
             }
-            let task = Task {
+            let task = EffortTask {
                 ramps,
                 ..self.clone()
             };
@@ -73,7 +73,7 @@ impl<'a> Task<'a> {
         best.0 = at(best.1)?;
         if best.0.is_infinite() {
             // In a time in which the machine would crawl no motion is found, whatever the ramps.
-            return Ok(Task {
+            return Ok(EffortTask {
                 ramps: best.1,
                 ..self
             });
@@ -108,14 +108,14 @@ impl<'a> Task<'a> {
                 change *= 0.5;
             }
         }
-        Ok(Task {
+        Ok(EffortTask {
             ramps: best.1,
             ..self
         })
     }
 }
 
-impl Solved<'_> {
+impl Solution<'_> {
     /// The objective, in units independent of the mesh.
     fn figure(&self) -> f64 {
         let power = f64::from(self.stage.cost.power);

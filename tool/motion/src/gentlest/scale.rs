@@ -1,12 +1,12 @@
 //! Scales of a move: the unit of its numbers, and the load of which a share rounds the bends.
 //!
 //! Both come from a constant pace along the path, w = 1. At a moving end the pace differs; the effort for that change is added. Whether the torque
-//! bends at all depends on the machine: [`Way::bends`].
+//! bends at all depends on the machine: [`PathDynamics::bends`].
 
 use super::mesh::Mesh;
 use super::{Fault, Travel};
 use crate::collocation::torque::Torque;
-use crate::way::Way;
+use crate::path_dynamics::PathDynamics;
 
 /// Scales of a move in a given time.
 #[derive(Clone, Copy, Debug)]
@@ -22,14 +22,18 @@ impl Scale {
     ///
     /// # Errors
     /// A torque is not finite, or nothing in motion has inertia.
-    pub(super) fn new(way: &Way, travel: &Travel, mesh: &Mesh) -> Result<Self, Fault> {
+    pub(super) fn new(
+        dynamics: &PathDynamics,
+        travel: &Travel,
+        mesh: &Mesh,
+    ) -> Result<Self, Fault> {
         let change = change(travel);
         let (mut squares, mut load) = (0.0, 0.0f64);
         for station in &mesh.stations {
             let state = station.state([1.0, 0.0], travel.duration);
             let place = &station.place;
             let [speed, acceleration] = state;
-            let torque = Torque::exact(way, place, speed, acceleration);
+            let torque = Torque::exact(dynamics, place, speed, acceleration);
             if !torque.value.is_finite() {
                 return Err(Fault::Figure("torque", torque.value));
             }
@@ -56,10 +60,10 @@ fn change(travel: &Travel) -> f64 {
     if ends.ring || ends.rest == [true; 2] {
         return 0.0;
     }
-    let (way, time) = (travel.distance.abs(), travel.duration);
-    let [first, last] = travel.speeds.map(|speed| speed * time / way);
+    let (dynamics, time) = (travel.distance.abs(), travel.duration);
+    let [first, last] = travel.speeds.map(|speed| speed * time / dynamics);
     let most = (6.0 - 4.0 * first - 2.0 * last)
         .abs()
         .max((6.0 - 2.0 * first - 4.0 * last).abs());
-    most * way / (time * time)
+    most * dynamics / (time * time)
 }

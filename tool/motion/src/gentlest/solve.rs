@@ -7,7 +7,7 @@ use super::cost::Cost;
 use super::mesh::Mesh;
 use crate::collocation::pieces::{Value, dot, hermite};
 use crate::collocation::torque::Torque;
-use crate::way::{Place, Way};
+use crate::path_dynamics::{PathDynamics, Place};
 use jred::error::Error;
 
 /// Most steps of Newton's method.
@@ -26,7 +26,7 @@ const MOST_IDLE: u32 = 3;
 /// The problem.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Problem<'a> {
-    pub(super) way: &'a Way<'a>,
+    pub(super) dynamics: &'a PathDynamics<'a>,
     pub(super) mesh: &'a Mesh,
     /// Duration of the move (s).
     pub(super) duration: f64,
@@ -61,7 +61,7 @@ impl Problem<'_> {
     /// The machine at a share of the path.
     pub(super) fn place(&self, share: f64) -> Result<Place, Error> {
         let [start, distance] = self.course;
-        self.way.place(start + distance * share)
+        self.dynamics.place(start + distance * share)
     }
 
     /// The minimum, from unknowns that need not meet the time.
@@ -230,7 +230,7 @@ impl Problem<'_> {
         let state = station.state(self.mesh.pace(x, station), self.duration);
         (
             state,
-            Torque::rounded(self.way, &station.place, state, self.range),
+            Torque::rounded(self.dynamics, &station.place, state, self.range),
         )
     }
 
@@ -322,7 +322,8 @@ impl Problem<'_> {
         let [slope, bend] = station.path;
         let root = w.sqrt();
         let speed_by_root = slope / self.duration;
-        let rate = self.way.actuator.coefficients.0[3] * self.way.file.drive_train.ratio().abs();
+        let rate =
+            self.dynamics.actuator.coefficients.0[3] * self.dynamics.file.drive_train.ratio().abs();
         // Derivatives by the load R, the acceleration, and the speed directly.
         let load_w = 0.5 * place.inertia_slope * speed_by_root * speed_by_root
             + place.viscous * speed_by_root / (2.0 * root);
@@ -348,8 +349,8 @@ impl Problem<'_> {
         let value = torque.value / self.unit;
         let [c, c1, c2] = self.cost.torque(value);
         let [_, m1, m2] = self.cost.drawn(value);
-        let way = self.cost.drawn * slope;
-        let [f1, f2] = [c1 / root + m1 * way, c2 / root + m2 * way];
+        let dynamics = self.cost.drawn * slope;
+        let [f1, f2] = [c1 / root + m1 * dynamics, c2 / root + m2 * dynamics];
         let [q1, q2] = [-0.5 / (w * root), 0.75 / (w * w * root)];
         let weight = station.weight;
         Local {

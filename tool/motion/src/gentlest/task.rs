@@ -11,7 +11,7 @@ use super::scale::Scale;
 use super::solve::{self, Minimum, Problem};
 use super::{FIRST, Fault, MOST, Objective, PEAK_POWER, Travel};
 use crate::memo::Memo;
-use crate::way::{Place, Way};
+use crate::path_dynamics::{PathDynamics, Place};
 
 /// Search for the best time: most steps down to times that are too short, the factor of each, the number of evaluations, and halvings after that.
 const LONGEST: u32 = 60;
@@ -20,7 +20,7 @@ const SHORTS: u32 = 4;
 const HALVINGS: u32 = 24;
 
 /// Relative accuracy of the time.
-const CLOSE: f64 = 1e-7;
+const TIME_TOLERANCE: f64 = 1e-7;
 
 /// Successive ranges of the loads over which bends are rounded, as shares of the largest load.
 const RANGES: [f64; 2] = [1e-1, 1e-2];
@@ -43,8 +43,8 @@ const PLAIN: Cost = Cost {
 };
 
 /// Shares of the path, without its ends, at which a load begins or ends or a cam's segments meet.
-pub(super) fn edges(way: &Way, travel: &Travel) -> Vec<f64> {
-    let machine = &way.file.machine;
+pub(super) fn edges(dynamics: &PathDynamics, travel: &Travel) -> Vec<f64> {
+    let machine = &dynamics.file.machine;
     let mut shares = Vec::new();
     for edge in (0..).map_while(|k| machine.edge(k)) {
         let share = |place: f64| (place - travel.start) / travel.distance;
@@ -53,7 +53,8 @@ pub(super) fn edges(way: &Way, travel: &Travel) -> Vec<f64> {
             continue;
         }
         let turn = std::f64::consts::TAU;
-        let [low, high] = [0.0, travel.distance].map(|way| (travel.start + way - edge) / turn);
+        let [low, high] =
+            [0.0, travel.distance].map(|dynamics| (travel.start + dynamics - edge) / turn);
         let (first, last) = (low.min(high).floor() as i64, low.max(high).ceil() as i64);
         // With more passages than elements, no cuts.
         for k in (first..=last).take(MOST) {
@@ -79,8 +80,8 @@ fn refined(mesh: &Mesh, x: &[f64], finer: &Mesh) -> Vec<f64> {
 
 /// A move with its objective.
 #[derive(Clone)]
-pub(super) struct Task<'a> {
-    pub(super) way: &'a Way<'a>,
+pub(super) struct EffortTask<'a> {
+    pub(super) dynamics: &'a PathDynamics<'a>,
     pub(super) travel: &'a Travel,
     pub(super) objective: Objective,
     pub(super) edges: Vec<f64>,
@@ -106,8 +107,8 @@ impl Stage {
 }
 
 /// A solution on a mesh.
-pub(super) struct Solved<'t> {
-    pub(super) task: &'t Task<'t>,
+pub(super) struct Solution<'t> {
+    pub(super) task: &'t EffortTask<'t>,
     /// s
     pub(super) moving: f64,
     pub(super) scale: Scale,
@@ -125,7 +126,7 @@ pub(super) struct Start {
     x: Vec<f64>,
 }
 
-impl Solved<'_> {
+impl Solution<'_> {
     /// The solution as the start of another search.
     pub(super) fn start(&self) -> Start {
         Start {
@@ -137,14 +138,14 @@ impl Solved<'_> {
     }
 }
 
-impl Task<'_> {
+impl EffortTask<'_> {
     /// Torques (N·m) that hold the machine at rest at both ends, as the duty counts them in a dwell: friction is not deducted. Infinite at a moving
     /// end, where it cannot wait.
     pub(super) fn held(&self) -> Result<[f64; 2], Fault> {
         let rest = self.travel.ends().rest;
         let torque = |end: usize, phi: f64| {
             if rest[end] {
-                self.way.holding_at(phi)
+                self.dynamics.holding_at(phi)
             } else {
                 Ok(f64::INFINITY)
             }
@@ -156,16 +157,16 @@ impl Task<'_> {
     }
 
     /// The motion in the time beyond which waiting is better than moving: one more second of motion costs as much as a second of holding.
-    pub(super) fn shorter(&self, held: &[f64; 2]) -> Result<Solved<'_>, Fault> {
-        let is_short = |solved: &Solved| solved.cost_above_holding(held) <= 0.0;
+    pub(super) fn shorter(&self, held: &[f64; 2]) -> Result<Solution<'_>, Fault> {
+        let is_short = |solved: &Solution| solved.cost_above_holding(held) <= 0.0;
         // Down to times that are too short, where only one motion exists: in a long time the search may be caught in a crawling one.
         let mut time = self.travel.duration;
-        let mut last: Option<Solved> = None;
+        let mut last: Option<Solution> = None;
         let mut shorts = 0;
         for _ in 0..LONGEST {
             time *= STEP;
             // A short one is not a crawling one.
-            let start = last.as_ref().map(Solved::start);
+            let start = last.as_ref().map(Solution::start);
             let solved = self.solve(time, FIRST, start.as_ref())?;
             let short = solved.filter(is_short);
             shorts = if short.is_some() { shorts + 1 } else { 0 };
@@ -186,7 +187,7 @@ impl Task<'_> {
             } else {
                 (found.moving / STEP).min(high)
             };
-            if high - found.moving <= CLOSE * high {
+            if high - found.moving <= TIME_TOLERANCE * high {
                 break;
             }
             if let Some(solved) = self
@@ -210,7 +211,7 @@ impl Task<'_> {
                     return Err(Fault::Figure("copper loss", copper));
                 }
                 Cost {
-                    drawn: self.way.motor_speed(1.0) / (copper * scale.unit * moving),
+                    drawn: self.dynamics.motor_speed(1.0) / (copper * scale.unit * moving),
                     rounding: SHARP[1],
                     ..PLAIN
                 }
@@ -221,7 +222,7 @@ impl Task<'_> {
             },
         };
         let range = match self.objective {
-            _ if !self.way.bends() => 0.0,
+            _ if !self.dynamics.bends() => 0.0,
             Objective::Energy { .. } => SHARP[1],
             Objective::Rms | Objective::Peak => RANGES[1],
         };
@@ -236,7 +237,7 @@ impl Task<'_> {
         stage: &Stage,
     ) -> Problem<'p> {
         Problem {
-            way: self.way,
+            dynamics: self.dynamics,
             mesh,
             duration: moving,
             unit: scale.unit,
@@ -253,18 +254,18 @@ impl Task<'_> {
         moving: f64,
         parts: usize,
         from: Option<&Start>,
-    ) -> Result<Option<Solved<'t>>, Fault> {
+    ) -> Result<Option<Solution<'t>>, Fault> {
         let travel = Travel {
             duration: moving,
             ..*self.travel
         };
-        let place = |phi: f64| self.places.of(phi.to_bits(), || self.way.place(phi));
+        let place = |phi: f64| self.places.of(phi.to_bits(), || self.dynamics.place(phi));
         let mesh = Mesh::new(place, &travel, self.ramps, (&self.edges, parts))?;
         // All meshes for one time use the same scale, because their costs are compared.
         let same = from.filter(|from| from.moving.total_cmp(&moving).is_eq());
         let scale = match same {
             Some(from) => from.scale,
-            None => Scale::new(self.way, &travel, &mesh)?,
+            None => Scale::new(self.dynamics, &travel, &mesh)?,
         };
         let goal = self.goal(&scale, moving)?;
         let at = |stage: &Stage, x: &[f64]| self.problem(&mesh, moving, &scale, stage).minimise(x);
@@ -301,7 +302,7 @@ impl Task<'_> {
             let converged = false;
             (stage, Minimum { converged, ..found })
         });
-        Ok(kept.or(rough).map(|(stage, found)| Solved {
+        Ok(kept.or(rough).map(|(stage, found)| Solution {
             task: self,
             moving,
             scale,
@@ -328,7 +329,7 @@ impl Task<'_> {
             power: 2,
             ..goal.cost
         };
-        let ranges = if self.way.bends() {
+        let ranges = if self.dynamics.bends() {
             &RANGES[..]
         } else {
             &[0.0]
@@ -365,7 +366,7 @@ impl Task<'_> {
     }
 }
 
-impl Solved<'_> {
+impl Solution<'_> {
     /// Whether it replaces the solution of a coarser mesh.
     pub(super) fn follows(&self, before: &Self) -> bool {
         let peak = |solved: &Self| {

@@ -10,8 +10,10 @@ use jred::machine::motion::{End, Polynomial};
 use jred_file::model::motion::Phase;
 use jred_file::number::numerics::{least, zero};
 
-use super::{Fault, GAP, Gentle, Objective, Optimum, Reason, Travel, from_end_to_end};
-use crate::way::Way;
+use super::{
+    Fault, GAP, LeastEffortMove, Objective, Optimum, Reason, Travel, Waiting, from_end_to_end,
+};
+use crate::path_dynamics::PathDynamics;
 
 /// Places at which the holding torque is evaluated.
 const HOLDING_PLACES: u32 = 360;
@@ -20,24 +22,24 @@ const HOLDING_PLACES: u32 = 360;
 const MOST: usize = 4;
 
 /// Share by which a wait must be better.
-const BETTER: f64 = 1e-6;
+const LEAST_GAIN: f64 = 1e-6;
 
 /// Share of the time, or of the path, that is rounding.
-const ROUNDED: f64 = 1e-9;
+const ROUNDING: f64 = 1e-9;
 
 /// Relative accuracy of a zero's position.
-const CLOSE: f64 = 1e-15;
+const ZERO_TOLERANCE: f64 = 1e-15;
 
 /// The given motion, or a better one that waits on its path.
 ///
 /// # Errors
 /// Those of the given motion, if no other motion is found.
 pub(super) fn on_the_way(
-    way: &Way,
+    dynamics: &PathDynamics,
     travel: &Travel,
     objective: Objective,
-    found: Result<Gentle, Fault>,
-) -> Result<Gentle, Fault> {
+    found: Result<LeastEffortMove, Fault>,
+) -> Result<LeastEffortMove, Fault> {
     let per_square = match objective {
         Objective::Rms => 1.0,
         Objective::Energy { copper } => copper,
@@ -45,18 +47,18 @@ pub(super) fn on_the_way(
         Objective::Peak => return found,
     };
     let mut best = found;
-    for (place, torque) in places(way, travel)? {
+    for (place, torque) in places(dynamics, travel)? {
         let rate = per_square * torque * torque;
         let made = if travel.ring {
-            turning_from(way, travel, objective, place)
+            turning_from(dynamics, travel, objective, place)
         } else {
-            waiting_at(way, travel, objective, (place, rate))
+            waiting_at(dynamics, travel, objective, (place, rate))
         };
         let Some(made) = made else {
             continue;
         };
         best = match best {
-            Ok(best) if made.cost >= best.cost * (1.0 - BETTER) => Ok(best),
+            Ok(best) if made.cost >= best.cost * (1.0 - LEAST_GAIN) => Ok(best),
             Ok(best) => Ok(judged(made, best.bound, best.optimum)),
             Err(_) => Ok(judged(made, None, Optimum::Local(Reason::LongTime))),
         };
@@ -65,16 +67,16 @@ pub(super) fn on_the_way(
 }
 
 /// The motion with a bound of all motions, and its optimum. `of_other` is the optimum of the motion from end to end.
-fn judged(made: Gentle, bound: Option<f64>, of_other: Optimum) -> Gentle {
+fn judged(made: LeastEffortMove, bound: Option<f64>, of_other: Optimum) -> LeastEffortMove {
     // A cost below a bound refutes the bound.
-    let bound = bound.filter(|bound| *bound <= made.cost * (1.0 + ROUNDED));
+    let bound = bound.filter(|bound| *bound <= made.cost * (1.0 + ROUNDING));
     let proved = bound.is_some_and(|bound| made.cost - bound <= GAP * made.cost);
     let optimum = match of_other {
         _ if proved => Optimum::Global,
         Optimum::Global => Optimum::Local(Reason::LongTime),
         local @ Optimum::Local(_) => local,
     };
-    Gentle {
+    LeastEffortMove {
         bound,
         optimum,
         ..made
@@ -82,10 +84,10 @@ fn judged(made: Gentle, bound: Option<f64>, of_other: Optimum) -> Gentle {
 }
 
 /// Positions of least holding torque, with the torque (N·m): zeros, local minima, and the better end, where there are ends.
-fn places(way: &Way, travel: &Travel) -> Result<Vec<(f64, f64)>, Fault> {
+fn places(dynamics: &PathDynamics, travel: &Travel) -> Result<Vec<(f64, f64)>, Fault> {
     let at = |k: u32| travel.start + travel.distance * f64::from(k) / f64::from(HOLDING_PLACES);
     let torques: Vec<f64> = (0..=HOLDING_PLACES)
-        .map(|k| way.holding_at(at(k)))
+        .map(|k| dynamics.holding_at(at(k)))
         .collect::<Result<_, _>>()?;
     let mut found = Vec::new();
     let first = u32::from(!travel.ring);
@@ -95,14 +97,14 @@ fn places(way: &Way, travel: &Travel) -> Result<Vec<(f64, f64)>, Fault> {
         let [before, here, after] = [before, k, k + 1].map(|k| torques[k as usize]);
         if here * after < 0.0 {
             let phi = zero(
-                |phi| way.holding_at(phi),
+                |phi| dynamics.holding_at(phi),
                 [at(k), at(k + 1)],
                 [here, after],
-                CLOSE,
+                ZERO_TOLERANCE,
             )?;
             found.push(phi);
         } else if here.abs() <= before.abs() && here.abs() < after.abs() && before * here >= 0.0 {
-            let size = |phi: f64| way.holding_at(phi).map(f64::abs);
+            let size = |phi: f64| dynamics.holding_at(phi).map(f64::abs);
             let aside = travel.distance / f64::from(HOLDING_PLACES);
             found.push(least(size, at(k) - aside, at(k + 1))?);
         }
@@ -123,7 +125,7 @@ fn places(way: &Way, travel: &Travel) -> Result<Vec<(f64, f64)>, Fault> {
     };
     let mut all = Vec::with_capacity(found.len());
     for phi in found {
-        all.push((phi, way.holding_at(phi)?.abs()));
+        all.push((phi, dynamics.holding_at(phi)?.abs()));
     }
     // A place with more holding torque than an end is dropped.
     all.retain(|(_, torque)| *torque <= at_end);
@@ -134,7 +136,7 @@ fn places(way: &Way, travel: &Travel) -> Result<Vec<(f64, f64)>, Fault> {
     } else if all.is_empty() && !travel.ring {
         // Where holding takes the same everywhere, any place will do.
         let middle = travel.start + 0.5 * travel.distance;
-        all.push((middle, way.holding_at(middle)?.abs()));
+        all.push((middle, dynamics.holding_at(middle)?.abs()));
     }
     Ok(all)
 }
@@ -145,14 +147,14 @@ fn is(place: f64, other: f64) -> bool {
 
 /// The motion that waits at a place where a second costs this much; `None` where it takes longer than the time of the move.
 fn waiting_at(
-    way: &Way,
+    dynamics: &PathDynamics,
     travel: &Travel,
     objective: Objective,
     (place, rate): (f64, f64),
-) -> Option<Gentle> {
+) -> Option<LeastEffortMove> {
     let end = travel.start + travel.distance;
     // The whole has the bound of all motions; its parts need no bound.
-    let part = |ends: [f64; 2], duration: f64, must_wait: bool| {
+    let part = |ends: [f64; 2], duration: f64, waiting: Waiting| {
         let at = |values: [f64; 2]| {
             let kept = |k: usize, whole: f64| if is(ends[k], whole) { values[k] } else { 0.0 };
             [kept(0, travel.start), kept(1, end)]
@@ -165,29 +167,29 @@ fn waiting_at(
             accelerations: at(travel.accelerations),
             ..*travel
         };
-        from_end_to_end(way, &part, objective, [must_wait, false]).ok()
+        from_end_to_end(dynamics, &part, objective, waiting, false).ok()
     };
     if is(place, travel.start) || is(place, end) {
-        return part([travel.start, end], travel.duration, true);
+        return part([travel.start, end], travel.duration, Waiting::Required);
     }
     let ways = [[travel.start, place], [place, end]];
     let [mut to, mut from] = [
-        part(ways[0], travel.duration, true)?,
-        part(ways[1], travel.duration, true)?,
+        part(ways[0], travel.duration, Waiting::Required)?,
+        part(ways[1], travel.duration, Waiting::Required)?,
     ];
     if to.moving + from.moving > travel.duration {
         // The longer part gets the time that the other leaves: near its unconstrained time that costs hardly more.
         if to.moving > from.moving {
-            to = part(ways[0], travel.duration - from.moving, false)?;
+            to = part(ways[0], travel.duration - from.moving, Waiting::Allowed)?;
         } else {
-            from = part(ways[1], travel.duration - to.moving, false)?;
+            from = part(ways[1], travel.duration - to.moving, Waiting::Allowed)?;
         }
     }
     let rest = travel.duration - to.moving - from.moving;
-    if rest < -ROUNDED * travel.duration {
+    if rest < -ROUNDING * travel.duration {
         return None;
     }
-    let near = ROUNDED * travel.distance.abs();
+    let near = ROUNDING * travel.distance.abs();
     let mut phases = [moving(&to, (place, near), true)?, &[]].concat();
     if rest > 0.0 {
         phases.push(Phase {
@@ -196,8 +198,8 @@ fn waiting_at(
         });
     }
     phases.extend_from_slice(moving(&from, (place, near), false)?);
-    let cost = |part: &Gentle| part.cost - rate * (part.travel.duration - part.moving);
-    Some(Gentle {
+    let cost = |part: &LeastEffortMove| part.cost - rate * (part.travel.duration - part.moving);
+    Some(LeastEffortMove {
         travel: *travel,
         moving: travel.duration - rest.max(0.0),
         waits_at: place,
@@ -214,17 +216,22 @@ fn waiting_at(
 }
 
 /// The endlessly turning motion that waits at a place once in its period.
-fn turning_from(way: &Way, travel: &Travel, objective: Objective, place: f64) -> Option<Gentle> {
+fn turning_from(
+    dynamics: &PathDynamics,
+    travel: &Travel,
+    objective: Objective,
+    place: f64,
+) -> Option<LeastEffortMove> {
     let turn = Travel {
         start: place,
         ramp: 0.0,
         ring: false,
         ..*travel
     };
-    let made = from_end_to_end(way, &turn, objective, [true, false]).ok()?;
+    let made = from_end_to_end(dynamics, &turn, objective, Waiting::Required, false).ok()?;
     let offset = (travel.start - place) / travel.distance;
     let phases = begun_at(&made.phases, offset.rem_euclid(1.0) * travel.distance)?;
-    Some(Gentle {
+    Some(LeastEffortMove {
         travel: *travel,
         waits_at: place,
         phases,
@@ -243,8 +250,8 @@ fn begun_at(phases: &[Phase], offset: f64) -> Option<Vec<Phase>> {
         let ends = [0.0, phase.duration];
         let values = [beyond(ends[0]).ok()?, beyond(ends[1]).ok()?];
         if rise != 0.0 && values[1] >= 0.0 {
-            let at = zero(beyond, ends, values, CLOSE).ok()?;
-            let short = ROUNDED * time;
+            let at = zero(beyond, ends, values, ZERO_TOLERANCE).ok()?;
+            let short = ROUNDING * time;
             // No phase as short as rounding.
             let (before, behind) = if at <= short {
                 (None, Some(*phase))
@@ -277,7 +284,7 @@ fn halves(phase: &Phase, at: f64) -> [Phase; 2] {
 }
 
 /// The motion of a part without the wait at its end, or at its start; `None` if it waits elsewhere.
-fn moving(part: &Gentle, (place, near): (f64, f64), at_end: bool) -> Option<&[Phase]> {
+fn moving(part: &LeastEffortMove, (place, near): (f64, f64), at_end: bool) -> Option<&[Phase]> {
     let phases = part.phases.as_slice();
     if part.moving >= part.travel.duration {
         return Some(phases);

@@ -11,11 +11,11 @@ const STEPS: u32 = 16;
 const HALVINGS: u32 = 10;
 
 /// Allowed error in the middle of a step: of the position as a share of the path, of the speed as a share of the largest speed.
-const OFF: f64 = 1e-9;
+const STEP_ERROR: f64 = 1e-9;
 
 /// A part of a motion, with position, speed and acceleration over time.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Kept {
+pub struct KeptMotion {
     /// Index of its segment in the file, from 0.
     pub segment: usize,
     /// Start position (rad, or m of the drive link).
@@ -29,7 +29,7 @@ pub struct Kept {
     course: Vec<Node>,
 }
 
-impl Kept {
+impl KeptMotion {
     /// The part of a motion between two times (s). `further` (rad, or m) is added to the positions, for a later cycle.
     pub(super) fn new(
         motion: &Motion,
@@ -63,8 +63,8 @@ impl Kept {
         let follows = |[a, b]: [f64; 2]| {
             let [start, end] = [a, b].map(|share| node(share, duration * (b - a), state(share)));
             let (found, exact) = (end.after(&start, 0.5), state(a.midpoint(b)));
-            (found.phi - exact.phi).abs() <= OFF * way
-                && (found.omega - exact.omega).abs() <= OFF * exact.omega.abs()
+            (found.phi - exact.phi).abs() <= STEP_ERROR * way
+                && (found.omega - exact.omega).abs() <= STEP_ERROR * exact.omega.abs()
         };
         let mut course = vec![node(0.0, 0.0, first)];
         let even = |k: u32| f64::from(k) / f64::from(STEPS);

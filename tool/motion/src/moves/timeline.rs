@@ -5,13 +5,13 @@ use std::convert::Infallible;
 use jred_file::model::motion::{Motion, Overshoot, Steady};
 use jred_file::number::numerics::edge;
 
-use super::{Chain, Kept, Move, NoMoves, POINT, Part, Passing};
+use super::{Chain, EndStates, INSTANT_SHARE, KeptMotion, Move, NoMoves, Part};
 
 /// Parts of a smooth stretch at whose ends the direction is evaluated.
 const SAMPLES: u32 = 256;
 
 /// A speed below this share of the largest speed counts as rest: at the ends of motion laws it is rounding.
-const REST: f64 = 1e-12;
+const REST_SPEED: f64 = 1e-12;
 
 /// A span of time in which the drive link moves in one direction: backward (−1) or forward (+1), or is at rest (0).
 #[derive(Clone, Copy, Debug)]
@@ -86,7 +86,7 @@ impl<'a> Timeline<'a> {
                 split(&|t| line.sign(t), [from, to], inner, &mut spans);
             }
         }
-        let shortest = POINT * motion.duration();
+        let shortest = INSTANT_SHARE * motion.duration();
         spans.retain(|span| span.sign != 0 || span.to - span.from > shortest);
         line.spans = spans;
         Ok(line)
@@ -114,7 +114,7 @@ impl<'a> Timeline<'a> {
 
     fn sign(&self, t: f64) -> i8 {
         let omega = self.state(t)[1];
-        if omega.abs() <= REST * self.largest {
+        if omega.abs() <= REST_SPEED * self.largest {
             0
         } else if omega > 0.0 {
             1
@@ -258,7 +258,7 @@ impl<'a> Timeline<'a> {
             ];
             Part::Passing(
                 step,
-                Passing {
+                EndStates {
                     speeds: [first[0], last[0]].map(|speed| (direction * speed).max(0.0)),
                     accelerations: [first[1], last[1]].map(|a| direction * a),
                 },
@@ -268,12 +268,12 @@ impl<'a> Timeline<'a> {
     }
 
     /// The kept part of a span; `None` if the span is not kept.
-    fn kept(&self, span: &Span, [from, to]: [f64; 2]) -> Option<Kept> {
+    fn kept(&self, span: &Span, [from, to]: [f64; 2]) -> Option<KeptMotion> {
         let steady = self.process.get(span.kept?)?;
         let duration = self.motion.duration();
         let shift = if from >= duration { duration } else { 0.0 };
         let further = if shift > 0.0 { self.advance() } else { 0.0 };
-        Some(Kept::new(
+        Some(KeptMotion::new(
             self.motion,
             steady,
             [from - shift, to - shift],

@@ -4,7 +4,7 @@
 //! halved, the coefficients approach it with the square of the width.
 
 /// Share by which a bound may exceed the true maximum.
-pub(super) const TIGHT: f64 = 1e-5;
+pub(super) const BOUND_TOLERANCE: f64 = 1e-5;
 
 /// Halvings after which a bound is accepted as it is.
 const DEEPEST: u32 = 24;
@@ -90,7 +90,7 @@ fn look<const N: usize>(b: [f64; N], [from, to]: [f64; 2], depth: u32, found: &m
     if most <= found[0] {
         return;
     }
-    if most <= ends * (1.0 + TIGHT) || depth == DEEPEST {
+    if most <= ends * (1.0 + BOUND_TOLERANCE) || depth == DEEPEST {
         let first = b[0].abs() > b[N - 1].abs();
         *found = [most, if first { from } else { to }];
         return;
@@ -122,7 +122,7 @@ mod tests {
         let [bound, _] = most_above(b, 0.0).unwrap();
         // Both are rounded.
         assert!(
-            most <= bound * (1.0 + 1e-15) && bound <= (1.0 + 2.0 * TIGHT) * most,
+            most <= bound * (1.0 + 1e-15) && bound <= (1.0 + 2.0 * BOUND_TOLERANCE) * most,
             "{bound} {most}"
         );
         assert!(stays(b, 1.001 * bound) && !stays(b, 0.999 * most));

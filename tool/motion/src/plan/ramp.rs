@@ -12,8 +12,8 @@
 use jred::error::Error;
 use jred_file::model::machine::MachineFile;
 
+use crate::path_dynamics::{Actuator, PathDynamics};
 use crate::trace::{Node, Trace};
-use crate::way::{Actuator, Way};
 
 /// Places per step, its ends included, and rates at which the change is evaluated.
 const PLACES: u32 = 8;
@@ -24,37 +24,37 @@ const ROUNDS: u32 = 6;
 const STEPS: u32 = 40;
 
 /// Share of the greatest speed below which a change of the rate needs no acceleration.
-const AT_REST: f64 = 1e-9;
+const REST_SPEED: f64 = 1e-9;
 
 /// Share of the greatest acceleration that counts as zero.
-const NOTHING: f64 = 1e-9;
+const ZERO_ACCELERATION: f64 = 1e-9;
 
 /// A motion under a drive, for the allowed change of the rate at a place.
-struct Motion<'a> {
-    ways: [Way<'a>; 2],
+struct RateLimits<'a> {
+    ways: [PathDynamics<'a>; 2],
     gearbox: Option<f64>,
     /// The greatest speed and acceleration.
     most: [f64; 2],
 }
 
-impl Motion<'_> {
+impl RateLimits<'_> {
     /// The greatest change of the rate (1/s), up or down, that the drive allows at a share of a step and a rate.
     fn change(&self, [a, b]: [&Node; 2], share: f64, rate: f64) -> Result<f64, Error> {
         let state = b.after(a, share);
         let speed = state.omega.abs();
-        if speed <= AT_REST * self.most[0] {
+        if speed <= REST_SPEED * self.most[0] {
             return Ok(f64::INFINITY);
         }
-        let way = &self.ways[usize::from(state.omega < 0.0)];
-        let place = way.place(state.phi)?;
+        let dynamics = &self.ways[usize::from(state.omega < 0.0)];
+        let place = dynamics.place(state.phi)?;
         let v = rate * speed;
-        let mut range = way.accelerations(&place, v);
+        let mut range = dynamics.accelerations(&place, v);
         if let Some(torque) = self.gearbox {
             let of_gearbox =
-                [-torque, torque].map(|torque| way.gearbox_acceleration(&place, v, torque));
+                [-torque, torque].map(|torque| dynamics.gearbox_acceleration(&place, v, torque));
             range = [range[0].max(of_gearbox[0]), range[1].min(of_gearbox[1])];
         }
-        let acceleration = rate * rate * state.alpha * way.direction;
+        let acceleration = rate * rate * state.alpha * dynamics.direction;
         let left = (range[1] - acceleration).min(acceleration - range[0]);
         Ok(left / speed)
     }
@@ -80,8 +80,8 @@ pub fn least_ramp(
     }
     let nodes = trace.nodes();
     let most = |of: &dyn Fn(&Node) -> f64| nodes.iter().map(of).fold(0.0, f64::max);
-    let motion = Motion {
-        ways: [1.0, -1.0].map(|direction| Way::new(file, actuator.clone(), direction)),
+    let motion = RateLimits {
+        ways: [1.0, -1.0].map(|direction| PathDynamics::new(file, actuator.clone(), direction)),
         gearbox,
         most: [
             most(&|node| node.omega.abs()),
@@ -110,15 +110,17 @@ pub fn least_ramp(
     };
     let change = least.0.min(lowest(&motion, step, place)?);
     let [speed, acceleration] = motion.most;
-    Ok(Some(if change * speed <= NOTHING * acceleration {
-        f64::INFINITY
-    } else {
-        1.0 / change
-    }))
+    Ok(Some(
+        if change * speed <= ZERO_ACCELERATION * acceleration {
+            f64::INFINITY
+        } else {
+            1.0 / change
+        },
+    ))
 }
 
 /// The least change near a place and a rate of a step: by thirds along one, then the other.
-fn lowest(motion: &Motion, step: [&Node; 2], place: [f64; 2]) -> Result<f64, Error> {
+fn lowest(motion: &RateLimits, step: [&Node; 2], place: [f64; 2]) -> Result<f64, Error> {
     let mut place = place;
     let mut wide = [1.0 / f64::from(PLACES), 1.0 / f64::from(RATES)];
     let mut least = motion.change(step, place[0], place[1])?;

@@ -6,22 +6,22 @@ use jred::Domain;
 use jred::axis::plan::Knot;
 use jred::machine::motion::State;
 
-use super::course::Course;
-use super::polynomial::TIGHT;
+use super::motion_polynomial::MotionPolynomial;
+use super::polynomial::BOUND_TOLERANCE;
 use crate::trace::Node;
 
 /// The allowed error of a position, as a share of the path, is this factor times the plan's share.
-const OF_WAY: f64 = 0.1;
+const POSITION_FACTOR: f64 = 0.1;
 
 /// Half a unit at both ends of a row is an acceleration of at most 6 units over its length squared: the quintic's 60·s·(1 − s)·(1 − 2s) is 5.8.
 const ROUNDING: f64 = 6.0;
 
 /// A missed speed at an end of a row is an acceleration of at most this many times itself over the row's length: the quintic's 3.9, and a margin for
 /// the missed position.
-const MISSED: f64 = 5.0;
+const MISS_FACTOR: f64 = 5.0;
 
 /// Share of the range by which a row may exceed an end of the stroke at the checked points: rounding.
-const BEYOND: f64 = 1e-9;
+const STROKE_ROUNDING: f64 = 1e-9;
 
 /// 2³²
 pub(super) const RANGE: f64 = 4_294_967_296.0;
@@ -56,13 +56,17 @@ impl Bounds {
         let acceleration = most(|node| node.alpha[0].abs().max(node.alpha[1].abs()));
         let acceleration = acceleration.max(speed / time);
         Self {
-            asked: [OF_WAY * share * way, share * speed, share * acceleration],
+            asked: [
+                POSITION_FACTOR * share * way,
+                share * speed,
+                share * acceleration,
+            ],
             most: [speed, acceleration],
         }
     }
 
     /// Errors by rounding in a row of this length (s), with this polynomial of its acceleration.
-    fn rounding(&self, length: f64, course: &Course, unit: f64) -> [f64; 3] {
+    fn rounding(&self, length: f64, course: &MotionPolynomial, unit: f64) -> [f64; 3] {
         let [speed, acceleration] = self.most;
         let rounded = ROUNDING * unit / length;
         // Of the coefficients over the window 29 bits are left below the greatest sum.
@@ -73,7 +77,7 @@ impl Bounds {
         [
             4.0 * unit + PLACE * length * speed + 10.0 * window * window * fine,
             rounded + 8.0 * window * fine + DIGITS[0] * speed + PLACE * length * acceleration,
-            rounded / length + MISSED * PLACE * speed / length + DIGITS[1] * acceleration,
+            rounded / length + MISS_FACTOR * PLACE * speed / length + DIGITS[1] * acceleration,
         ]
     }
 }
@@ -117,7 +121,7 @@ pub(super) fn apart(nodes: &[Node], close: f64) -> Vec<Node> {
 /// A part of the motion between two jumps of the acceleration, or a jump and an end, that is too short for a row: rounding of positions would exceed
 /// the allowed error of the acceleration.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Sliver {
+pub(super) struct TinyStep {
     /// Start and end time (s).
     t: [f64; 2],
     /// Error of the speed without it (rad/s, or m/s).
@@ -134,7 +138,7 @@ pub(super) fn without_slivers(
     mut nodes: Vec<Node>,
     bounds: [f64; 3],
     domain: Domain,
-) -> (Vec<Node>, Vec<Sliver>) {
+) -> (Vec<Node>, Vec<TinyStep>) {
     let [_, speed, acceleration] = bounds;
     let short = shortest(bounds, domain);
     let end = nodes.len().saturating_sub(1);
@@ -166,7 +170,7 @@ pub(super) fn without_slivers(
             stays[from + 1..=to].fill(false);
             nodes[from].alpha[1] = instead;
         }
-        slivers.push(Sliver {
+        slivers.push(TinyStep {
             t: [first.t, last.t],
             speed: missed,
         });
@@ -192,18 +196,18 @@ fn joined(nodes: &mut [Node]) {
 }
 
 /// Requirements of a plan.
-pub(super) struct Asked<'s> {
+pub(super) struct PlanRequirements<'s> {
     /// Allowed errors of position, speed and acceleration.
     pub(super) bounds: Bounds,
     pub(super) domain: Domain,
     /// Parts omitted from the motion, in order of time.
-    pub(super) slivers: &'s [Sliver],
+    pub(super) slivers: &'s [TinyStep],
 }
 
-impl Asked<'_> {
+impl PlanRequirements<'_> {
     /// Error of the speed at an end of a row between these times, from an omitted sliver.
     fn missed(&self, [from, to]: [f64; 2]) -> f64 {
-        let beside = |sliver: &&Sliver| {
+        let beside = |sliver: &&TinyStep| {
             sliver.t[0].total_cmp(&from).is_eq() || sliver.t[1].total_cmp(&to).is_eq()
         };
         let missed = self.slivers.iter().filter(beside);
@@ -218,13 +222,15 @@ impl Asked<'_> {
 
     /// Allowed error of a row's polynomial between these times: the bounds less rounding, or the rounding itself where that takes more than half;
     /// more beside an omitted sliver.
-    fn of_row(&self, ends: [f64; 2], course: &Course) -> [f64; 3] {
+    fn of_row(&self, ends: [f64; 2], course: &MotionPolynomial) -> [f64; 3] {
         let length = ends[1] - ends[0];
         let rounding = self.bounds.rounding(length, course, unit(self.domain));
         let missed = self.missed(ends);
-        let more = [0.0, missed, MISSED * missed / length];
+        let more = [0.0, missed, MISS_FACTOR * missed / length];
         let asked = self.bounds.asked;
-        std::array::from_fn(|k| (asked[k] * (1.0 - TIGHT) - rounding[k]).max(rounding[k]) + more[k])
+        std::array::from_fn(|k| {
+            (asked[k] * (1.0 - BOUND_TOLERANCE) - rounding[k]).max(rounding[k]) + more[k]
+        })
     }
 
     /// The knots of the plan: each row reaches as far as its polynomial keeps to the motion and to the stroke.
@@ -274,12 +280,12 @@ impl Asked<'_> {
         let [Some(first), Some(last)] = [nodes.first(), nodes.last()] else {
             return true;
         };
-        let through = Course::between(first, last);
+        let through = MotionPolynomial::between(first, last);
         let length = last.t - first.t;
         let range = match self.domain {
             Domain::Turn => f64::NEG_INFINITY..=f64::INFINITY,
             Domain::Stroke { from, to } => {
-                let beyond = BEYOND * (to - from);
+                let beyond = STROKE_ROUNDING * (to - from);
                 from - beyond..=to + beyond
             }
         };
@@ -293,7 +299,7 @@ impl Asked<'_> {
             let middle: f64 = own.position.iter().zip(middle).map(|(c, s)| c * s).sum();
             let end: f64 = own.position.iter().sum();
             let inside = [middle, end].map(|x| range.contains(&(before.phi + x)));
-            inside == [true; 2] && own.keeps_to(&Course::step(before, after), bounds)
+            inside == [true; 2] && own.keeps_to(&MotionPolynomial::step(before, after), bounds)
         })
     }
 }

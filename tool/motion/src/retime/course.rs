@@ -3,12 +3,12 @@
 use jred_file::model::machine::MachineFile;
 use jred_file::model::motion::Phase;
 
-use crate::gentlest::Gentle;
+use crate::gentlest::LeastEffortMove;
 use crate::moves::Part;
 use crate::trace::{Node, Trace};
 
 /// The motion as nodes.
-pub(super) fn trace(file: &MachineFile, parts: &[Part], moves: &[Gentle]) -> Trace {
+pub(super) fn trace(file: &MachineFile, parts: &[Part], moves: &[LeastEffortMove]) -> Trace {
     let coordinate = file.machine.mechanism().coordinate();
     let start = parts.first().map_or(0.0, Part::from);
     let mut trace = Trace::from_rest(coordinate, start);

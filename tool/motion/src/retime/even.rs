@@ -6,24 +6,24 @@ use jred_file::model::motion::Phase;
 use jred_file::number::numerics::gauss;
 
 use crate::moves::Move;
-use crate::way::{Place, Way};
+use crate::path_dynamics::{PathDynamics, Place};
 
 /// Parts of a turn at constant kinetic energy.
 const PARTS: usize = 512;
 
 /// ω ∝ 1/√J, where J includes rotor, gearbox and drive train, because one torque moves them all.
-pub(super) fn constant_energy(way: &Way, step: &Move) -> Result<Vec<Phase>, Error> {
+pub(super) fn constant_energy(dynamics: &PathDynamics, step: &Move) -> Result<Vec<Phase>, Error> {
     let distance = step.to - step.from;
     // Inertia and its slope along the path.
     let inertia = |share: f64| -> Result<[f64; 2], Error> {
-        let place = way.place(step.from + distance * share)?;
-        let whole = way.demand(&place, 0.0, 0.0).per_acceleration;
+        let place = dynamics.place(step.from + distance * share)?;
+        let whole = dynamics.demand(&place, 0.0, 0.0).per_acceleration;
         let bare = Place {
             inertia: 0.0,
             load: place.load,
             ..place
         };
-        let without = way.demand(&bare, 0.0, 0.0).per_acceleration;
+        let without = dynamics.demand(&bare, 0.0, 0.0).per_acceleration;
         let by_load = (whole - without) / place.inertia;
         Ok([whole, by_load * place.inertia_slope])
     };

@@ -6,7 +6,7 @@ use jred_sizing::cycle::Cycle;
 use jred_sizing::motor::winding::CurrentCurve;
 
 use super::Request;
-use crate::way::Actuator;
+use crate::path_dynamics::Actuator;
 
 /// Temperature of the winding (°C) for the copper loss.
 pub const WINDING: f64 = 20.0;

@@ -9,10 +9,10 @@ use jred_file::model::motion::Motion;
 const INSTANTS: u32 = 2000;
 
 /// A transfer function below this share of the link's largest one counts as zero.
-const STILL: f64 = 1e-6;
+const ZERO_TRANSFER: f64 = 1e-6;
 
 /// Share of the motion by which a time must differ to be reported.
-const DIFFERS: f64 = 0.005;
+const LEAST_DIFFERENCE: f64 = 0.005;
 
 /// Links with the times (s) for which they are at rest in both motions although the drive moves, where these differ.
 ///
@@ -31,7 +31,7 @@ pub(super) fn changed(
     let all = names
         .zip(pairs)
         .map(|(name, (own, other))| (name.clone(), [own, other]));
-    let least = DIFFERS * own.duration();
+    let least = LEAST_DIFFERENCE * own.duration();
     Ok(all
         .filter(|(_, [own, other])| (own - other).abs() > least)
         .collect())
@@ -56,7 +56,7 @@ fn times(file: &MachineFile, motion: &Motion) -> Result<Vec<f64>, Error> {
     let time = |link: usize| {
         let slopes = rows.iter().map(|(slopes, _)| slopes[link]);
         let largest = slopes.fold(0.0, f64::max);
-        let still = |slopes: &[f64]| largest > 0.0 && slopes[link] <= STILL * largest;
+        let still = |slopes: &[f64]| largest > 0.0 && slopes[link] <= ZERO_TRANSFER * largest;
         let count = rows
             .iter()
             .filter(|(slopes, moves)| *moves && still(slopes));

@@ -1,6 +1,6 @@
 //! Constant inertia.
 
-use jred_motion::fastest::{Binding, Limits};
+use jred_motion::fastest::{Binding, MoveLimits};
 
 use super::{close, fastest, motor, table, task};
 
@@ -42,11 +42,11 @@ fn dry_friction() {
 #[test]
 fn limits_of_speed_and_acceleration_between_speeds() {
     let file = table(2.0, "");
-    let limits = Limits {
+    let limits = MoveLimits {
         speed: Some(2.0),
         acceleration: Some(3.0),
         deceleration: Some(1.5),
-        ..Limits::default()
+        ..MoveLimits::default()
     };
     let asked = jred_motion::fastest::Task {
         speeds: [0.5, 1.0],

@@ -3,9 +3,9 @@
 use std::f64::consts::TAU;
 
 use jred_motion::fastest::cycle::{MORE, single};
-use jred_motion::fastest::{Binding, Limits, Reserve, Task, time};
+use jred_motion::fastest::{Binding, MoveLimits, Reserve, Task, time};
 
-use jred_motion::way::Actuator;
+use jred_motion::path_dynamics::Actuator;
 use jred_sizing::catalogue::Motor;
 use jred_sizing::motor::envelope::Envelope;
 
@@ -17,9 +17,9 @@ fn more_motor_speed_is_not_more_gearbox_speed() {
     let file = table(0.5, "");
     let rpm = TAU / 60.0;
     let actuator = motor([20.0; 2], 3000.0 * rpm);
-    let limits = Limits {
+    let limits = MoveLimits {
         gearbox_speed: Some(3050.0 * rpm),
-        ..Limits::default()
+        ..MoveLimits::default()
     };
     let asked = Task {
         limits,
@@ -75,7 +75,7 @@ fn the_rms_torque_stays_below_its_reserve() {
         ..Reserve::default()
     };
     let asked = Task {
-        limits: Limits::default().with_reserve(reserve),
+        limits: MoveLimits::default().with_reserve(reserve),
         ..task(0.0, 40.0)
     };
     let load = single(&file, &actuator, asked, None).unwrap().load;

@@ -6,10 +6,10 @@ use std::path::Path;
 use jred::Domain;
 use jred_analysis::checked;
 use jred_motion::fastest::joint_force::reached;
-use jred_motion::fastest::{Binding, JointForces, Limits, NoMotion, Task, solve};
+use jred_motion::fastest::{Binding, JointForces, MoveLimits, NoMotion, Task, solve};
+use jred_motion::path_dynamics::PathDynamics;
 use jred_motion::plan::{Plan, SHARE};
 use jred_motion::trace::Node;
-use jred_motion::way::Way;
 
 use super::{close, fastest, machine, motor, table, task};
 
@@ -60,8 +60,8 @@ fn a_crank_comes_round_with_its_speed() {
             };
             let at_top = first.omega > 60.0 * (1.0 - 1e-9);
             assert!(at_top || solve(&file, &motor, &faster).is_err());
-            let way = Way::new(&file, motor.clone(), 1.0);
-            let place = way.place(first.phi).unwrap();
+            let dynamics = PathDynamics::new(&file, motor.clone(), 1.0);
+            let place = dynamics.place(first.phi).unwrap();
             assert!(place.inertia > 0.0);
             found.time
         })
@@ -77,9 +77,9 @@ fn a_crank_comes_round_with_its_speed() {
 /// Without an effective speed limit, a torque limit alone lets a frictionless machine reach the motor's speed.
 #[test]
 fn limits_of_the_drive_link_hold() {
-    let limits = Limits {
+    let limits = MoveLimits {
         speed: Some(5.0),
-        ..Limits::default()
+        ..MoveLimits::default()
     };
     let asked = Task {
         limits,
@@ -138,9 +138,9 @@ fn a_turn_begins_where_driving_meets_braking() {
     let file = machine(SYMMETRIC);
     let motor = motor([10.0; 2], 314.159);
     let guide = JointForces::default().with(3, 50.0);
-    let limits = Limits {
+    let limits = MoveLimits {
         forces: guide,
-        ..Limits::default()
+        ..MoveLimits::default()
     };
     let endless = Task {
         limits,
@@ -181,13 +181,13 @@ fn a_steep_turn_is_accurate() {
     assert!(found.excess <= 1e-9, "{:e}", found.excess);
     // It has 3000 rpm in the dead centres, where its inertia is smallest. Without a drive it would keep its energy from there; 10 N m make it
     // slightly faster.
-    let way = Way::new(&file, motor([10.0; 2], 314.159), 1.0);
-    let least = way.place(0.0).unwrap().inertia;
+    let dynamics = PathDynamics::new(&file, motor([10.0; 2], 314.159), 1.0);
+    let least = dynamics.place(0.0).unwrap().inertia;
     let parts = 3600;
     let free: f64 = (0..parts)
         .map(|k| {
             let phi = TAU * (f64::from(k) + 0.5) / f64::from(parts);
-            let inertia = way.place(phi).unwrap().inertia;
+            let inertia = dynamics.place(phi).unwrap().inertia;
             TAU / f64::from(parts) / (314.159 * (least / inertia).sqrt())
         })
         .sum();
@@ -205,9 +205,9 @@ fn a_pin_at_its_dead_centre() {
     let mut before = f64::INFINITY;
     for force in [3900.0, 4000.0, 4100.0] {
         let asked = Task {
-            limits: Limits {
+            limits: MoveLimits {
                 forces: JointForces::default().with(pin, force),
-                ..Limits::default()
+                ..MoveLimits::default()
             },
             ..turn(0.0)
         };

@@ -3,11 +3,11 @@
 use std::f64::consts::{PI, TAU};
 
 use jred_motion::fastest::{
-    Binding, Fastest, Limits, NoMotion, Task, ToolSpeed, ToolSpeeds, solve,
+    Binding, Fastest, MoveLimits, NoMotion, Task, ToolSpeed, ToolSpeeds, solve,
 };
 
+use jred_motion::path_dynamics::Actuator;
 use jred_motion::trace::Node;
-use jred_motion::way::Actuator;
 use jred_sizing::cycle::form::Coefficients;
 
 use super::{close, motor, table, task};
@@ -50,14 +50,14 @@ pub(super) fn seven(distance: f64, speed: f64, acceleration: f64, jerk: f64) -> 
     4.0 * (distance / (2.0 * jerk)).cbrt()
 }
 
-fn limited(speed: f64, acceleration: f64, jerk: f64) -> Limits {
-    Limits {
+fn limited(speed: f64, acceleration: f64, jerk: f64) -> MoveLimits {
+    MoveLimits {
         speed: Some(speed),
         acceleration: Some(acceleration),
         deceleration: Some(acceleration),
         jerk: Some(jerk),
         level_ends: true,
-        ..Limits::default()
+        ..MoveLimits::default()
     }
 }
 
@@ -168,10 +168,10 @@ fn a_weight_leaves_different_accelerations() {
     let [up, down] = [40.0 / inertia, 120.0 / inertia];
     let jerk = 1500.0;
     let asked = Task {
-        limits: Limits {
+        limits: MoveLimits {
             jerk: Some(jerk),
             level_ends: true,
-            ..Limits::default()
+            ..MoveLimits::default()
         },
         ..task(0.0, 20.0)
     };
@@ -197,10 +197,10 @@ fn a_press_comes_near_the_motion_without_a_limit() {
     let mut last = f64::INFINITY;
     for jerk in [1e3, 1e4, 1e5, 1e6] {
         let asked = Task {
-            limits: Limits {
+            limits: MoveLimits {
                 jerk: Some(jerk),
                 level_ends: true,
-                ..Limits::default()
+                ..MoveLimits::default()
             },
             ..task(3.2, 7.0)
         };
@@ -238,16 +238,16 @@ fn larger_limits_of_a_press_are_faster() {
     let file = jred_analysis::checked::read(&press_file()).unwrap();
     let motor = motor([24.0, 12.0], 300.0);
     let bound = solve(&file, &motor, &task(3.2, 9.0)).unwrap().time;
-    let limits: [fn(f64) -> Limits; 2] = [
-        |limit| Limits {
+    let limits: [fn(f64) -> MoveLimits; 2] = [
+        |limit| MoveLimits {
             jerk: Some(limit),
             level_ends: true,
-            ..Limits::default()
+            ..MoveLimits::default()
         },
-        |limit| Limits {
+        |limit| MoveLimits {
             torque_rate: Some(0.02 * limit),
             level_ends: true,
-            ..Limits::default()
+            ..MoveLimits::default()
         },
     ];
     for limits in limits {
@@ -282,11 +282,11 @@ fn a_tool_speed_with_a_limited_jerk() {
     let tool = ToolSpeeds::from(tool.unwrap().unwrap());
     let motor = motor([300.0, 200.0], 90.0);
     let asked = |tool: ToolSpeeds, jerk: Option<f64>| Task {
-        limits: Limits {
+        limits: MoveLimits {
             tool,
             jerk,
             level_ends: jerk.is_some(),
-            ..Limits::default()
+            ..MoveLimits::default()
         },
         ..task(3.2, 9.0)
     };
@@ -316,10 +316,10 @@ fn the_jerk_is_kept_inside_the_steps() {
     };
     for jerk in [2e4, 2e5] {
         let asked = Task {
-            limits: Limits {
+            limits: MoveLimits {
                 jerk: Some(jerk),
                 level_ends: true,
-                ..Limits::default()
+                ..MoveLimits::default()
             },
             ..task(PI, 3.0 * PI)
         };
@@ -345,10 +345,10 @@ fn the_cure_names_the_jerk() {
     let path = shipped("eccentric-press.toml");
     let file = jred_analysis::checked::read(&path).unwrap();
     let asked = Task {
-        limits: Limits {
+        limits: MoveLimits {
             jerk: Some(500.0),
             level_ends: true,
-            ..Limits::default()
+            ..MoveLimits::default()
         },
         ..task(0.0, 10.0 * TAU)
     };
@@ -366,10 +366,10 @@ fn what_is_in_the_way_is_named() {
     let file = table(2.0, "");
     let asked = Task {
         speeds: [2.0, 0.0],
-        limits: Limits {
+        limits: MoveLimits {
             jerk: Some(1.0),
             level_ends: true,
-            ..Limits::default()
+            ..MoveLimits::default()
         },
         ..task(0.0, 1.0)
     };

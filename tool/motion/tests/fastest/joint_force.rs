@@ -3,7 +3,7 @@
 use jred_analysis::reduce::joints_with_force;
 use jred_file::model::machine::MachineFile;
 use jred_motion::fastest::joint_force::reached;
-use jred_motion::fastest::{Binding, Fastest, JointForces, Limits, NoMotion, Task, solve};
+use jred_motion::fastest::{Binding, Fastest, JointForces, MoveLimits, NoMotion, Task, solve};
 use jred_motion::trace::Trace;
 
 use super::{close, fastest, machine, motor, task};
@@ -52,7 +52,7 @@ fn within(file: &MachineFile, limits: &[(&str, f64)], asked: &Task) -> Task {
             all.with(joint(file, name), *force)
         });
     Task {
-        limits: Limits {
+        limits: MoveLimits {
             forces,
             ..asked.limits
         },
@@ -93,13 +93,13 @@ fn an_unbalanced_mass() {
     let name = "crank pivot";
     let k = 60.0;
     let force = 2.0 * 0.3 * k;
-    for way in [2.0, 9.0] {
-        let asked = within(&file, &[(name, force)], &task(0.4, 0.4 + way));
+    for dynamics in [2.0, 9.0] {
+        let asked = within(&file, &[(name, force)], &task(0.4, 0.4 + dynamics));
         let found = fastest(&file, &motor([1e4; 2], 1e3), &asked);
         let root = k.sqrt();
         close(
             found.time,
-            LEMNISCATE / root + (way - std::f64::consts::FRAC_PI_2) / root,
+            LEMNISCATE / root + (dynamics - std::f64::consts::FRAC_PI_2) / root,
             1e-6,
         );
         assert_eq!(limits(&found), [Binding::JointForce(0)]);
@@ -135,10 +135,10 @@ fn a_yoke_through_its_dead_centre() {
 }
 
 /// With weight, friction and a load that rises within a hundredth of a degree.
-fn keeps_the_forces_of_its_joints(way: [f64; 2]) {
+fn keeps_the_forces_of_its_joints(dynamics: [f64; 2]) {
     let file = press();
     let drive = motor([260.0; 2], 30.0);
-    let [from, to] = way.map(f64::to_radians);
+    let [from, to] = dynamics.map(f64::to_radians);
     let free = solve(&file, &drive, &task(from, to)).unwrap();
     // The load rises within steps of 1e-7 s, where rounding of the speeds is this share of the torque.
     assert!(free.excess <= 1e-8, "{:e}", free.excess);
@@ -208,7 +208,7 @@ fn a_force_that_needs_no_motion() {
 fn neither_jerk_nor_torque_rate_beside_it() {
     let file = press();
     let asked = within(&file, &[("slider pin", 5000.0)], &task(3.0, 4.0));
-    let limits = Limits {
+    let limits = MoveLimits {
         jerk: Some(1e4),
         ..asked.limits
     };

@@ -2,9 +2,9 @@
 
 use jred_analysis::checked;
 use jred_file::model::machine::MachineFile;
-use jred_motion::fastest::{Fastest, Limits, Task, ToolSpeed};
+use jred_motion::fastest::{Fastest, MoveLimits, Task, ToolSpeed};
+use jred_motion::path_dynamics::{Actuator, PathDynamics};
 use jred_motion::trace::Trace;
-use jred_motion::way::{Actuator, Way};
 use jred_sizing::cycle::form::Coefficients;
 
 use super::{fastest, motor, task};
@@ -51,9 +51,9 @@ fn no_step_is_only_rounding() {
     for (speed, rpm) in [(0.06, 90.0), (0.3, 90.0), (0.3, 900.0), (0.1, 300.0)] {
         for between in [[300.0, 360.0], [290.0, 350.0], [315.0, 345.0]] {
             let asked = Task {
-                limits: Limits {
+                limits: MoveLimits {
                     tool: slide(&file, speed, between).into(),
-                    ..Limits::default()
+                    ..MoveLimits::default()
                 },
                 ..turns()
             };
@@ -66,7 +66,7 @@ fn no_step_is_only_rounding() {
 
 /// The largest share by which a motion exceeds the motor's torque, at 24 positions of each step and in its nodes, with its position.
 fn exceeded(file: &MachineFile, actuator: &Actuator, found: &Fastest, torque: f64) -> [f64; 2] {
-    let way = Way::new(file, actuator.clone(), 1.0);
+    let dynamics = PathDynamics::new(file, actuator.clone(), 1.0);
     let mut worst = [0.0, 0.0];
     for pair in found.trace.nodes().windows(2) {
         let [a, b] = [&pair[0], &pair[1]];
@@ -74,10 +74,10 @@ fn exceeded(file: &MachineFile, actuator: &Actuator, found: &Fastest, torque: f6
             let state = b.after(a, f64::from(k) / 24.0);
             // On the step's own side of a corner.
             let hair = 1e-9 * (b.phi - a.phi);
-            let place = way
+            let place = dynamics
                 .place(state.phi.clamp(a.phi + hair, b.phi - hair))
                 .unwrap();
-            let demand = way.demand(&place, state.omega, state.alpha).torque;
+            let demand = dynamics.demand(&place, state.omega, state.alpha).torque;
             let excess = demand.abs() / torque - 1.0;
             if excess > worst[0] {
                 worst = [excess, state.phi.to_degrees()];

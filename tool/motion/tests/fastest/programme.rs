@@ -3,7 +3,7 @@
 use jred_analysis::checked;
 use jred_file::model::machine::MachineFile;
 use jred_motion::fastest::{Task, solve};
-use jred_motion::way::{Actuator, Way};
+use jred_motion::path_dynamics::{Actuator, PathDynamics};
 use jred_sizing::catalogue::{Catalogue, Drive, DriveId};
 use jred_sizing::motor::envelope::Envelope;
 
@@ -21,7 +21,7 @@ fn programme(
     [places, speeds]: [usize; 2],
 ) -> f64 {
     let direction = (task.to - task.from).signum();
-    let way = Way::new(file, actuator.clone(), direction);
+    let dynamics = PathDynamics::new(file, actuator.clone(), direction);
     let step = (task.to - task.from).abs() / places as f64;
     // z = ½·v² in equal steps: a difference of one is an acceleration.
     let z = |k: usize| 0.5 * top * top * k as f64 / speeds as f64;
@@ -30,10 +30,10 @@ fn programme(
     least[0] = 0.0;
     for place in (0..places).rev() {
         let x = (place as f64 + 0.5) * step;
-        let middle = way.place(task.from + direction * x).unwrap();
+        let middle = dynamics.place(task.from + direction * x).unwrap();
         let mut next = vec![f64::INFINITY; speeds + 1];
         for (from, time) in next.iter_mut().enumerate() {
-            let [low, high] = way.accelerations(&middle, v[from]);
+            let [low, high] = dynamics.accelerations(&middle, v[from]);
             let spacing = z(1);
             let range = |a: f64| (z(from) + a * step) / spacing + 1e-9;
             let first = range(low).ceil().max(0.0) as usize;
@@ -74,7 +74,7 @@ fn a_dynamic_programme_finds_the_same_time() {
         };
         let speeds = found.trace.nodes().iter().map(|node| node.omega.abs());
         let largest = actuator.envelope.max_speed() * found.phases[0].speed[1]
-            / Way::new(&file, actuator.clone(), 1.0).motor_speed(found.phases[0].speed[1]);
+            / PathDynamics::new(&file, actuator.clone(), 1.0).motor_speed(found.phases[0].speed[1]);
         let top = largest.min(1.3 * speeds.fold(0.0, f64::max));
         let expected = programme(&file, &actuator, &asked, top, [60, 1_200]);
         if !expected.is_finite() {

@@ -3,7 +3,7 @@
 use std::convert::Infallible;
 
 use jred_file::number::numerics::least;
-use jred_motion::fastest::{Binding, Limits, NoMotion, Slowing, Task, solve};
+use jred_motion::fastest::{Binding, MoveLimits, NoMotion, SettableLimit, Task, solve};
 use jred_sizing::catalogue::Motor;
 use jred_sizing::motor::envelope::Envelope;
 
@@ -104,15 +104,15 @@ fn what_keeps_the_machine_slow_is_named() {
         speeds: [8.0, 0.0],
         ..task(start, start + 3.0)
     };
-    let with = |limits: Limits| {
+    let with = |limits: MoveLimits| {
         let asked = Task { limits, ..asked };
         solve(&upright(), &motor([0.5 * needed; 2], 100.0), &asked)
     };
-    assert!(with(Limits::default()).is_ok());
+    assert!(with(MoveLimits::default()).is_ok());
     // From 8 rad/s it passes; from rest no limit is the obstacle.
-    let slow = Limits {
+    let slow = MoveLimits {
         acceleration: Some(1e-3),
-        ..Limits::default()
+        ..MoveLimits::default()
     };
     let from_rest = Task {
         limits: slow,
@@ -125,13 +125,13 @@ fn what_keeps_the_machine_slow_is_named() {
     );
     // With a motor that passes from rest a limit is the obstacle.
     for (limits, named) in [
-        (slow, Slowing::Acceleration),
+        (slow, SettableLimit::Acceleration),
         (
-            Limits {
+            MoveLimits {
                 speed: Some(0.5),
-                ..Limits::default()
+                ..MoveLimits::default()
             },
-            Slowing::Speed,
+            SettableLimit::Speed,
         ),
     ] {
         let asked = Task {
@@ -204,9 +204,9 @@ fn limits_that_leave_no_acceleration_are_named() {
         2.0,
         "[[load]]\non = \"table\"\nopposing_moment = \"2 N m\"\n",
     );
-    let limits = Limits {
+    let limits = MoveLimits {
         deceleration: Some(0.5),
-        ..Limits::default()
+        ..MoveLimits::default()
     };
     let asked = Task {
         limits,
@@ -217,9 +217,9 @@ fn limits_that_leave_no_acceleration_are_named() {
         matches!(found, Err(NoMotion::Stops { at_start: true, .. })),
         "{found:?}"
     );
-    let limits = Limits {
+    let limits = MoveLimits {
         gearbox_torque: Some(3.0),
-        ..Limits::default()
+        ..MoveLimits::default()
     };
     let asked = Task {
         limits,
@@ -239,7 +239,7 @@ fn limits_that_leave_no_acceleration_are_named() {
 
 #[test]
 fn a_motor_without_a_known_peak_is_refused() {
-    let unknown = jred_motion::way::Actuator {
+    let unknown = jred_motion::path_dynamics::Actuator {
         envelope: Envelope::of(&Motor::default()),
         ..motor([1.0; 2], 1.0)
     };

@@ -3,10 +3,10 @@
 use std::f64::consts::{PI, TAU};
 
 use jred_motion::fastest::cycle::{cycle, single};
-use jred_motion::fastest::{Limits, NoMotion, Rms, Task};
+use jred_motion::fastest::{MoveLimits, NoMotion, Rms, Task};
 use jred_motion::gentlest::{Objective, Travel, gentlest};
 use jred_motion::moves::{Move, Part};
-use jred_motion::way::Way;
+use jred_motion::path_dynamics::PathDynamics;
 
 use super::{close, motor, table, task};
 use crate::support::{edited_press, press_file};
@@ -15,17 +15,17 @@ use crate::support::{edited_press, press_file};
 #[test]
 fn a_torque_that_falls_in_a_straight_line() {
     let file = table(2.0, "");
-    let (inertia, way, dwell) = (2.0, 3.0, 0.4);
+    let (inertia, dynamics, dwell) = (2.0, 3.0, 0.4);
     for limit in [3.0, 2.0, 0.5] {
         let found = single(
             &file,
             &motor([100.0; 2], 1e3),
-            task(0.0, way),
+            task(0.0, dynamics),
             Some(Rms::Torque(limit)),
         )
         .unwrap();
         // 12·J²·D²/t³ = limit²·t
-        let time = (12.0_f64 * (inertia * way / limit).powi(2)).powf(0.25);
+        let time = (12.0_f64 * (inertia * dynamics / limit).powi(2)).powf(0.25);
         close(found.trace.duration(), time, 1e-6);
         let load = found.load;
         assert!(
@@ -33,29 +33,33 @@ fn a_torque_that_falls_in_a_straight_line() {
             "{}",
             load.rms
         );
-        close(load.peaks[0], 6.0 * inertia * way / (time * time), 1e-3);
+        close(
+            load.peaks[0],
+            6.0 * inertia * dynamics / (time * time),
+            1e-3,
+        );
     }
     // With a pause in the cycle more torque is available.
     let parts = [
         Part::Move(Move {
             from: 0.0,
-            to: way,
+            to: dynamics,
             duration: 2.0,
         }),
         Part::Dwell {
-            at: way,
+            at: dynamics,
             duration: dwell,
         },
     ];
     let found = cycle(
         &file,
         &motor([100.0; 2], 1e3),
-        Limits::default(),
+        MoveLimits::default(),
         Some(Rms::Torque(2.0)),
         &parts,
     )
     .unwrap();
-    let excess = |t: f64| 12.0 * (inertia * way).powi(2) / t.powi(3) - 4.0 * (t + dwell);
+    let excess = |t: f64| 12.0 * (inertia * dynamics).powi(2) / t.powi(3) - 4.0 * (t + dwell);
     let (mut low, mut high) = (1e-3, 1e3);
     for _ in 0..200 {
         let middle = 0.5 * (low + high);
@@ -73,13 +77,13 @@ fn a_torque_that_falls_in_a_straight_line() {
 #[test]
 fn a_torque_limit_cuts_the_line() {
     let file = table(2.0, "");
-    let (inertia, way, peak, limit) = (2.0, 3.0, 5.0, 4.4);
+    let (inertia, dynamics, peak, limit) = (2.0, 3.0, 5.0, 4.4);
     let s = 1.5 * (1.0 - (limit / peak) * (limit / peak));
-    let time = (way * inertia / peak / (0.25 - s * s / 12.0_f64)).sqrt();
+    let time = (dynamics * inertia / peak / (0.25 - s * s / 12.0_f64)).sqrt();
     let found = single(
         &file,
         &motor([peak; 2], 1e3),
-        task(0.0, way),
+        task(0.0, dynamics),
         Some(Rms::Torque(limit)),
     )
     .unwrap();
@@ -102,7 +106,7 @@ fn moves_share_the_heat() {
     let found = cycle(
         &file,
         &motor([100.0; 2], 1e3),
-        Limits::default(),
+        MoveLimits::default(),
         Some(Rms::Torque(2.0)),
         &parts,
     )
@@ -136,10 +140,10 @@ fn friction_above_the_limit_is_refused() {
 #[test]
 fn with_a_limited_jerk() {
     let file = table(2.0, "");
-    let limits = Limits {
+    let limits = MoveLimits {
         jerk: Some(20.0),
         level_ends: true,
-        ..Limits::default()
+        ..MoveLimits::default()
     };
     let asked = Task {
         limits,
@@ -165,12 +169,12 @@ fn a_held_weight_bears_a_limit_near_itself() {
     let text = "title = \"lift\"\ngravity = [\"0 m/s^2\", \"-10 m/s^2\"]\n[mechanism]\ntype = \"hoist\"\n\
         [mechanism.drum]\nmass = \"10 kg\"\ninertia = \"0.5 kg m^2\"\n[mechanism.load]\nradius = \"100 mm\"\nmass = \"40 kg\"\n";
     let file = super::machine(text);
-    let (inertia, weight, way) = (0.5 + 40.0 * 0.01, 40.0, 20.0);
+    let (inertia, weight, dynamics) = (0.5 + 40.0 * 0.01, 40.0, 20.0);
     let motor = motor([400.0; 2], 1e3);
     for limit in [1.5, 1.2, 1.15, 1.05, 1.01] {
         let limit = limit * weight;
-        let found = single(&file, &motor, task(0.0, way), Some(Rms::Torque(limit))).unwrap();
-        let own: f64 = inertia * way;
+        let found = single(&file, &motor, task(0.0, dynamics), Some(Rms::Torque(limit))).unwrap();
+        let own: f64 = inertia * dynamics;
         let time = (12.0 * own * own / (limit * limit - weight * weight)).powf(0.25);
         close(found.trace.duration(), time, 1e-6);
         assert!(found.load.rms <= limit, "{}", found.load.rms);
@@ -178,7 +182,7 @@ fn a_held_weight_bears_a_limit_near_itself() {
     let refused = single(
         &file,
         &motor,
-        task(0.0, way),
+        task(0.0, dynamics),
         Some(Rms::Torque(0.99 * weight)),
     );
     let Err(why @ NoMotion::RmsTooLarge { slow, .. }) = refused else {
@@ -209,7 +213,7 @@ fn a_torque_that_does_not_bind_changes_nothing() {
         found.unwrap().trace.duration()
     });
     // The least RMS torque in that time, by the other search.
-    let way = Way::new(&file, motor([60.0; 2], 942.0), 1.0);
+    let dynamics = PathDynamics::new(&file, motor([60.0; 2], 942.0), 1.0);
     let travel = Travel {
         start: PI,
         distance: TAU,
@@ -219,7 +223,7 @@ fn a_torque_that_does_not_bind_changes_nothing() {
         ramp: 0.0,
         ring: false,
     };
-    let least = gentlest(&way, &travel, Objective::Rms).unwrap();
+    let least = gentlest(&dynamics, &travel, Objective::Rms).unwrap();
     close((least.cost / times[0]).sqrt(), 7.942, 1e-5);
     close(times[1], times[0], 1e-6);
     close(times[2], times[0], 1e-6);

@@ -12,14 +12,14 @@ use jred_file::model::{drive_train, variator};
 use jred_motion::contact::broken;
 use jred_motion::fastest::cycle::{Cycle, cycle, endless};
 use jred_motion::fastest::field::Reserve;
-use jred_motion::fastest::ruled::{Cap, Judge, Judged, ruled};
-use jred_motion::fastest::{Limits, NoMotion, Rms};
+use jred_motion::fastest::ruled::{Cap, Judge, Judgement, ruled};
+use jred_motion::fastest::{MoveLimits, NoMotion, Rms};
 use jred_motion::moves::{Chain, Part, chain};
-use jred_motion::way::Actuator;
+use jred_motion::path_dynamics::Actuator;
 use jred_sizing::catalogue::{Catalogue, Drive, MotorKind};
 use jred_sizing::judge::Context;
 use jred_sizing::judge::check::Check;
-use jred_sizing::motor::envelope::{Envelope, Prepared};
+use jred_sizing::motor::envelope::{Envelope, MotorLimits};
 use jred_sizing::select::fit::input_kind;
 use jred_sizing::select::named::named;
 
@@ -51,20 +51,20 @@ fn made(
     chain: &Chain,
     drive: Drive,
     rms: Option<Rms>,
-) -> Result<(Cycle, Judged), NoMotion> {
+) -> Result<(Cycle, Judgement), NoMotion> {
     let actuator = Actuator::new(
         &drive,
         Envelope::at(drive.motor, drive.amplifier, &file.site),
     );
     let gearbox = drive.gearbox;
-    let limits = Limits {
+    let limits = MoveLimits {
         gearbox_torque: gearbox.and_then(|gearbox| gearbox.peak_torque),
         gearbox_speed: gearbox.and_then(|gearbox| gearbox.max_speed),
-        ..Limits::default()
+        ..MoveLimits::default()
     };
     let limits = limits.with_reserve(Reserve::of(&file.rules));
     let judge = Judge::new(file, drive, STEPS.into());
-    let make = |limits: &Limits, rms: Option<Rms>| {
+    let make = |limits: &MoveLimits, rms: Option<Rms>| {
         let made = if chain.endless {
             let step = chain.parts.iter().find_map(Part::step).unwrap().0;
             endless(file, &actuator, *limits, &step).map_err(|why| (None, why))
@@ -112,7 +112,7 @@ fn size(path: &Path, cycle: &Cycle, drive: Drive) -> Vec<Check> {
     let file = checked::read(&judged).unwrap_or_else(|why| panic!("{}: {why:?}", path.display()));
     let duty = Duty::new(&file, file.required_motion().unwrap(), STEPS).unwrap();
     let cycle = jred_sizing::cycle::Cycle::new(&duty);
-    let prepared = Prepared::new(drive.motor, drive.amplifier, &file.site);
+    let prepared = MotorLimits::new(drive.motor, drive.amplifier, &file.site);
     Context::new(&cycle, &file.site, drive, &prepared).checks(&file.rules)
 }
 

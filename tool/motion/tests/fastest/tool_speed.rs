@@ -1,7 +1,7 @@
 //! A limit of the tool's speed in a range.
 
 use jred::machine::Mechanism as _;
-use jred_motion::fastest::{Binding, Limits, Task, ToolSpeed, ToolSpeeds};
+use jred_motion::fastest::{Binding, MoveLimits, Task, ToolSpeed, ToolSpeeds};
 
 use super::{close, fastest, machine, motor, task};
 
@@ -25,15 +25,15 @@ fn a_tool_is_slow_in_a_part_of_its_way() {
     for [a, b, end] in [[2.0, 3.5, 5.0], [0.9, 1.0, 4.0], [1.0, 6.0, 6.25]] {
         let limit = ToolSpeed::new(mechanism, (rack, [0.0; 2]), 0.05 * slow, [a, b]).unwrap();
         let asked = Task {
-            limits: Limits {
+            limits: MoveLimits {
                 tool: limit.unwrap().into(),
-                ..Limits::default()
+                ..MoveLimits::default()
             },
             ..task(0.0, end)
         };
         let found = fastest(&file, &motor([10.0; 2], 100.0), &asked);
-        let beside = |way: f64| {
-            let peak = (alpha * way + 0.5 * slow * slow).sqrt();
+        let beside = |dynamics: f64| {
+            let peak = (alpha * dynamics + 0.5 * slow * slow).sqrt();
             (2.0 * peak - slow) / alpha
         };
         close(
@@ -74,10 +74,10 @@ fn a_press_is_slow_through_the_work() {
     let degrees = |x: f64| x.to_radians();
     let between = [degrees(300.0), degrees(360.0)];
     let asked = |limit| Task {
-        limits: Limits {
+        limits: MoveLimits {
             speed: Some(6.0),
             tool: limit,
-            ..Limits::default()
+            ..MoveLimits::default()
         },
         ..task(degrees(180.0), degrees(540.0))
     };
@@ -94,9 +94,9 @@ fn a_press_is_slow_through_the_work() {
             .iter()
             .filter(|phase| phase.limit == Binding::ToolSpeed)
         {
-            let way = x(phase.phi[1]).value - x(phase.phi[0]).value;
-            close(phase.t[1] - phase.t[0], way.abs() / speed, 1e-7);
-            slow += way.abs();
+            let dynamics = x(phase.phi[1]).value - x(phase.phi[0]).value;
+            close(phase.t[1] - phase.t[0], dynamics.abs() / speed, 1e-7);
+            slow += dynamics.abs();
         }
         assert!(
             slow > 0.8 * (x(between[1]).value - x(between[0]).value),
@@ -148,15 +148,15 @@ fn a_programme_of_speeds_over_two_turns() {
     // The two overlap: from b on the slower one applies.
     let both = ToolSpeeds::from(slow(fast, [a, c])).with(slow(slower, [c, b]));
     let asked = Task {
-        limits: Limits {
+        limits: MoveLimits {
             tool: both.unwrap(),
-            ..Limits::default()
+            ..MoveLimits::default()
         },
         ..task(0.0, end)
     };
     let found = fastest(&file, &motor([10.0; 2], 100.0), &asked);
-    let beside = |way: f64, speed: f64| {
-        let peak = (alpha * way + 0.5 * speed * speed).sqrt();
+    let beside = |dynamics: f64, speed: f64| {
+        let peak = (alpha * dynamics + 0.5 * speed * speed).sqrt();
         (2.0 * peak - speed) / alpha
     };
     // Before b it brakes from one to the other.

@@ -3,8 +3,8 @@
 use std::f64::consts::PI;
 
 use jred_file::model::machine::MachineFile;
-use jred_motion::fastest::{Fastest, Limits, NoMotion, Task, solve};
-use jred_motion::way::{Actuator, Way};
+use jred_motion::fastest::{Fastest, MoveLimits, NoMotion, Task, solve};
+use jred_motion::path_dynamics::{Actuator, PathDynamics};
 use jred_sizing::cycle::form::Coefficients;
 
 use super::jerk::{NEAR, ROUNDING, WITHIN, cubic, seven, smooth};
@@ -19,10 +19,10 @@ const CHANGES_NOTHING: f64 = 1e-6;
 #[test]
 fn a_torque_rate_is_a_jerk() {
     let file = table(2.0, "");
-    let limits = Limits {
+    let limits = MoveLimits {
         torque_rate: Some(40.0),
         level_ends: true,
-        ..Limits::default()
+        ..MoveLimits::default()
     };
     for length in [3.0, 0.8] {
         let asked = Task {
@@ -38,10 +38,10 @@ fn a_torque_rate_is_a_jerk() {
 #[test]
 fn a_press_with_a_torque_rate() {
     let file = jred_analysis::checked::read(&press_file()).unwrap();
-    let limits = Limits {
+    let limits = MoveLimits {
         torque_rate: Some(1e3),
         level_ends: true,
-        ..Limits::default()
+        ..MoveLimits::default()
     };
     let motor = motor([60.0, 40.0], 90.0);
     let found = smooth(
@@ -58,14 +58,14 @@ fn a_press_with_a_torque_rate() {
 
 /// The torque rate throughout each step of the written profile: its speed is the cubic through both speeds and accelerations.
 fn keeps_the_rate(file: &MachineFile, motor: &Actuator, found: &Fastest, limit: f64) {
-    let way = Way::new(file, motor.clone(), 1.0);
+    let dynamics = PathDynamics::new(file, motor.clone(), 1.0);
     let parts = 16;
     for pair in found.trace.nodes().windows(2) {
         let [a, b] = [pair[0], pair[1]];
         let torque = |k: i32| {
             let [omega, alpha, way_gone] = cubic(&a, &b, f64::from(k) / f64::from(parts));
-            let place = way.place(a.phi + way_gone).unwrap();
-            way.demand(&place, omega, alpha)
+            let place = dynamics.place(a.phi + way_gone).unwrap();
+            dynamics.demand(&place, omega, alpha)
         };
         let part = b.step / f64::from(parts);
         for k in 1..=parts {
@@ -109,10 +109,10 @@ fn press(efficiency: u32) -> MachineFile {
 
 fn rate(limit: f64, to: f64) -> Task {
     Task {
-        limits: Limits {
+        limits: MoveLimits {
             torque_rate: Some(limit),
             level_ends: true,
-            ..Limits::default()
+            ..MoveLimits::default()
         },
         ..task(PI, to)
     }
@@ -168,10 +168,10 @@ fn a_torque_that_does_not_bind_changes_nothing() {
 fn a_load_that_jumps_has_no_torque_rate() {
     let text = std::fs::read_to_string(shipped("cam-translating.toml")).unwrap();
     let file = super::machine(&text.replace("modified-sine", "parabola"));
-    let limits = Limits {
+    let limits = MoveLimits {
         torque_rate: Some(1e3),
         level_ends: true,
-        ..Limits::default()
+        ..MoveLimits::default()
     };
     let motor = motor([40.0; 2], 90.0);
     let refused = solve(
@@ -186,10 +186,10 @@ fn a_load_that_jumps_has_no_torque_rate() {
         matches!(refused, Err(NoMotion::LoadJumps { .. })),
         "{refused:?}"
     );
-    let limits = Limits {
+    let limits = MoveLimits {
         jerk: Some(1e4),
         level_ends: true,
-        ..Limits::default()
+        ..MoveLimits::default()
     };
     smooth(
         &file,
@@ -211,21 +211,25 @@ fn a_small_rate_follows_the_loads() {
         ratio: 4.0,
         ..motor([24.0, 12.0], 1200.0)
     };
-    let way = Way::new(&file, actuator.clone(), 1.0);
+    let dynamics = PathDynamics::new(&file, actuator.clone(), 1.0);
     let parts = 100_000;
     let torques: Vec<f64> = (0..=parts)
         .map(|k| 3.2 + 5.8 * f64::from(k) / f64::from(parts))
-        .map(|phi| way.demand(&way.place(phi).unwrap(), 0.0, 0.0).torque)
+        .map(|phi| {
+            dynamics
+                .demand(&dynamics.place(phi).unwrap(), 0.0, 0.0)
+                .torque
+        })
         .collect();
     let variation: f64 = torques
         .windows(2)
         .map(|pair| (pair[1] - pair[0]).abs())
         .sum();
     for (rate, more) in [(3.0, 0.05), (0.3, 0.01)] {
-        let limits = Limits {
+        let limits = MoveLimits {
             torque_rate: Some(rate),
             level_ends: true,
-            ..Limits::default()
+            ..MoveLimits::default()
         };
         let asked = Task {
             limits,

@@ -2,10 +2,12 @@
 
 use jred_file::model::machine::MachineFile;
 use jred_motion::fastest::cycle::{Cycle, cycle};
-use jred_motion::fastest::winding::{Cooled, Temperatures, Unknown, Winding, cooled};
-use jred_motion::fastest::{Limits, NoMotion, Rms};
+use jred_motion::fastest::winding::{
+    Temperatures, ThermalResult, UnknownTemperature, Winding, cooled,
+};
+use jred_motion::fastest::{MoveLimits, NoMotion, Rms};
 use jred_motion::moves::{Move, Part};
-use jred_motion::way::{Actuator, BothWays};
+use jred_motion::path_dynamics::{Actuator, BothDirections};
 use jred_sizing::catalogue::{self, Commutation, Drive, Motor, Thermal};
 use jred_sizing::motor::envelope::Envelope;
 
@@ -80,11 +82,11 @@ fn limited(
     motor: &Motor,
     parts: &[Part],
     limit: f64,
-) -> Result<Cooled, (Option<usize>, NoMotion)> {
+) -> Result<ThermalResult, (Option<usize>, NoMotion)> {
     let winding = Winding::new(&drive(motor), file);
     let actuator = actuator(motor);
     let at = |rms: Option<Rms>| -> Result<Cycle, (Option<usize>, NoMotion)> {
-        let found = cycle(file, &actuator, Limits::default(), rms, parts);
+        let found = cycle(file, &actuator, MoveLimits::default(), rms, parts);
         found.map_err(|(index, why)| (Some(index + 1), why))
     };
     cooled((&winding, limit), (file, &actuator), None, at)
@@ -161,7 +163,7 @@ fn a_short_cycle_is_limited_by_its_rms_torque() {
 /// of the last cycle.
 fn integrated(file: &MachineFile, motor: &Motor, cycle: &Cycle, cycles: u32) -> [f64; 2] {
     let actuator = actuator(motor);
-    let ways = BothWays::new(file, &actuator);
+    let ways = BothDirections::new(file, &actuator);
     let [tw, th] = [motor.thermal.winding_time, motor.thermal.housing_time].map(Option::unwrap);
     let reference = 1.0 + COPPER * (AMBIENT - 20.0);
     let growth = COPPER / reference;
@@ -236,7 +238,7 @@ fn limits_that_do_not_bind_or_cannot_be_kept() {
     );
     let motor = motor(6.0, [Some(30.0), Some(600.0)]);
     let one = parts(0.0);
-    let free = cycle(&file, &actuator(&motor), Limits::default(), None, &one).unwrap();
+    let free = cycle(&file, &actuator(&motor), MoveLimits::default(), None, &one).unwrap();
     let runs_away = Winding::new(&drive(&motor), &file)
         .temperatures(&file, &actuator(&motor), &free, 100.0)
         .unwrap();
@@ -262,13 +264,19 @@ fn limits_that_do_not_bind_or_cannot_be_kept() {
         ..motor
     };
     let unknown = Winding::new(&drive(&bare), &file).known();
-    assert!(matches!(unknown, Err(Unknown::Figures(_))), "{unknown:?}");
+    assert!(
+        matches!(unknown, Err(UnknownTemperature::Figures(_))),
+        "{unknown:?}"
+    );
     let rated = Motor {
         rated_torque: Some(2.0),
         ..bare.clone()
     };
     let unknown = Winding::new(&drive(&rated), &file).known();
-    assert!(matches!(unknown, Err(Unknown::RatedRise)), "{unknown:?}");
+    assert!(
+        matches!(unknown, Err(UnknownTemperature::RatedRise)),
+        "{unknown:?}"
+    );
 }
 
 /// Without winding data the rise is a share of the rated one; thin air increases it.

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 use std::fmt::Write as _;
 
 use jred_file::model::machine::MachineFile;
-use jred_motion::gentlest::{GAP, Gentle, Objective, Optimum, Reason, Travel};
+use jred_motion::gentlest::{GAP, LeastEffortMove, Objective, Optimum, Reason, Travel};
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt as _, SeedableRng as _};
 
@@ -109,7 +109,7 @@ fn times(duration: f64) -> impl Iterator<Item = f64> {
 }
 
 /// Position, speed and acceleration of the motion found.
-fn found_states(gentle: &Gentle) -> Vec<[f64; 3]> {
+fn found_states(gentle: &LeastEffortMove) -> Vec<[f64; 3]> {
     let mut phases = gentle.phases.iter().peekable();
     let (mut from, mut place) = (0.0, gentle.travel.start);
     let state = |t: f64| {

@@ -7,10 +7,10 @@ use jred::table::{Constants, Shape, Table};
 use jred::{Domain, Model, Scale, Spline, curves};
 use jred_analysis::checked;
 use jred_file::model::coordinate::Coordinate;
-use jred_motion::fastest::{Limits, Task, solve};
+use jred_motion::fastest::{MoveLimits, Task, solve};
+use jred_motion::path_dynamics::Actuator;
 use jred_motion::plan::{Plan, SHARE};
 use jred_motion::trace::{Node, Trace};
-use jred_motion::way::Actuator;
 use jred_sizing::catalogue::Motor;
 use jred_sizing::cycle::form::Coefficients;
 use jred_sizing::motor::envelope::Envelope;
@@ -107,7 +107,7 @@ fn what_is_stated_is_a_bound() {
             from: 0.5 * TAU,
             to: 1.5 * TAU,
             speeds: [0.0; 2],
-            limits: Limits::default(),
+            limits: MoveLimits::default(),
             endless: false,
         };
         solve(&press, &actuator, &task).unwrap().trace

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use jred::Domain;
 use jred::axis::plan::PlanError;
 use jred_file::model::coordinate::Coordinate;
-use jred_motion::plan::{Plan, Quantity, SHARE};
+use jred_motion::plan::{MotionQuantity, Plan, SHARE};
 use jred_motion::trace::{Node, Trace};
 
 use super::{cycloid, motion};
@@ -27,7 +27,7 @@ fn what_contradicts_itself_is_said() {
     assert_eq!(even(|_| ()), None);
     // 0.01 rad too far in two steps of 0.1 s: a speed of 0.1·15/8 rad/s, an acceleration beyond that of the motion's cubic by 0.01·5.77/0.1².
     let excess = even(|node| node.phi += 0.01).unwrap();
-    assert_eq!(excess.quantity, Quantity::Speed);
+    assert_eq!(excess.quantity, MotionQuantity::Speed);
     assert!((excess.allowed - 2e-3).abs() < 1e-12, "{excess:?}");
     assert!(
         (excess.error - 0.01 * 15.0 / 8.0 / 0.1).abs() < 1e-5,

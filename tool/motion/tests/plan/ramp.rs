@@ -5,10 +5,10 @@ use std::collections::BTreeMap;
 use jred_analysis::checked;
 use jred_file::model::machine::MachineFile;
 use jred_motion::fastest::field::Reserve;
-use jred_motion::fastest::{Limits, Task, solve};
+use jred_motion::fastest::{MoveLimits, Task, solve};
+use jred_motion::path_dynamics::Actuator;
 use jred_motion::plan::ramp::least_ramp;
 use jred_motion::trace::Trace;
-use jred_motion::way::Actuator;
 use jred_sizing::catalogue::Motor;
 use jred_sizing::cycle::form::Coefficients;
 use jred_sizing::motor::envelope::Envelope;
@@ -28,13 +28,13 @@ fn motor(torques: [f64; 2], speed: f64) -> Actuator {
     }
 }
 
-fn planned(file: &MachineFile, motor: &Actuator, way: [f64; 2], reserve: f64) -> Trace {
+fn planned(file: &MachineFile, motor: &Actuator, dynamics: [f64; 2], reserve: f64) -> Trace {
     let reserve = Reserve::of_motor(reserve);
     let task = Task {
-        from: way[0],
-        to: way[1],
+        from: dynamics[0],
+        to: dynamics[1],
         speeds: [0.0; 2],
-        limits: Limits::default().with_reserve(reserve),
+        limits: MoveLimits::default().with_reserve(reserve),
         endless: false,
     };
     solve(file, motor, &task)
@@ -91,13 +91,13 @@ fn the_least_ramp_is_the_least() {
         .collect();
     let none = BTreeMap::<String, String>::new();
     let press = checked::parse("press.toml", &press.join("\n"), none).unwrap();
-    for (file, torques, speed, way) in [
+    for (file, torques, speed, dynamics) in [
         (&table, [20.0, 8.0], 40.0, [0.0, 9.0]),
         (&press, [900.0, 400.0], 12.0, [3.3, 9.0]),
     ] {
         let motor = motor(torques, speed);
         for reserve in [0.1, 0.3] {
-            let trace = planned(file, &motor, way, reserve);
+            let trace = planned(file, &motor, dynamics, reserve);
             let ramp = least_ramp(file, &motor, None, &trace).unwrap().unwrap();
             assert!(ramp.is_finite() && ramp > 0.0, "{ramp}");
             let line = [torques[0], torques[1], speed];
@@ -107,7 +107,7 @@ fn the_least_ramp_is_the_least() {
             assert!(shorter > 1.0, "{reserve}: {shorter}");
         }
         // A motion that uses the full torque leaves nothing for a change of the rate.
-        let whole = planned(file, &motor, way, 0.0);
+        let whole = planned(file, &motor, dynamics, 0.0);
         assert_eq!(
             least_ramp(file, &motor, None, &whole).unwrap(),
             Some(f64::INFINITY)
@@ -121,12 +121,12 @@ fn the_least_ramp_is_the_least() {
 fn the_ramp_of_a_constant_inertia() {
     let table = "title = \"table\"\ngravity = [\"0 m/s^2\", \"0 m/s^2\"]\n[mechanism]\ntype = \"rotary-table\"\n[mechanism.table]\nmass = \"1 kg\"\ninertia = \"0.5 kg m^2\"\n";
     let file = checked::parse("test.toml", table, BTreeMap::<String, String>::new()).unwrap();
-    let (torque, inertia, way) = (20.0, 0.5, 8.0);
+    let (torque, inertia, dynamics) = (20.0, 0.5, 8.0);
     let motor = motor([torque; 2], 100.0);
     for share in [0.1, 0.25] {
-        let trace = planned(&file, &motor, [0.0, way], share);
+        let trace = planned(&file, &motor, [0.0, dynamics], share);
         let found = least_ramp(&file, &motor, None, &trace).unwrap().unwrap();
-        let speed = ((1.0 - share) * torque / inertia * way).sqrt();
+        let speed = ((1.0 - share) * torque / inertia * dynamics).sqrt();
         let expected = speed * inertia / (share * torque);
         assert!((found / expected - 1.0).abs() < 1e-4, "{found} {expected}");
     }

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use jred::Domain;
 use jred::axis::plan::HEADER_WORDS;
 use jred_file::model::coordinate::Coordinate;
-use jred_motion::plan::{Plan, Quantity, SHARE};
+use jred_motion::plan::{MotionQuantity, Plan, SHARE};
 use jred_motion::trace::{Node, Trace};
 
 use super::{cycloid, motion};
@@ -209,7 +209,7 @@ fn slivers_between_jumps_are_left_out() {
     let stays = with(1, &[(0.9e-3, -6.0)]);
     assert_eq!(stays.rows, 5);
     let excess = stays.excess.unwrap();
-    assert_eq!(excess.quantity, Quantity::Acceleration);
+    assert_eq!(excess.quantity, MotionQuantity::Acceleration);
     assert!(excess.error > 8e-3, "{excess:?}");
     assert!(stays.errors.acceleration < 1.5 * 8e-3, "{:?}", stays.errors);
 }

@@ -1,7 +1,7 @@
 //! Shape of each part.
 
 use super::QUIET;
-use super::sketch::Part;
+use super::sketch::BodyPart;
 use crate::plot::svg::{Ink, Svg};
 
 /// Radius of a pin (px).
@@ -28,38 +28,38 @@ impl Pen<'_> {
     }
 
     /// A part of a link.
-    pub(super) fn part(&mut self, part: &Part, colour: &str) {
+    pub(super) fn part(&mut self, part: &BodyPart, colour: &str) {
         match part {
-            Part::Bar(ends) => {
+            BodyPart::Bar(ends) => {
                 let ends = ends.map(|at| self.local(at));
                 self.svg.path(&ends, false, &Ink::line(colour, BAR));
             }
-            Part::Plate(points) | Part::Outline(points) => {
+            BodyPart::Plate(points) | BodyPart::Outline(points) => {
                 let points: Vec<[f64; 2]> = points.iter().map(|&at| self.local(at)).collect();
                 let ink = Ink::line(colour, 2.5).filled(colour);
                 self.svg.path(&points, true, &ink.faint(0.3));
                 self.svg.path(&points, true, &Ink::line(colour, 2.0));
             }
-            Part::Wheel(at, radius) => {
+            BodyPart::Wheel(at, radius) => {
                 let (at, radius) = (self.local(*at), radius * self.scale);
                 let ink = Ink::line(colour, 2.0).filled(colour);
                 self.svg.circle(at, radius, &ink.faint(0.15));
                 let rim = [at[0] + radius, at[1]];
                 self.svg.path(&[at, rim], false, &Ink::line(colour, 2.0));
             }
-            Part::Block(at, angle) => {
+            BodyPart::Block(at, angle) => {
                 let corners = block(self.local(*at), *angle);
                 let ink = Ink::line(colour, 2.0).filled(PAPER);
                 self.svg.path(&corners, true, &ink);
                 let ink = Ink::line(colour, 2.0).filled(colour);
                 self.svg.path(&corners, true, &ink.faint(0.3));
             }
-            Part::Slot(ends) => {
+            BodyPart::Slot(ends) => {
                 let ends = overrun(ends.map(|at| self.local(at)), 8.0);
                 self.svg.path(&ends, false, &Ink::line(colour, 14.0));
                 self.svg.path(&ends, false, &Ink::line(PAPER, 10.0));
             }
-            Part::Pin(at) => {
+            BodyPart::Pin(at) => {
                 let at = self.local(*at);
                 self.svg.circle(at, PIN, &Ink::line(INK, 1.6).filled(PAPER));
             }
@@ -67,18 +67,18 @@ impl Pen<'_> {
     }
 
     /// A faint copy.
-    pub(super) fn ghost(&mut self, part: &Part) {
+    pub(super) fn ghost(&mut self, part: &BodyPart) {
         let ink = Ink::line(GHOST, 1.0);
         match part {
-            Part::Bar(ends) => {
+            BodyPart::Bar(ends) => {
                 let ends = ends.map(|at| self.local(at));
                 self.svg.path(&ends, false, &ink);
             }
-            Part::Plate(points) => {
+            BodyPart::Plate(points) => {
                 let points: Vec<[f64; 2]> = points.iter().map(|&at| self.local(at)).collect();
                 self.svg.path(&points, true, &ink);
             }
-            Part::Block(at, angle) => {
+            BodyPart::Block(at, angle) => {
                 let corners = block(self.local(*at), *angle);
                 self.svg.path(&corners, true, &ink);
             }
@@ -87,17 +87,17 @@ impl Pen<'_> {
     }
 
     /// A part of the ground; `page` maps its points to the page.
-    pub(super) fn ground(&mut self, part: &Part, page: &dyn Fn([f64; 2]) -> [f64; 2]) {
+    pub(super) fn ground(&mut self, part: &BodyPart, page: &dyn Fn([f64; 2]) -> [f64; 2]) {
         let ink = Ink::line(QUIET, 1.5);
         match part {
-            Part::Pin(at) => {
+            BodyPart::Pin(at) => {
                 let [x, y] = page(*at);
                 let base = y + 20.0;
                 let triangle = [[x, y], [x - 12.0, base], [x + 12.0, base]];
                 self.svg.path(&triangle, true, &ink.filled("#eef1f4"));
                 self.hatch([x - 18.0, base], [x + 18.0, base]);
             }
-            Part::Slot(ends) => {
+            BodyPart::Slot(ends) => {
                 let [a, b] = overrun(ends.map(page), 2.0 * BLOCK[0] - 8.0);
                 let ([x, y], length) = unit(a, b);
                 let side = BLOCK[1] + 1.0;
@@ -112,7 +112,7 @@ impl Pen<'_> {
                         .path(&[shift(a, -1.0), shift(b, -1.0)], false, &ink);
                 }
             }
-            Part::Block(at, angle) => {
+            BodyPart::Block(at, angle) => {
                 let corners = block(page(*at), *angle);
                 self.svg.path(&corners, true, &ink.filled("#eef1f4"));
             }

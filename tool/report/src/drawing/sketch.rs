@@ -11,7 +11,7 @@ const POSES: usize = 240;
 
 /// One part of a body, in the body's frame.
 #[derive(Clone, Debug)]
-pub(super) enum Part {
+pub(super) enum BodyPart {
     /// A link between two points.
     Bar([[f64; 2]; 2]),
     /// A link through three or more points: their convex hull.
@@ -28,7 +28,7 @@ pub(super) enum Part {
     Pin([f64; 2]),
 }
 
-impl Part {
+impl BodyPart {
     pub(super) const fn is_pin(&self) -> bool {
         matches!(self, Self::Pin(_))
     }
@@ -57,8 +57,8 @@ impl Pose {
 /// Everything to draw.
 #[derive(Clone, Debug)]
 pub(super) struct Sketch {
-    pub(super) links: Vec<Vec<Part>>,
-    pub(super) ground: Vec<Part>,
+    pub(super) links: Vec<Vec<BodyPart>>,
+    pub(super) ground: Vec<BodyPart>,
     pub(super) points: Vec<NamedPoint>,
     /// The path of each named point.
     pub(super) paths: Vec<Vec<[f64; 2]>>,
@@ -130,7 +130,7 @@ impl Sketch {
         }
     }
 
-    fn add(&mut self, body: Body, part: Part) {
+    fn add(&mut self, body: Body, part: BodyPart) {
         match body {
             Body::Ground => self.ground.push(part),
             Body::Link(k) => {
@@ -152,22 +152,22 @@ impl Sketch {
                     } else {
                         (b, a)
                     };
-                    self.add(Body::Ground, Part::Pin(fixed.at));
-                    self.add(moving.body, Part::Pin(moving.at));
+                    self.add(Body::Ground, BodyPart::Pin(fixed.at));
+                    self.add(moving.body, BodyPart::Pin(moving.at));
                 } else {
-                    self.add(a.body, Part::Pin(a.at));
-                    self.add(b.body, Part::Pin(b.at));
+                    self.add(a.body, BodyPart::Pin(a.at));
+                    self.add(b.body, BodyPart::Pin(b.at));
                 }
             }
             Joint::Prismatic([guide, block]) => {
                 let way = |(joint, frames): &(&Joint, &Frames)| joint.coordinate(frames).value;
                 self.slot(guide, over_range.iter().map(way));
-                self.add(block.body, Part::Block(block.at, block.angle()));
+                self.add(block.body, BodyPart::Block(block.at, block.angle()));
             }
             Joint::PinInSlot([pin, slot]) => {
                 let way = |(joint, frames): &(&Joint, &Frames)| along(joint, frames);
                 self.slot(slot, over_range.iter().map(way));
-                self.add(pin.body, Part::Pin(pin.at));
+                self.add(pin.body, BodyPart::Pin(pin.at));
             }
             Joint::Fixed(_) | Joint::Transmission(_) => {}
         }
@@ -180,7 +180,7 @@ impl Sketch {
         });
         let (sin, cos) = marker.angle().sin_cos();
         let end = |way: f64| [marker.at[0] + way * cos, marker.at[1] + way * sin];
-        self.add(marker.body, Part::Slot([end(low), end(high)]));
+        self.add(marker.body, BodyPart::Slot([end(low), end(high)]));
     }
 
     /// Bars and plates through the points of each link; `size` (m) is that of the mechanism.
@@ -188,9 +188,9 @@ impl Sketch {
         // Virtual links with a varying inertia have no shape.
         let own = mechanism.own_links();
         for (k, parts) in self.links.iter_mut().enumerate().take(own) {
-            let outlines: Vec<Part> = mechanism
+            let outlines: Vec<BodyPart> = mechanism
                 .outlines(k)
-                .map(|outline| Part::Outline(outline.to_vec()))
+                .map(|outline| BodyPart::Outline(outline.to_vec()))
                 .collect();
             if !outlines.is_empty() {
                 parts.splice(0..0, outlines);
@@ -200,12 +200,12 @@ impl Sketch {
             let mut slides = false;
             for part in parts.iter() {
                 match part {
-                    Part::Pin(at) => nodes.push(*at),
-                    Part::Block(at, _) => {
+                    BodyPart::Pin(at) => nodes.push(*at),
+                    BodyPart::Block(at, _) => {
                         slides = true;
                         nodes.push(*at);
                     }
-                    Part::Slot(ends) => {
+                    BodyPart::Slot(ends) => {
                         slides = true;
                         nodes.extend(ends);
                     }
@@ -217,9 +217,9 @@ impl Sketch {
             let hull = hull(nodes, 1e-6 * size);
             let body = match hull.as_slice() {
                 [] => None,
-                [only] => (!slides).then_some(Part::Wheel(*only, 0.1 * size)),
-                [a, b] => Some(Part::Bar([*a, *b])),
-                _ => Some(Part::Plate(hull)),
+                [only] => (!slides).then_some(BodyPart::Wheel(*only, 0.1 * size)),
+                [a, b] => Some(BodyPart::Bar([*a, *b])),
+                _ => Some(BodyPart::Plate(hull)),
             };
             if let Some(body) = body {
                 parts.insert(0, body);
@@ -255,10 +255,10 @@ impl Sketch {
             let radii = if radii.is_empty() { vec![0.5] } else { radii };
             self.links[k] = radii
                 .into_iter()
-                .map(|r| Part::Wheel([0.0; 2], r))
+                .map(|r| BodyPart::Wheel([0.0; 2], r))
                 .collect();
-            self.links[k].push(Part::Pin([0.0; 2]));
-            self.ground.push(Part::Pin(self.apart[k]));
+            self.links[k].push(BodyPart::Pin([0.0; 2]));
+            self.ground.push(BodyPart::Pin(self.apart[k]));
         }
     }
 }

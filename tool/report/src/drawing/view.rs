@@ -1,6 +1,6 @@
 //! From metres to pixels.
 
-use super::sketch::{Part, Sketch};
+use super::sketch::{BodyPart, Sketch};
 use crate::plot::WIDTH;
 use crate::plot::svg::{Anchor, Ink, Svg};
 use jred_file::number::rounding::rounded;
@@ -36,7 +36,7 @@ impl View {
             }
         }
         for (link, parts) in sketch.links.iter().enumerate() {
-            let reach: Vec<([f64; 2], f64)> = parts.iter().flat_map(Part::reach).collect();
+            let reach: Vec<([f64; 2], f64)> = parts.iter().flat_map(BodyPart::reach).collect();
             for pose in &sketch.poses {
                 for &(at, around) in &reach {
                     show(pose.point(link, at), around);
@@ -128,7 +128,7 @@ impl View {
     }
 }
 
-impl Part {
+impl BodyPart {
     /// Points that must be on the page, with the space (m) around each.
     fn reach(&self) -> Vec<([f64; 2], f64)> {
         match self {

@@ -10,7 +10,7 @@ use jred_file::model::coordinate::Coordinate;
 use jred_file::model::machine::MachineFile;
 use jred_file::model::with_mass::AttachedMass;
 use jred_file::number::rounding::{figure, percent, short};
-use jred_motion::balance::{Balanced, Figures, Goal, Request};
+use jred_motion::balance::{BalanceFigures, BalanceGoal, BalanceRequest, BalanceResult};
 
 /// The content of the listing.
 #[derive(Debug)]
@@ -18,9 +18,9 @@ pub struct BalanceView<'a> {
     /// The machine.
     pub file: &'a MachineFile,
     /// The request.
-    pub request: &'a Request,
+    pub request: &'a BalanceRequest,
     /// The result.
-    pub balanced: &'a Balanced,
+    pub balanced: &'a BalanceResult,
 }
 
 impl BalanceView<'_> {
@@ -37,10 +37,12 @@ impl BalanceView<'_> {
     fn goal(&self) -> String {
         let effort = &self.coordinate().vocabulary().torque;
         match self.request.goal {
-            Goal::Rms => format!("RMS {effort} of the drive link"),
-            Goal::Peak => format!("peak {effort} of the drive link"),
-            Goal::Holding => format!("RMS {effort} that holds it at rest"),
-            Goal::Inertia => format!("deviation of the reduced {} from its mean", self.inertia()),
+            BalanceGoal::Rms => format!("RMS {effort} of the drive link"),
+            BalanceGoal::Peak => format!("peak {effort} of the drive link"),
+            BalanceGoal::Holding => format!("RMS {effort} that holds it at rest"),
+            BalanceGoal::Inertia => {
+                format!("deviation of the reduced {} from its mean", self.inertia())
+            }
         }
     }
 
@@ -54,7 +56,7 @@ impl BalanceView<'_> {
 
     fn unit(&self) -> &'static str {
         match self.request.goal {
-            Goal::Inertia => self.coordinate().inertia_unit(),
+            BalanceGoal::Inertia => self.coordinate().inertia_unit(),
             _ => self.coordinate().effort_unit(),
         }
     }
@@ -62,7 +64,7 @@ impl BalanceView<'_> {
 
 /// The result, the figures before and after, and what to write into the machine file.
 pub fn answer(view: &BalanceView) -> Answer<'static> {
-    let Balanced {
+    let BalanceResult {
         masses,
         springs,
         efforts,
@@ -145,10 +147,10 @@ fn both_ways(found: &Element, [pull, push]: [f64; 2]) -> Option<String> {
 }
 
 /// The figures before and after.
-fn table(answer: &mut Answer, view: &BalanceView, figures: [&Figures; 2]) {
+fn table(answer: &mut Answer, view: &BalanceView, figures: [&BalanceFigures; 2]) {
     let coordinate = view.coordinate();
     let (effort, unit) = (&coordinate.vocabulary().torque, coordinate.effort_unit());
-    let pair = |of: fn(&Figures) -> Option<[f64; 2]>, unit: &str| {
+    let pair = |of: fn(&BalanceFigures) -> Option<[f64; 2]>, unit: &str| {
         let [Some(before), Some(after)] = figures.map(of) else {
             return None;
         };
@@ -325,7 +327,7 @@ struct RateData {
 }
 
 fn data<'a>(view: &'a BalanceView) -> BalanceData<'a> {
-    let Balanced {
+    let BalanceResult {
         masses,
         springs,
         efforts,
@@ -333,7 +335,7 @@ fn data<'a>(view: &'a BalanceView) -> BalanceData<'a> {
         after,
         bound,
     } = view.balanced;
-    let figures = |f: &Figures| {
+    let figures = |f: &BalanceFigures| {
         let [min, mean, max] = f.inertia;
         FiguresData {
             least: f.of(view.request.goal),

@@ -13,11 +13,11 @@ use crate::table::output::Format;
 use jred_file::number::columns::{Column, Columns};
 use jred_file::number::rounding::short;
 use jred_file::number::words::counted;
-use jred_sizing::bus::answer::Answer as Bus;
+use jred_sizing::bus::analysis::BusAnalysis;
 use jred_sizing::bus::axes::Bounds;
 use jred_sizing::bus::curve::PowerCurve;
 use jred_sizing::bus::store::BusFigures;
-use jred_sizing::bus::verdict::Judged;
+use jred_sizing::bus::verdict::BusQuantity;
 
 pub(crate) use data::BusData;
 
@@ -25,7 +25,7 @@ pub(crate) use data::BusData;
 ///
 /// # Errors
 /// CSV of cycles without a common period that is searched.
-pub fn answer(bus: &Bus, format: Format) -> Result<Answer<'static>> {
+pub fn answer(bus: &BusAnalysis, format: Format) -> Result<Answer<'static>> {
     let count = counted(bus.axes.len(), "axis", "axes");
     let mut answer = Answer::new(format!("DC bus of {count}"), &data::data(bus));
     verdicts(bus, &mut answer);
@@ -51,7 +51,7 @@ pub fn answer(bus: &Bus, format: Format) -> Result<Answer<'static>> {
     Ok(answer)
 }
 
-fn in_step(bus: &Bus, answer: &mut Answer) {
+fn in_step(bus: &BusAnalysis, answer: &mut Answer) {
     let (Some(figures), Some(power)) = (&bus.in_step, &bus.power) else {
         answer.heading("any phases");
         answer.sentence(format!(
@@ -76,7 +76,7 @@ fn in_step(bus: &Bus, answer: &mut Answer) {
     answer.fact("bus", line(bus, figures, power));
 }
 
-fn bounds(bus: &Bus, answer: &mut Answer) {
+fn bounds(bus: &BusAnalysis, answer: &mut Answer) {
     let Bounds {
         drawn,
         back,
@@ -107,7 +107,7 @@ fn bounds(bus: &Bus, answer: &mut Answer) {
     }
 }
 
-fn axes(bus: &Bus, answer: &mut Answer) {
+fn axes(bus: &BusAnalysis, answer: &mut Answer) {
     answer.heading("axes");
     for (k, axis) in bus.axes.iter().enumerate() {
         let [drawn, back] = axis.curve.energies();
@@ -133,7 +133,7 @@ fn axes(bus: &Bus, answer: &mut Answer) {
     }
 }
 
-fn worst(bus: &Bus, answer: &mut Answer) {
+fn worst(bus: &BusAnalysis, answer: &mut Answer) {
     let (Some(worst), Some(power)) = (&bus.worst, &bus.power) else {
         return;
     };
@@ -149,7 +149,7 @@ fn worst(bus: &Bus, answer: &mut Answer) {
     let count = if bus.data.resistor.is_some() { 4 } else { 1 };
     for (k, phases) in worst.iter().enumerate().take(count) {
         // Phases that are the worst for several goals are printed once.
-        let same = |other: &jred_sizing::bus::axes::Worst| other.phases == phases.phases;
+        let same = |other: &jred_sizing::bus::axes::WorstPhases| other.phases == phases.phases;
         if worst[..k].iter().any(same) {
             continue;
         }
@@ -174,16 +174,16 @@ fn worst(bus: &Bus, answer: &mut Answer) {
 }
 
 /// The shortage of the brake resistor, or the one that is needed.
-fn resistor(bus: &Bus, answer: &mut Answer) {
+fn resistor(bus: &BusAnalysis, answer: &mut Answer) {
     let lacks = bus.lacks();
     if !lacks.is_empty() {
         let each: Vec<String> = lacks
             .iter()
             .map(|(what, by)| {
                 let (unit, of) = match what {
-                    Judged::Mean => ("W", "mean power"),
-                    Judged::Peak => ("W", "peak power"),
-                    Judged::Pulse => ("J", "pulse energy"),
+                    BusQuantity::Mean => ("W", "mean power"),
+                    BusQuantity::Peak => ("W", "peak power"),
+                    BusQuantity::Pulse => ("J", "pulse energy"),
                     _ => ("Ohm", "resistance"),
                 };
                 format!("{} {unit} {of}", short(*by))
@@ -217,7 +217,7 @@ fn resistor(bus: &Bus, answer: &mut Answer) {
 }
 
 /// Each check, then those without data.
-fn verdicts(bus: &Bus, answer: &mut Answer) {
+fn verdicts(bus: &BusAnalysis, answer: &mut Answer) {
     for check in &bus.checks() {
         let verdict = match check.holds() {
             None => continue,
@@ -240,7 +240,7 @@ fn verdicts(bus: &Bus, answer: &mut Answer) {
 ///
 /// # Errors
 /// The cycles have no common period that is searched.
-fn course(bus: &Bus) -> Result<Columns> {
+fn course(bus: &BusAnalysis) -> Result<Columns> {
     let power = bus.power.as_ref().ok_or_else(|| {
         problem!(
             help = "use --format table or json to get bounds",
@@ -263,7 +263,7 @@ fn course(bus: &Bus) -> Result<Columns> {
 }
 
 /// Voltage, supply and resistor as text.
-fn line(bus: &Bus, figures: &BusFigures, power: &PowerCurve) -> String {
+fn line(bus: &BusAnalysis, figures: &BusFigures, power: &PowerCurve) -> String {
     let period = power.period();
     let bounded = figures.highest.is_finite();
     let voltage = if !bounded && bus.data.capacitance.is_none() {

@@ -2,10 +2,10 @@
 
 use jred_file::model::axis::Axis;
 use jred_file::number::rounding::short;
-use jred_motion::contact::Broken;
+use jred_motion::contact::ContactLimits;
 
 /// Place, time and force of the loss.
-fn state(broken: &Broken) -> String {
+fn state(broken: &ContactLimits) -> String {
     let lost = &broken.lost;
     format!(
         "{} at {}, after {} s: {}",
@@ -17,7 +17,7 @@ fn state(broken: &Broken) -> String {
 }
 
 /// For a fastest motion, with the limits that keep the contact.
-pub fn of_fastest(broken: &Broken, axis: &Axis) -> String {
+pub fn of_fastest(broken: &ContactLimits, axis: &Axis) -> String {
     let Some(limits) = broken.limits else {
         return format!("{}; {}", state(broken), broken.lost.parted.cure);
     };
@@ -37,7 +37,7 @@ pub fn of_fastest(broken: &Broken, axis: &Axis) -> String {
 }
 
 /// For a motion of a given time.
-pub fn of_retime(broken: &Broken) -> String {
+pub fn of_retime(broken: &ContactLimits) -> String {
     format!(
         "{}; give the move more time, or {}",
         state(broken),

@@ -3,7 +3,7 @@
 use jred_file::number::rounding::short;
 
 /// Share of the energy turned over from which the work of process loads drives the machine.
-const DRIVING: f64 = 1e-3;
+const DRIVING_SHARE: f64 = 1e-3;
 
 /// Share of the kinetic energy below which a work is an integration error.
 const ROUNDING: f64 = 1e-6;
@@ -22,7 +22,7 @@ pub(super) struct Turns {
 pub(super) fn driven(turns: &Turns) -> Option<String> {
     let [motor, process, losses] = turns.works;
     let turned_over = motor.abs().max(losses.abs());
-    if process <= (DRIVING * turned_over).max(ROUNDING * turns.kinetic) {
+    if process <= (DRIVING_SHARE * turned_over).max(ROUNDING * turns.kinetic) {
         return None;
     }
     let why = if turns.is_backwards {

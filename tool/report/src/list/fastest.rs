@@ -18,21 +18,21 @@ use jred_file::number::columns::{Column, ColumnQuantity, Columns};
 use jred_file::number::rounding::{percent, short};
 use jred_file::number::words::counted;
 use jred_file::units::Vocabulary;
-use jred_motion::contact::Broken;
+use jred_motion::contact::ContactLimits;
 use jred_motion::fastest::Reserve;
 use jred_motion::fastest::cycle::Cycle;
-use jred_motion::fastest::joint_force::Reached;
-use jred_motion::fastest::ruled::Judged;
+use jred_motion::fastest::joint_force::JointForcePeak;
+use jred_motion::fastest::ruled::Judgement;
 use jred_motion::moves::Chain;
+use jred_motion::path_dynamics::{Actuator, BothDirections};
 use jred_motion::trace::Node;
-use jred_motion::way::{Actuator, BothWays};
 use jred_sizing::select::fit::input_kind;
 
 pub(crate) use data::FastestData;
-pub use drive::Warmth;
+pub use drive::WindingHeat;
 
 /// Durations that differ by a smaller share are shown as the same.
-const SAME: f64 = 5e-4;
+const DURATION_TOLERANCE: f64 = 5e-4;
 
 /// Duration ratios from this one on are printed as a multiple.
 const MANY: f64 = 3.0;
@@ -53,17 +53,17 @@ pub struct FastestView<'a> {
     /// The parts of the file's motion, if its cycle was requested.
     pub chain: Option<&'a Chain>,
     /// Temperatures of the winding, if they are limited.
-    pub warmth: Option<&'a Warmth>,
+    pub warmth: Option<&'a WindingHeat>,
     /// The largest forces in the joints whose force is limited.
-    pub forces: &'a [Reached],
+    pub forces: &'a [JointForcePeak],
     /// The contact that the motion loses.
-    pub broken: Option<&'a Broken>,
+    pub broken: Option<&'a ContactLimits>,
     /// The request, option by option.
     pub asked: Vec<String>,
     /// Shares of motor and gearbox that the motion leaves unused.
     pub reserve: Reserve,
     /// Verdicts of the rules, if they were applied.
-    pub judged: Option<&'a Judged>,
+    pub judged: Option<&'a Judgement>,
     /// Whether the drive is from the catalogue, so that `jred size` can judge it.
     pub of_catalogue: bool,
     /// Number of instants of the course.
@@ -90,7 +90,7 @@ impl FastestView<'_> {
             ),
             Column::other("motor speed", words.speed_si),
         ]);
-        let ways = BothWays::new(self.file, self.actuator);
+        let ways = BothDirections::new(self.file, self.actuator);
         let trace = &self.cycle.trace;
         let last = self.instants.max(2) - 1;
         for k in 0..=last {
@@ -144,7 +144,7 @@ impl FastestView<'_> {
         if let Some(before) = cycle.before {
             let _ = write!(says, "; {} s in the file, ", short(before));
             let share = whole / before - 1.0;
-            if share.abs() < SAME {
+            if share.abs() < DURATION_TOLERANCE {
                 says += "the same";
             } else {
                 let _ = write!(says, "{}", more_or_less(whole / before));

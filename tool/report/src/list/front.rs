@@ -9,7 +9,7 @@ use crate::answer::schema::Data;
 use crate::table::reading::Reading;
 use jred_file::number::rounding::rounded;
 use jred_sizing::catalogue::Drive;
-use jred_sizing::select::pareto::{Front, Point};
+use jred_sizing::select::pareto::{Front, ParetoPoint};
 use jred_sizing::select::rank::Objective;
 use jred_sizing::study::cell::Cell;
 
@@ -57,7 +57,7 @@ pub fn answer(front: &Front, title: &str) -> Answer<'static> {
     let mut answer = Answer::new(title, &data(front, columns.clone()));
     // Each objective has a column of its own.
     let own = |objective: Objective| !front.objectives.contains(&objective);
-    let figures = |point: &Point| -> Vec<Option<f64>> {
+    let figures = |point: &ParetoPoint| -> Vec<Option<f64>> {
         let ratio = std::iter::once(Some(point.candidate.drive.ratio()));
         let mass = own(Objective::Mass).then_some(point.mass);
         let price = own(Objective::Price).then_some(point.price);
@@ -70,19 +70,19 @@ pub fn answer(front: &Front, title: &str) -> Answer<'static> {
         let names = names.iter().copied().chain(more.clone());
         names.map(str::to_owned).chain(columns.clone()).collect()
     };
-    let keys = |point: &Point| {
+    let keys = |point: &ParetoPoint| {
         let drive = &point.candidate.drive;
         let gearbox = drive.gearbox.map_or_else(String::new, |g| g.key.clone());
         let amplifier = drive.amplifier.map_or_else(String::new, |a| a.key.clone());
         [drive.motor.key.clone(), gearbox, amplifier]
     };
-    let full = |point: &Point| -> Vec<Cell> {
+    let full = |point: &ParetoPoint| -> Vec<Cell> {
         let keys = keys(point).into_iter().map(Cell::Text);
         let figures = figures(point).into_iter().map(Cell::from);
         let values = point.values.iter().map(|x| Cell::Number(*x));
         keys.chain(figures).chain(values).collect()
     };
-    let read = |point: &Point| -> Vec<Cell> {
+    let read = |point: &ParetoPoint| -> Vec<Cell> {
         let drive = &point.candidate.drive;
         let [motor, gearbox, amplifier] = marks::drive(drive);
         let row = [motor, marks::made_for(drive), gearbox, amplifier].into_iter();

@@ -19,7 +19,7 @@ use jred_sizing::study::cell::Cell;
 
 jred_file::words! {
     /// Format of an answer without columns.
-    pub enum Format default Table {
+    pub enum AnswerFormat default Table {
         /// For reading.
         Table = "table",
         /// JSON, every digit.
@@ -27,11 +27,11 @@ jred_file::words! {
     }
 }
 
-impl From<Format> for Full {
-    fn from(format: Format) -> Self {
+impl From<AnswerFormat> for Full {
+    fn from(format: AnswerFormat) -> Self {
         match format {
-            Format::Table => Self::Table,
-            Format::Json => Self::Json,
+            AnswerFormat::Table => Self::Table,
+            AnswerFormat::Json => Self::Json,
         }
     }
 }

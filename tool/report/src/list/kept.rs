@@ -6,7 +6,7 @@ use serde::Serialize;
 use jred_file::model::machine::MachineFile;
 use jred_file::model::motion::{Motion, ToolCoordinate};
 use jred_file::number::rounding::short;
-use jred_motion::moves::{Chain, Kept};
+use jred_motion::moves::{Chain, KeptMotion};
 
 /// A prescribed speed (rad/s, or m/s).
 fn speed(file: &MachineFile, speed: f64) -> String {
@@ -18,7 +18,7 @@ fn speed(file: &MachineFile, speed: f64) -> String {
 }
 
 /// A part that is kept.
-pub fn kept(file: &MachineFile, kept: &Kept) -> String {
+pub fn kept(file: &MachineFile, kept: &KeptMotion) -> String {
     let axis = file.axis();
     format!(
         "{} from {} to {} in {} s, as segment {} prescribes",
@@ -154,7 +154,7 @@ pub(crate) struct KeptPart {
 /// The kept parts.
 pub(crate) fn parts(file: &MachineFile, chain: &Chain) -> Vec<KeptPart> {
     let axis = file.axis();
-    let one = |kept: &Kept| KeptPart {
+    let one = |kept: &KeptMotion| KeptPart {
         segment: kept.segment + 1,
         speed: kept.speed,
         from: axis.position(kept.from),

@@ -3,7 +3,7 @@
 use jred::axis::plan::Errors;
 use jred_file::number::rounding::{bound, short};
 use jred_file::number::words::counted;
-use jred_motion::plan::{Excess, Plan, Quantity};
+use jred_motion::plan::{Excess, MotionQuantity, Plan};
 use jred_motion::trace::Trace;
 
 /// Rows, bytes, and largest errors.
@@ -48,13 +48,13 @@ pub fn warning(plan: &Plan, trace: &Trace) -> Option<String> {
     let coordinate = trace.coordinate;
     let [_, acceleration_unit] = coordinate.rates();
     let shown = |value: f64| match quantity {
-        Quantity::Position => coordinate.shown(value),
-        Quantity::Speed | Quantity::Acceleration => value,
+        MotionQuantity::Position => coordinate.shown(value),
+        MotionQuantity::Speed | MotionQuantity::Acceleration => value,
     };
     let (name, unit) = match quantity {
-        Quantity::Position => ("position", coordinate.unit()),
-        Quantity::Speed => ("speed", coordinate.speed_unit()),
-        Quantity::Acceleration => ("acceleration", &*acceleration_unit.unit),
+        MotionQuantity::Position => ("position", coordinate.unit()),
+        MotionQuantity::Speed => ("speed", coordinate.speed_unit()),
+        MotionQuantity::Acceleration => ("acceleration", &*acceleration_unit.unit),
     };
     Some(format!(
         "the error of the plan's {name} is {} {unit} at {} s, but --plan-error allows {} {unit}: position, speed and acceleration of the motion are inconsistent there, \

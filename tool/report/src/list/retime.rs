@@ -15,15 +15,15 @@ use jred_file::model::machine::MachineFile;
 use jred_file::model::rules::RuleVerdict;
 use jred_file::number::rounding::{percent, short};
 use jred_file::units::Vocabulary;
-use jred_motion::contact::Broken;
-use jred_motion::gentlest::{Gentle, Optimum, Reason};
-use jred_motion::retime::{Figures, Goal, LAWS, Request, Retimed};
+use jred_motion::contact::ContactLimits;
+use jred_motion::gentlest::{LeastEffortMove, Optimum, Reason};
+use jred_motion::retime::{Figures, Goal, LAWS, Request, RetimeResult};
 use jred_sizing::judge::check::Check;
 use jred_sizing::select::fit::input_kind;
 use jred_sizing::study::cell::Cell;
 
 /// Figures that differ by less are shown as the same.
-const SAME: f64 = 5e-4;
+const FIGURE_TOLERANCE: f64 = 5e-4;
 
 /// The content of the listing.
 #[derive(Debug)]
@@ -35,9 +35,9 @@ pub struct RetimeView<'a> {
     /// The request.
     pub request: &'a Request,
     /// The result.
-    pub retimed: &'a Retimed,
+    pub retimed: &'a RetimeResult,
     /// The contact that the motion loses.
-    pub broken: Option<&'a Broken>,
+    pub broken: Option<&'a ContactLimits>,
     /// The rules of the drive in the gentlest motion; empty without a drive.
     pub checks: &'a [Check],
     /// The written files.
@@ -65,7 +65,7 @@ fn unit(goal: Goal, words: &Vocabulary) -> &'static str {
 }
 
 /// The rows of the comparison: the file's own motion, the others, the gentlest.
-fn rows(retimed: &Retimed) -> Vec<(&'static str, &Figures)> {
+fn rows(retimed: &RetimeResult) -> Vec<(&'static str, &Figures)> {
     let mut rows = vec![("as in the file", &retimed.own)];
     rows.extend(retimed.laws.iter().map(|row| (row.name, &row.figures)));
     rows.push(("gentlest", &retimed.best));
@@ -215,7 +215,7 @@ fn violated<'a>(shown: &'a RetimeView) -> impl Iterator<Item = &'a Check> {
 /// `12 % less than`, or the other way round.
 fn less(value: f64, than: f64) -> String {
     let share = if than > 0.0 { value / than - 1.0 } else { 0.0 };
-    if share.abs() < SAME {
+    if share.abs() < FIGURE_TOLERANCE {
         return "the same as".to_owned();
     }
     let side = if share < 0.0 { "less" } else { "more" };
@@ -275,7 +275,7 @@ const fn why(reason: Reason) -> &'static str {
     }
 }
 
-fn one_move(shown: &RetimeView, gentle: &Gentle, goal: Goal) -> String {
+fn one_move(shown: &RetimeView, gentle: &LeastEffortMove, goal: Goal) -> String {
     let axis = shown.file.axis();
     let travel = &gentle.travel;
     let mut says = format!(
@@ -322,7 +322,7 @@ fn one_move(shown: &RetimeView, gentle: &Gentle, goal: Goal) -> String {
 }
 
 /// Where a move waits.
-fn waits_at(gentle: &Gentle, axis: &Axis) -> String {
+fn waits_at(gentle: &LeastEffortMove, axis: &Axis) -> String {
     let travel = &gentle.travel;
     let is = |end: f64| gentle.waits_at.total_cmp(&end).is_eq();
     if is(travel.start) {

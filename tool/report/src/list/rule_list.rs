@@ -95,7 +95,7 @@ const BY_MOVES: &str = "by moves per minute";
 
 /// One rule of a set, in words.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Line {
+pub struct RuleLine {
     /// The rule.
     pub rule: Rule,
     /// The limit beyond which it is violated, such as `80 %`; "off" if the rule is off.
@@ -106,7 +106,7 @@ pub struct Line {
     pub source: String,
 }
 
-impl Line {
+impl RuleLine {
     fn cells(&self) -> [String; 5] {
         let [name, key] = [self.rule.name(), self.rule.key()].map(str::to_owned);
         [
@@ -120,7 +120,7 @@ impl Line {
 }
 
 /// The rules that are checked or switched off, as text.
-pub fn lines(set: &RuleSet) -> Vec<Line> {
+pub fn lines(set: &RuleSet) -> Vec<RuleLine> {
     let rules = Rule::ALL.into_iter().filter(|rule| set.shows(*rule));
     let line = |rule: Rule| {
         let limit = set.limit(rule);
@@ -134,7 +134,7 @@ pub fn lines(set: &RuleSet) -> Vec<Line> {
             })
         };
         let by_moves = &set.choices.inertia_ratio_by_moves;
-        Line {
+        RuleLine {
             rule,
             limit: if set.is_off(rule) {
                 "off".to_owned()

@@ -8,7 +8,7 @@ use std::borrow::Cow;
 use crate::answer::Answer;
 use jred_analysis::simulate::{CoupledMachines, SimulationResult, Stop};
 use jred_file::model::simulation::Simulation;
-use jred_motion::driven::Loads;
+use jred_motion::drive_simulation::Loads;
 
 pub(crate) use data::SimulationData;
 

@@ -8,7 +8,7 @@ use serde::Serialize;
 use jred_file::model::machine::MachineFile;
 use jred_file::number::rounding::{percent, short};
 use jred_file::units::Vocabulary;
-use jred_motion::suited::{Suited, Tried};
+use jred_motion::co_design::{CoDesign, DriveWithMotion};
 use jred_sizing::catalogue::Drive;
 use jred_sizing::study::cell::Cell;
 
@@ -16,7 +16,7 @@ use crate::list::kept::{self, KeptPart};
 use crate::table::reading::Reading;
 
 /// The motion of the list, and the best drive before.
-pub fn words(file: &MachineFile, suited: &Suited) -> String {
+pub fn words(file: &MachineFile, suited: &CoDesign) -> String {
     let Some(best) = suited.best() else {
         return "Motion: that of the file; with its gentlest motion none of the closest drives is suitable".to_owned();
     };
@@ -118,7 +118,7 @@ impl From<&Drive<'_>> for NamedDrive {
 }
 
 /// The same as data.
-pub fn data(file: &MachineFile, suited: &Suited) -> MotionData {
+pub fn data(file: &MachineFile, suited: &CoDesign) -> MotionData {
     let better = suited.better();
     let before = suited.before.as_ref();
     // With the motion of the file everything is kept.
@@ -134,7 +134,7 @@ pub fn data(file: &MachineFile, suited: &Suited) -> MotionData {
 }
 
 /// The tried drives, each with its own motion, and the saving.
-pub fn table(suited: &Suited) -> String {
+pub fn table(suited: &CoDesign) -> String {
     let Some(first) = suited.tried.first() else {
         return String::new();
     };
@@ -147,7 +147,7 @@ pub fn table(suited: &Suited) -> String {
         "saving [%]".to_owned(),
         "rules".to_owned(),
     ];
-    let row = |tried: &Tried| -> Vec<Cell> {
+    let row = |tried: &DriveWithMotion| -> Vec<Cell> {
         let rules = if tried.order.is_some() {
             "satisfied"
         } else {
@@ -166,7 +166,7 @@ pub fn table(suited: &Suited) -> String {
     Reading::table(&heads, &rows, 1)
 }
 
-fn saving(tried: &Tried) -> f64 {
+fn saving(tried: &DriveWithMotion) -> f64 {
     (1.0 - tried.gentlest.rms / tried.own.rms).max(0.0)
 }
 

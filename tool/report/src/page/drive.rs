@@ -15,8 +15,8 @@ use jred_file::model::rules::RuleSet;
 use jred_file::units::Vocabulary;
 use jred_sizing::cycle::form::MotorPoint;
 use jred_sizing::explain::{Contributions, Effect, ratio_course};
+use jred_sizing::judge::Assessment;
 use jred_sizing::judge::Context;
-use jred_sizing::judge::Judged;
 use jred_sizing::motor::envelope::Envelope;
 
 /// Index of the duty among the curves of the torque-speed plane.
@@ -31,7 +31,7 @@ const INTERVALS: u32 = 200;
 /// The drive that a report is about, its duty and its limits.
 pub(super) struct Subject<'a> {
     pub(super) context: Context<'a>,
-    pub(super) judged: &'a Judged<'a>,
+    pub(super) judged: &'a Assessment<'a>,
     pub(super) duty: &'a Duty,
     pub(super) rules: &'a RuleSet,
 }

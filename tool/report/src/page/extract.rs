@@ -11,7 +11,7 @@ use jred_file::number::rounding::{rounded, short};
 const ROWS: usize = 13;
 
 /// A table of the page.
-pub(super) struct Table {
+pub(super) struct ExtractTable {
     pub(super) heading: &'static str,
     pub(super) names: Vec<String>,
     pub(super) rows: Vec<Vec<String>>,
@@ -40,7 +40,7 @@ pub(super) fn largest_forces(source: &Source) -> Result<Vec<[String; 3]>, Error>
 }
 
 /// Extracts of tables; the command line prints the whole ones.
-pub(super) fn tables(source: &Source) -> Result<Vec<Table>, Error> {
+pub(super) fn tables(source: &Source) -> Result<Vec<ExtractTable>, Error> {
     let table = |heading, columns: &Columns, wanted: &dyn Fn(&Column) -> bool| {
         let along = [
             ColumnQuantity::Time,
@@ -51,7 +51,7 @@ pub(super) fn tables(source: &Source) -> Result<Vec<Table>, Error> {
         let kept: Vec<(usize, &Column)> = heads
             .filter(|(k, head)| *k < 2 && along.contains(&head.quantity) || wanted(head))
             .collect();
-        Table {
+        ExtractTable {
             heading,
             names: kept.iter().map(|(_, head)| head.title()).collect(),
             rows: columns

@@ -174,12 +174,12 @@ fn label(head: &Column) -> String {
 }
 
 /// The abscissa and its axis.
-pub(super) type Along<'a> = (ColumnQuantity, Axis<'a>);
+pub(super) type Abscissa<'a> = (ColumnQuantity, Axis<'a>);
 
 /// Figures of those of the quantities that exist, each with its label and caption.
 pub(super) fn among(
     columns: &Columns,
-    along: Along,
+    along: Abscissa,
     of: &[(&str, ColumnQuantity, &str)],
 ) -> Vec<Figure> {
     let figures = of.iter().filter_map(|(y, quantity, caption)| {
@@ -188,7 +188,7 @@ pub(super) fn among(
     figures.collect()
 }
 
-fn efforts(columns: &Columns, along: Along) -> Vec<Figure> {
+fn efforts(columns: &Columns, along: Abscissa) -> Vec<Figure> {
     let Some((_, head)) = columns.of(ColumnQuantity::EffortTerm).next() else {
         return Vec::new();
     };
@@ -208,7 +208,7 @@ fn unit(head: &Column) -> &'static str {
 }
 
 /// Positions, speeds and accelerations of points and links.
-pub(super) fn motions(columns: &Columns, along: Along) -> Vec<Figure> {
+pub(super) fn motions(columns: &Columns, along: Abscissa) -> Vec<Figure> {
     let of = [
         (
             "speed [m/s]",
@@ -235,7 +235,7 @@ pub(super) fn motions(columns: &Columns, along: Along) -> Vec<Figure> {
 }
 
 /// Drive, joints, shaking force.
-pub(super) fn forces(columns: &Columns, along: Along) -> Vec<Figure> {
+pub(super) fn forces(columns: &Columns, along: Abscissa) -> Vec<Figure> {
     if columns.of(ColumnQuantity::Force).next().is_none() {
         return Vec::new();
     }

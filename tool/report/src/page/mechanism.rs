@@ -3,7 +3,7 @@
 use askama::Template;
 use jred::error::Error;
 
-use super::extract::{Table, largest_forces, tables};
+use super::extract::{ExtractTable, largest_forces, tables};
 use super::figures;
 use super::section::{Figure, Section};
 use crate::answer::Block;
@@ -35,7 +35,7 @@ struct Page<'a> {
     blocks: &'a [Block],
     sections: Vec<Section>,
     largest: Vec<[String; 3]>,
-    tables: Vec<Table>,
+    tables: Vec<ExtractTable>,
     notes: Vec<String>,
 }
 

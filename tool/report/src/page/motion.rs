@@ -11,10 +11,10 @@ use jred_file::model::motion::Motion;
 use jred_file::number::columns::ColumnQuantity;
 use jred_file::number::rounding::short;
 use jred_motion::fastest::Binding;
-use jred_motion::fastest::cycle::Made;
+use jred_motion::fastest::cycle::FastestMove;
 use jred_motion::fastest::plane::Plane;
+use jred_motion::path_dynamics::{Actuator, BothDirections};
 use jred_motion::trace::Trace;
-use jred_motion::way::{Actuator, BothWays};
 use jred_sizing::select::fit::input_kind;
 
 use super::figures::{dashed, line};
@@ -33,19 +33,19 @@ const LAWS: usize = 2;
 const FAR: f64 = 2.0;
 
 /// A named motion as points over the time: position, speed and acceleration of the axis, torque of the motor.
-struct Course {
+struct MotionSeries {
     name: String,
     rows: Vec<[f64; 5]>,
 }
 
-impl Course {
+impl MotionSeries {
     fn of(
         name: impl Into<String>,
         file: &MachineFile,
         actuator: &Actuator,
         states: impl Iterator<Item = (f64, State<f64>, f64)>,
     ) -> Result<Self, Error> {
-        let (axis, ways) = (file.axis(), BothWays::new(file, actuator));
+        let (axis, ways) = (file.axis(), BothDirections::new(file, actuator));
         let row = |(t, state, heading): (f64, State<f64>, f64)| {
             let torque = ways.torque(&state, heading)?;
             let shown = axis.state(&state);
@@ -103,7 +103,7 @@ impl Course {
 /// Position, speed, acceleration and torque of motions over the time, the first as a solid line.
 fn over_time(
     file: &MachineFile,
-    courses: &[Course],
+    courses: &[MotionSeries],
     limits: &[(&str, Vec<(f64, f64)>)],
 ) -> Section {
     let axis = file.axis();
@@ -161,7 +161,7 @@ fn plane(
     file: &MachineFile,
     axis: &Place,
     actuator: &Actuator,
-    made: &Made,
+    made: &FastestMove,
 ) -> Result<Figure, Error> {
     let plane = Plane::of(file, actuator, made)?;
     let shown = |points: &[[f64; 2]]| -> Vec<(f64, f64)> {
@@ -227,7 +227,7 @@ fn plane(
 }
 
 /// The winding temperature over the time, if it is computed.
-fn winding(warmth: &list::fastest::Warmth) -> Option<Section> {
+fn winding(warmth: &list::fastest::WindingHeat) -> Option<Section> {
     let course = &warmth.temperatures.course;
     let (first, last) = course.first().zip(course.last())?;
     let stride = course.len().div_ceil(INSTANTS).max(1);
@@ -263,8 +263,8 @@ pub fn fastest_page(view: &list::fastest::FastestView) -> Result<String, Error> 
     for made in &cycle.moves {
         planes.push(plane(file, &axis, actuator, made)?);
     }
-    let course = Course::of_trace("motion", file, actuator, &cycle.trace)?;
-    let ways = BothWays::new(file, actuator);
+    let course = MotionSeries::of_trace("motion", file, actuator, &cycle.trace)?;
+    let ways = BothDirections::new(file, actuator);
     let limits = [("upper limit", 1), ("lower limit", 0)].map(|(name, k)| {
         let limit = |row: &[f64; 5]| {
             let drive = row[2].signum() * axis.drive_rate(row[2].abs());
@@ -311,14 +311,19 @@ pub fn retime_page(shown: &list::retime::RetimeView, own: &Motion) -> Result<Str
     } = *shown;
     let actuator = &request.actuator;
     let mut courses = vec![
-        Course::of_trace("gentlest", file, actuator, &retimed.trace)?,
-        Course::of_motion("as in the file", file, actuator, own)?,
+        MotionSeries::of_trace("gentlest", file, actuator, &retimed.trace)?,
+        MotionSeries::of_motion("as in the file", file, actuator, own)?,
     ];
     let mut laws: Vec<_> = retimed.laws.iter().collect();
-    let figure = |row: &jred_motion::retime::Row| row.figures.of(request.goal);
+    let figure = |row: &jred_motion::retime::ComparisonRow| row.figures.of(request.goal);
     laws.sort_by(|a, b| figure(a).total_cmp(&figure(b)));
     for law in laws.into_iter().take(LAWS) {
-        courses.push(Course::of_motion(law.name, file, actuator, &law.motion)?);
+        courses.push(MotionSeries::of_motion(
+            law.name,
+            file,
+            actuator,
+            &law.motion,
+        )?);
     }
     Ok(MotionPage::page(
         file,

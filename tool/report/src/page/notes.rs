@@ -3,13 +3,13 @@
 use jred_analysis::duty::Duty;
 use jred_file::model::rules::RuleVerdict;
 use jred_file::number::rounding::{cleared, rounded, shown};
-use jred_sizing::judge::Judged;
+use jred_sizing::judge::Assessment;
 use jred_sizing::select::size::Selection;
 
 use crate::list::listing::violations;
 
 /// The answer in HTML, the one part of the page built by hand.
-pub(super) fn answer(best: &Judged, selection: &Selection) -> String {
+pub(super) fn answer(best: &Assessment, selection: &Selection) -> String {
     let all = selection.fit.len() + selection.refused.len();
     let motor = best.drive.motor;
     let gearbox = best
@@ -73,7 +73,7 @@ fn escape(text: &str) -> String {
 }
 
 /// Self-check, method, sources.
-pub(super) fn notes(best: &Judged, duty: &Duty) -> Vec<String> {
+pub(super) fn notes(best: &Assessment, duty: &Duty) -> Vec<String> {
     let work = duty.integral(|i| i.terms.total() * i.omega);
     let kinetic = duty.integral(|i| (i.terms.acceleration + i.terms.velocity) * i.omega);
     let potential = duty.integral(|i| i.terms.potential * i.omega);

@@ -8,7 +8,7 @@ use jred_file::number::figures::Figures;
 use jred_file::number::rounding::{percent, rounded, short, shown, significant};
 use jred_file::units::Vocabulary;
 use jred_sizing::explain::{Breakdown, InertiaShare, Remedies, Share};
-use jred_sizing::judge::Judged;
+use jred_sizing::judge::Assessment;
 use jred_sizing::judge::check::Check;
 
 use crate::list::listing::{figure, margin};
@@ -75,7 +75,7 @@ pub(super) struct FitRow {
 }
 
 impl FitRow {
-    pub(super) fn of(rank: usize, judged: &Judged) -> Self {
+    pub(super) fn of(rank: usize, judged: &Assessment) -> Self {
         let drive = &judged.drive;
         let named = |verdict: RuleVerdict| -> Vec<&str> {
             let checks = judged.checks.iter().filter(|c| c.verdict == verdict);
@@ -221,7 +221,7 @@ pub(super) fn rule_rows(rules: &RuleSet, words: &Vocabulary) -> Vec<[String; 4]>
 
 /// Minimum, mean, maximum and RMS values from the drive link, in its own terms, to the motor.
 pub(super) fn duty_rows(
-    best: &Judged,
+    best: &Assessment,
     duty: &Duty,
     input: &str,
     link: &Vocabulary,

@@ -86,7 +86,7 @@ fn capital(mut text: String) -> String {
 }
 
 /// A curve: its name, and its points.
-type Curve = (String, Vec<(f64, f64)>);
+type NamedCurve = (String, Vec<(f64, f64)>);
 
 /// The columns of a quantity over another, each under a name.
 fn curves(
@@ -94,7 +94,7 @@ fn curves(
     along: ColumnQuantity,
     quantity: ColumnQuantity,
     name: impl Fn(&Column) -> String,
-) -> Vec<Curve> {
+) -> Vec<NamedCurve> {
     let Some((x, _)) = columns.of(along).next() else {
         return Vec::new();
     };
@@ -107,7 +107,7 @@ fn curves(
     each.collect()
 }
 
-fn drawn(curves: &[Curve], x: Axis, y: &str) -> String {
+fn drawn(curves: &[NamedCurve], x: Axis, y: &str) -> String {
     let series = curves
         .iter()
         .map(|(name, points)| line(name, points.clone()));

@@ -8,7 +8,7 @@ const ROW: f64 = 17.0;
 const KEY: f64 = 24.0;
 const GAP: f64 = 6.0;
 
-struct Entry {
+struct LegendEntry {
     name: String,
     index: usize,
     style: Style,
@@ -16,7 +16,7 @@ struct Entry {
 
 /// The named curves with the positions of their entries.
 pub(super) struct Legend {
-    entries: Vec<Entry>,
+    entries: Vec<LegendEntry>,
     left: f64,
     /// Width of a column.
     column: f64,
@@ -28,10 +28,10 @@ impl Legend {
     pub(super) fn new(left: &[Series], right: &[Series], [from, to]: [f64; 2]) -> Self {
         let all = left.iter().map(|series| (series, ""));
         let all = all.chain(right.iter().map(|series| (series, " (right axis)")));
-        let entries: Vec<Entry> = all
+        let entries: Vec<LegendEntry> = all
             .enumerate()
             .filter(|(_, (series, _))| !series.name.is_empty())
-            .map(|(index, (series, suffix))| Entry {
+            .map(|(index, (series, suffix))| LegendEntry {
                 name: format!("{}{suffix}", series.name),
                 index,
                 style: series.style,

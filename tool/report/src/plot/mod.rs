@@ -103,13 +103,13 @@ pub fn lines_two_axes(axes: &Axes, left: &[Series], right_label: &str, right: &[
 }
 
 /// A vertical axis with its wrapped name and its numbers.
-struct Upright {
+struct VerticalAxis {
     span: Span,
     name: Vec<String>,
     ticks: Vec<(f64, String)>,
 }
 
-impl Upright {
+impl VerticalAxis {
     fn new(span: Span, name: &str) -> Self {
         Self {
             ticks: span.ticks(),
@@ -155,13 +155,13 @@ impl Frame<'_> {
 fn draw(axes: &Axes, left: &[Series], second: Option<(&str, &[Series])>) -> String {
     let right = second.map_or(&[][..], |(_, right)| right);
     let x = x_span(axes, left, right);
-    let y = Upright::new(Span::of(range(valid(left).map(|p| p.1))), axes.y);
+    let y = VerticalAxis::new(Span::of(range(valid(left).map(|p| p.1))), axes.y);
     let y2 = second.map(|(name, right)| {
         let values = range(valid(right).map(|p| p.1));
-        Upright::new(Span::with_intervals(values, y.span.intervals), name)
+        VerticalAxis::new(Span::with_intervals(values, y.span.intervals), name)
     });
     let title = wrapped(axes.title, 85);
-    let ends = WIDTH - y2.as_ref().map_or(24.0, Upright::room);
+    let ends = WIDTH - y2.as_ref().map_or(24.0, VerticalAxis::room);
     let legend = Legend::new(left, right, [y.room(), ends]);
     let name = wrapped(axes.x.label, 85);
     let frame = Frame {
@@ -216,7 +216,7 @@ fn draw(axes: &Axes, left: &[Series], second: Option<(&str, &[Series])>) -> Stri
 }
 
 /// Grid, axes, ticks with their numbers, and the names of the vertical axes.
-fn grid(svg: &mut Svg, frame: &Frame, y: &Upright, y2: Option<&Upright>) {
+fn grid(svg: &mut Svg, frame: &Frame, y: &VerticalAxis, y2: Option<&VerticalAxis>) {
     let Frame {
         left,
         right,

@@ -5,7 +5,7 @@ use std::path::Path;
 use std::process::Command;
 
 use bytemuck::cast_slice;
-use jred_sizing::cycle::Sample;
+use jred_sizing::cycle::LoadSample;
 use jred_sizing::judge::Context;
 
 use crate::{Ready, brute};
@@ -27,7 +27,7 @@ fn run(ready: &Ready) -> io::Result<String> {
         std::fs::write(folder.path().join(name), cast_slice::<f64, u8>(values))
     };
     let samples = ready.cycle.samples();
-    let loads: Vec<f64> = samples.iter().flat_map(Sample::loads).collect();
+    let loads: Vec<f64> = samples.iter().flat_map(LoadSample::loads).collect();
     let weights: Vec<f64> = samples.iter().map(|s| s.weight).collect();
     write("loads", &loads)?;
     write("weights", &weights)?;

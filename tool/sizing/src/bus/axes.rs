@@ -9,7 +9,7 @@ use serde::Serialize;
 
 use super::curve::PowerCurve;
 use super::period::Common;
-use super::phases::{Found, Phases, Watch};
+use super::phases::{PhaseSolution, Phases, Watch};
 use super::store::{Bus, BusFigures};
 
 /// Largest number of points of all axes over the common period that the search uses unreduced: for two axes, and for more. Their coarser grid misses
@@ -17,7 +17,7 @@ use super::store::{Bus, BusFigures};
 const EXACT: [usize; 2] = [100_000, 5_000];
 
 /// Error of the curves, as a share of their span, that a larger search accepts. Its results are computed again with all points.
-const OFF: f64 = 1e-4;
+const CURVE_ERROR: f64 = 1e-4;
 
 /// Axes on a bus.
 #[derive(Clone, Debug)]
@@ -31,7 +31,7 @@ pub struct Axes {
 
 /// Quantity that a search over the phases maximises.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Goal {
+pub enum WorstCase {
     /// Highest voltage of the bus.
     Voltage,
     /// Energy of the brake resistor.
@@ -42,8 +42,8 @@ pub enum Goal {
     Pulse,
 }
 
-impl Goal {
-    /// All of them, in the order of [`Goal::of`].
+impl WorstCase {
+    /// All of them, in the order of [`WorstCase::of`].
     pub const ALL: [Self; 4] = [Self::Voltage, Self::Resistor, Self::Peak, Self::Pulse];
 
     /// The figure that it maximises.
@@ -59,7 +59,7 @@ impl Goal {
 
 /// Phases found by a search.
 #[derive(Clone, Debug, PartialEq, Serialize, schemars::JsonSchema)]
-pub struct Worst {
+pub struct WorstPhases {
     /// Delay of each axis relative to the first (s).
     #[serde(rename = "phases [s]")]
     pub phases: Vec<f64>,
@@ -138,9 +138,9 @@ impl Axes {
         }
     }
 
-    /// The worst phases for each [`Goal`], in the order of [`Goal::ALL`]; `None` if the common period is not searched.
-    pub fn worst(&self, watch: &dyn Watch) -> Option<[Worst; 4]> {
-        let figures = |figures: &BusFigures| Goal::ALL.map(|goal| goal.of(figures));
+    /// The worst phases for each [`WorstCase`], in the order of [`WorstCase::ALL`]; `None` if the common period is not searched.
+    pub fn worst(&self, watch: &dyn Watch) -> Option<[WorstPhases; 4]> {
+        let figures = |figures: &BusFigures| WorstCase::ALL.map(|goal| goal.of(figures));
         self.largest(figures, watch)
     }
 
@@ -149,7 +149,7 @@ impl Axes {
         &self,
         of: impl Fn(&BusFigures) -> [f64; N] + Sync,
         watch: &dyn Watch,
-    ) -> Option<[Worst; N]> {
+    ) -> Option<[WorstPhases; N]> {
         if self.whole.is_empty() {
             return None;
         }
@@ -159,7 +159,7 @@ impl Axes {
         let fewer = (points.sum::<usize>() > exact).then(|| {
             let curves = self.curves.iter().map(|curve| {
                 let [least, most] = curve.extremes();
-                curve.simplified(OFF * (most - least))
+                curve.simplified(CURVE_ERROR * (most - least))
             });
             self.common.repeated(&curves.collect::<Vec<_>>())
         });
@@ -169,7 +169,7 @@ impl Axes {
             |power| of(&self.bus.run(power)),
             watch,
         );
-        Some(found.map(|Found { phases, .. }| Worst {
+        Some(found.map(|PhaseSolution { phases, .. }| WorstPhases {
             figures: self.at(&phases).unwrap_or(BusFigures::UNBOUNDED),
             phases,
         }))

@@ -2,11 +2,11 @@
 
 use std::fmt::Write as _;
 
-use super::answer::Answer;
-use super::axes::Worst;
+use super::analysis::BusAnalysis;
+use super::axes::WorstPhases;
 use super::conflict::Conflict;
 use super::store::{Bus, BusFigures};
-use super::verdict::Judged;
+use super::verdict::BusQuantity;
 use super::{Need, Watch};
 use jred_file::number::rounding::short;
 
@@ -98,7 +98,7 @@ pub fn share(limits: [Option<f64>; 4], figures: &BusFigures, period: f64) -> f64
         .fold(0.0, f64::max)
 }
 
-impl Answer {
+impl BusAnalysis {
     /// The limits of [`share`].
     pub fn limits(&self) -> [Option<f64>; 4] {
         let resistor = self.data.resistor;
@@ -124,7 +124,7 @@ impl Answer {
         each.into_iter().flatten().collect()
     }
 
-    fn fails(&self, what: Judged) -> bool {
+    fn fails(&self, what: BusQuantity) -> bool {
         self.failed().iter().any(|check| check.what == what)
     }
 
@@ -138,13 +138,18 @@ impl Answer {
 
     fn resistor_cure(&self) -> Option<Cure> {
         let [_, mean, peak, pulse] = self.judged();
-        let other = self.fails(Judged::Voltage) || self.fails(Judged::Resistance);
+        let other = self.fails(BusQuantity::Voltage) || self.fails(BusQuantity::Resistance);
         if self.data.resistor.is_some() && !other {
             let figures = [
-                (Judged::Mean, "brake_resistor.power", mean, "W"),
-                (Judged::Peak, "brake_resistor.peak_power", peak, "W"),
+                (BusQuantity::Mean, "brake_resistor.power", mean, "W"),
+                (BusQuantity::Peak, "brake_resistor.peak_power", peak, "W"),
                 // The unit of the machine file.
-                (Judged::Pulse, "brake_resistor.pulse_energy", pulse, "W s"),
+                (
+                    BusQuantity::Pulse,
+                    "brake_resistor.pulse_energy",
+                    pulse,
+                    "W s",
+                ),
             ];
             let changes = figures.into_iter().filter_map(|(what, key, value, unit)| {
                 let fails = self.fails(what);
@@ -156,7 +161,7 @@ impl Answer {
             // It never switches on, whatever its resistance.
             let least = self.data.min_resistance?;
             let change = Change::at_least("brake_resistor.resistance", least, "Ohm");
-            return (!self.fails(Judged::Voltage)).then(|| Cure::of(vec![change]));
+            return (!self.fails(BusQuantity::Voltage)).then(|| Cure::of(vec![change]));
         }
         if let Some(need) = self.need {
             return need.is_possible().then(|| Cure::resistor(&need));
@@ -231,11 +236,11 @@ impl Answer {
                 ", which stores all regenerated energy: the brake resistor never switches on";
         }
         // A resistance that is too small for the chopper stays too small.
-        (!self.fails(Judged::Resistance)).then_some(cure)
+        (!self.fails(BusQuantity::Resistance)).then_some(cure)
     }
 
     fn phase_cure(&self) -> Option<Cure> {
-        let Worst { phases, figures } = self.calmest.as_ref()?;
+        let WorstPhases { phases, figures } = self.calmest.as_ref()?;
         let period = self.power.as_ref()?.period();
         let limits = self.limits();
         if phases.len() < 2

@@ -38,7 +38,7 @@ impl PowerCurve {
     }
 
     /// The straight pieces: length (s), power at both ends (W).
-    pub fn pieces(&self) -> impl Iterator<Item = Piece> {
+    pub fn pieces(&self) -> impl Iterator<Item = PowerPiece> {
         let pairs = self.points.windows(2);
         pairs.filter_map(|pair| match pair {
             [[t, a], [next, b]] if next > t => Some((next - t, [*a, *b])),
@@ -222,10 +222,10 @@ impl PowerCurve {
 }
 
 /// A straight piece of power: length (s), power at both ends (W).
-pub type Piece = (f64, [f64; 2]);
+pub type PowerPiece = (f64, [f64; 2]);
 
 /// The parts of a straight piece, cut where its power crosses `level`.
-pub(super) fn split((h, [a, b]): Piece, level: f64, mut part: impl FnMut(Piece)) {
+pub(super) fn split((h, [a, b]): PowerPiece, level: f64, mut part: impl FnMut(PowerPiece)) {
     let place = (level - a) / (b - a);
     if (a - level) * (b - level) < 0.0 && place > 0.0 && place < 1.0 {
         part((h * place, [a, level]));

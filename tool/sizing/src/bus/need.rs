@@ -11,7 +11,7 @@ use jred_file::number::rounding::short;
 use jred_file::number::words::counted;
 
 /// A requirement, and whether a resistor misses it.
-type Misses<'a> = (&'static str, Box<dyn Fn(&Resistor) -> bool + 'a>);
+type Requirement<'a> = (&'static str, Box<dyn Fn(&Resistor) -> bool + 'a>);
 
 /// Requirements for a brake resistor that by itself limits the bus to the chopper voltage.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, schemars::JsonSchema)]
@@ -116,7 +116,7 @@ impl Need {
     /// Why no resistor of a catalogue meets these requirements: how many resistors miss each of them.
     pub fn misses(&self, resistors: &[Resistor]) -> String {
         let least = self.smallest_resistance.unwrap_or(0.0);
-        let reasons: [Misses; 6] = [
+        let reasons: [Requirement; 6] = [
             (
                 "too small a resistance",
                 Box::new(move |r| r.resistance < least),

@@ -13,10 +13,10 @@ pub const MOST_CYCLES: u32 = 256;
 pub const LOOKED_AT: u32 = 100_000;
 
 /// Relative tolerance with which periods must match.
-const FIT: f64 = 1e-9;
+const PERIOD_TOLERANCE: f64 = 1e-9;
 
 /// The same for long common periods: a few rounding errors. Among 100 000 numbers of cycles one fits by chance in one of a thousand pairs.
-const LONG_FIT: f64 = 1e-13;
+const LONG_PERIOD_TOLERANCE: f64 = 1e-13;
 
 /// Whether cycles repeat together.
 #[derive(Clone, Debug, PartialEq)]
@@ -43,10 +43,10 @@ impl Common {
     /// The common period of these curves.
     pub(super) fn of(curves: &[PowerCurve]) -> Self {
         let periods: Vec<f64> = curves.iter().map(PowerCurve::period).collect();
-        if let Some((period, cycles)) = shortest(&periods, MOST_CYCLES, FIT) {
+        if let Some((period, cycles)) = shortest(&periods, MOST_CYCLES, PERIOD_TOLERANCE) {
             return Self::Searched { period, cycles };
         }
-        match shortest(&periods, LOOKED_AT, LONG_FIT) {
+        match shortest(&periods, LOOKED_AT, LONG_PERIOD_TOLERANCE) {
             Some((period, cycles)) => Self::TooLong { period, cycles },
             None => Self::None,
         }

@@ -32,7 +32,7 @@ const PARTS: u32 = 8;
 const HALVINGS: u32 = 12;
 
 /// If all values around a phase agree to this share, the search is not refined there.
-const FLAT: f64 = 1e-9;
+const FLATNESS: f64 = 1e-9;
 
 /// Starts of a one-phase-at-a-time search, besides the start with all largest powers fed back at once.
 const STARTS: u32 = 4;
@@ -49,14 +49,14 @@ pub(super) struct Phases<'a> {
 
 /// The best phases for a goal.
 #[derive(Clone, Debug)]
-pub(super) struct Found {
+pub(super) struct PhaseSolution {
     pub(super) phases: Vec<f64>,
     value: f64,
     /// The smallest value seen.
     least: f64,
 }
 
-impl Found {
+impl PhaseSolution {
     fn of<const N: usize>(phases: &[f64], values: [f64; N]) -> [Self; N] {
         values.map(|value| Self {
             phases: phases.to_vec(),
@@ -82,12 +82,12 @@ impl Found {
 
     /// Whether continuing cannot improve the result.
     fn is_flat(&self) -> bool {
-        self.value.is_infinite() || self.value - self.least <= FLAT * self.value.abs()
+        self.value.is_infinite() || self.value - self.least <= FLATNESS * self.value.abs()
     }
 }
 
 /// Evaluates all goals at one set of phases.
-fn offer<const N: usize>(best: &mut [Found; N], phases: &[f64], values: [f64; N]) {
+fn offer<const N: usize>(best: &mut [PhaseSolution; N], phases: &[f64], values: [f64; N]) {
     for (found, value) in best.iter_mut().zip(values) {
         found.or(phases, value);
     }
@@ -158,9 +158,9 @@ impl Phases<'_> {
         everywhere: bool,
         goals: impl Fn(&PowerCurve) -> [f64; N] + Sync,
         watch: &dyn Watch,
-    ) -> [Found; N] {
+    ) -> [PhaseSolution; N] {
         let in_step = vec![0.0; self.whole.len()];
-        let mut best = Found::of(&in_step, goals(&self.all(&in_step)));
+        let mut best = PhaseSolution::of(&in_step, goals(&self.all(&in_step)));
         let aligned = self.aligned();
         offer(&mut best, &aligned, goals(&self.all(&aligned)));
         if !everywhere || self.whole.len() < 2 {
@@ -188,7 +188,7 @@ impl Phases<'_> {
         grid: f64,
         goals: &(impl Fn(&PowerCurve) -> [f64; N] + Sync),
         watch: &dyn Watch,
-        best: &mut [Found; N],
+        best: &mut [PhaseSolution; N],
     ) {
         let (count, step) = self.step(1, grid);
         watch.planned(u64::from(count));
@@ -209,20 +209,20 @@ impl Phases<'_> {
         grid: f64,
         goals: &(impl Fn(&PowerCurve) -> [f64; N] + Sync),
         watch: &dyn Watch,
-        best: &mut [Found; N],
+        best: &mut [PhaseSolution; N],
     ) {
         let [(rows, row), (columns, column)] = [1, 2].map(|axis| self.step(axis, grid));
         watch.planned(u64::from(rows) * u64::from(columns));
-        let lines: Vec<Option<[Found; N]>> = threads::map_in(rows, Room::new, |room, i| {
+        let lines: Vec<Option<[PhaseSolution; N]>> = threads::map_in(rows, Room::new, |room, i| {
             let phase = f64::from(i) * row;
             let both = first.plus(&second.shifted(phase));
-            let mut line: Option<[Found; N]> = None;
+            let mut line: Option<[PhaseSolution; N]> = None;
             for k in 0..columns {
                 let phases = [0.0, phase, f64::from(k) * column];
                 let values = goals(room.sum(&both, third, phases[2]));
                 match &mut line {
                     Some(line) => offer(line, &phases, values),
-                    None => line = Some(Found::of(&phases, values)),
+                    None => line = Some(PhaseSolution::of(&phases, values)),
                 }
             }
             watch.done(u64::from(columns));
@@ -238,7 +238,7 @@ impl Phases<'_> {
         grid: f64,
         goals: &(impl Fn(&PowerCurve) -> [f64; N] + Sync),
         watch: &dyn Watch,
-        best: &mut [Found; N],
+        best: &mut [PhaseSolution; N],
     ) {
         // Evenly spread starts: multiples of the golden section, one for each axis.
         const SECTION: f64 = 0.618_033_988_749_894_9;
@@ -252,7 +252,7 @@ impl Phases<'_> {
             .chain((0..STARTS).map(spread))
             .collect();
         watch.planned(starts.len() as u64 * self.climbs(N, grid));
-        let ends: Vec<[Found; N]> =
+        let ends: Vec<[PhaseSolution; N]> =
             threads::map(&starts, |start| self.climb(start, grid, goals, watch));
         for end in &ends {
             best.iter_mut().zip(end).for_each(|(a, b)| a.with(b));
@@ -271,9 +271,9 @@ impl Phases<'_> {
         grid: f64,
         goals: &impl Fn(&PowerCurve) -> [f64; N],
         watch: &dyn Watch,
-    ) -> [Found; N] {
+    ) -> [PhaseSolution; N] {
         let mut room = Room::new();
-        let mut best = Found::of(start, goals(&self.all(start)));
+        let mut best = PhaseSolution::of(start, goals(&self.all(start)));
         let mut expected = self.climbs(N, grid);
         for goal in 0..N {
             // A goal that no phase has changed so far does not depend on them.
@@ -310,7 +310,7 @@ impl Phases<'_> {
     fn close_in<const N: usize>(
         &self,
         goal: usize,
-        found: &mut Found,
+        found: &mut PhaseSolution,
         grid: f64,
         goals: &impl Fn(&PowerCurve) -> [f64; N],
         watch: &dyn Watch,

@@ -8,7 +8,7 @@
 //! voltage, the brake resistor takes the regenerated power, at most U²/R; any excess raises the voltage further. The chopper's switching and the
 //! mains ripple are not modelled. Power is piecewise linear; between its events (empty, chopper on, resistor at its limit) the course is exact.
 
-use super::curve::{Piece, PowerCurve, split};
+use super::curve::{PowerCurve, PowerPiece, split};
 
 /// The bus and everything that determines its voltage.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -140,7 +140,7 @@ impl Bus {
 }
 
 /// The parts of a piece in which neither the sign of the power changes, nor whether the resistor can take all of it (at most `most`, in W).
-fn parts(piece: Piece, most: f64, mut part: impl FnMut(Piece)) {
+fn parts(piece: PowerPiece, most: f64, mut part: impl FnMut(PowerPiece)) {
     split(piece, 0.0, |one_way| split(one_way, -most, &mut part));
 }
 
@@ -197,7 +197,7 @@ impl<'b> Walk<'b> {
     }
 
     /// Runs one period, starting and ending at the piece `from`; returns the energy stored at the first piece (J).
-    fn period(&mut self, pieces: &[Piece], from: usize) -> f64 {
+    fn period(&mut self, pieces: &[PowerPiece], from: usize) -> f64 {
         self.seen(self.excess);
         let (first, last) = pieces.split_at(from);
         for piece in last {
@@ -223,7 +223,7 @@ impl<'b> Walk<'b> {
     }
 
     /// One of the [`parts`] of a piece.
-    fn events(&mut self, (mut h, [mut a, mut b]): Piece) {
+    fn events(&mut self, (mut h, [mut a, mut b]): PowerPiece) {
         if self.bus.regenerative {
             let area = 0.5 * h * (a + b);
             self.figures.supplied += area.max(0.0);

@@ -1,6 +1,6 @@
 //! The checks of `jred bus`, and the reasons for those without data.
 
-use super::answer::Answer;
+use super::analysis::BusAnalysis;
 use super::conflict::Conflict;
 use super::curve::PowerCurve;
 use super::period::{Common, LOOKED_AT, MOST_CYCLES};
@@ -10,7 +10,7 @@ use jred_file::number::rounding::short;
 
 /// The value that is checked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Judged {
+pub enum BusQuantity {
     /// Highest voltage of the bus.
     Voltage,
     /// Resistance of the brake resistor.
@@ -27,7 +27,7 @@ pub enum Judged {
 #[derive(Clone, Copy, Debug)]
 pub struct BusCheck {
     /// The value that is checked.
-    pub what: Judged,
+    pub what: BusQuantity,
     /// NaN: unknown.
     pub figure: f64,
     /// `None`: no limit given, but the value exceeds any limit.
@@ -38,28 +38,28 @@ impl BusCheck {
     /// Its name in reports.
     pub const fn name(&self) -> &'static str {
         match self.what {
-            Judged::Voltage => "bus voltage",
-            Judged::Resistance => "brake resistance",
-            Judged::Mean => "brake resistor mean power",
-            Judged::Peak => "brake resistor peak power",
-            Judged::Pulse => "brake resistor pulse energy",
+            BusQuantity::Voltage => "bus voltage",
+            BusQuantity::Resistance => "brake resistance",
+            BusQuantity::Mean => "brake resistor mean power",
+            BusQuantity::Peak => "brake resistor peak power",
+            BusQuantity::Pulse => "brake resistor pulse energy",
         }
     }
 
     /// Unit of figure and limit.
     pub const fn unit(&self) -> &'static str {
         match self.what {
-            Judged::Voltage => "V",
-            Judged::Resistance => "Ohm",
-            Judged::Mean | Judged::Peak => "W",
-            Judged::Pulse => "J",
+            BusQuantity::Voltage => "V",
+            BusQuantity::Resistance => "Ohm",
+            BusQuantity::Mean | BusQuantity::Peak => "W",
+            BusQuantity::Pulse => "J",
         }
     }
 
     /// On which side of its limit the figure must be.
     pub const fn sense(&self) -> Sense {
         match self.what {
-            Judged::Resistance => Sense::AtLeast,
+            BusQuantity::Resistance => Sense::AtLeast,
             _ => Sense::AtMost,
         }
     }
@@ -85,7 +85,7 @@ pub struct Open {
     pub words: String,
 }
 
-impl Answer {
+impl BusAnalysis {
     /// The values to check, each at its worst phases: maximum voltage, mean power, peak power and pulse of the resistor; NaN
     /// if unknown.
     pub fn judged(&self) -> [f64; 4] {
@@ -134,15 +134,19 @@ impl Answer {
             limit,
         };
         [
-            check(Judged::Voltage, voltage, self.data.max_voltage),
+            check(BusQuantity::Voltage, voltage, self.data.max_voltage),
             check(
-                Judged::Resistance,
+                BusQuantity::Resistance,
                 resistor.map_or(f64::NAN, |r| r.resistance),
                 least.filter(|_| resistor.is_some()),
             ),
-            check(Judged::Mean, mean, resistor.map(|r| r.power)),
-            check(Judged::Peak, peak, resistor.and_then(|r| r.peak_power)),
-            check(Judged::Pulse, pulse, resistor.and_then(|r| r.pulse_energy)),
+            check(BusQuantity::Mean, mean, resistor.map(|r| r.power)),
+            check(BusQuantity::Peak, peak, resistor.and_then(|r| r.peak_power)),
+            check(
+                BusQuantity::Pulse,
+                pulse,
+                resistor.and_then(|r| r.pulse_energy),
+            ),
         ]
         .into_iter()
         // An unbounded voltage exceeds any limit.
@@ -159,7 +163,8 @@ impl Answer {
 
     /// A conflict of voltages that makes every brake resistor useless; `None` if no resistor is needed.
     pub fn conflict(&self) -> Option<Conflict> {
-        let asked = |check: &BusCheck| matches!(check.what, Judged::Voltage | Judged::Resistance);
+        let asked =
+            |check: &BusCheck| matches!(check.what, BusQuantity::Voltage | BusQuantity::Resistance);
         let needed = self.judged()[0].is_nan() || self.failed().iter().any(asked);
         self.data.conflict().filter(|_| needed)
     }
@@ -281,9 +286,9 @@ impl Answer {
     }
 
     /// Distance of the brake resistor from each violated requirement.
-    pub fn lacks(&self) -> Vec<(Judged, f64)> {
+    pub fn lacks(&self) -> Vec<(BusQuantity, f64)> {
         let failed = self.failed().into_iter();
-        let own = failed.filter(|check| check.what != Judged::Voltage);
+        let own = failed.filter(|check| check.what != BusQuantity::Voltage);
         own.filter_map(|check| Some((check.what, (check.figure - check.limit?).abs())))
             .collect()
     }

@@ -7,18 +7,18 @@ use jred_file::units::kind::SHARE;
 use jred_file::units::quantity::{no_unit, split_number};
 use jred_file::units::unit::tidy;
 
-use super::column::{For, Holds, Unit};
+use super::column::{CellContent, MotorScope, Unit};
 
 /// Content of a cell.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Cell<'t> {
+pub(super) struct TableCell<'t> {
     pub(super) text: &'t str,
     /// The unit, if the cell is a number.
     pub(super) unit: Option<&'t Unit>,
 }
 
 /// Splits "3.2 N m" into number and unit.
-pub(super) fn number_and_unit(text: &str, holds: Holds) -> Result<(String, Unit), Fault> {
+pub(super) fn number_and_unit(text: &str, holds: CellContent) -> Result<(String, Unit), Fault> {
     let tidy = tidy(text);
     let kind = holds.kinds().first();
     let (number, unit) =
@@ -34,7 +34,7 @@ pub(super) fn number_and_unit(text: &str, holds: Holds) -> Result<(String, Unit)
 }
 
 /// A number with its unit, in SI.
-fn quantity(text: &str, holds: Holds) -> Result<(f64, For), Fault> {
+fn quantity(text: &str, holds: CellContent) -> Result<(f64, MotorScope), Fault> {
     let (number, unit) = number_and_unit(text, holds)?;
     match number.parse::<f64>() {
         Ok(value) if (value * unit.si).abs() > unit.range[1] => {
@@ -59,8 +59,8 @@ pub(super) const NUMBER_CURE: &str =
 /// Points "0 rpm: 12 N m; 3000 rpm: 10 N m", in SI.
 pub(super) fn points(
     text: &str,
-    [x_holds, y_holds]: [Holds; 2],
-    motors: For,
+    [x_holds, y_holds]: [CellContent; 2],
+    motors: MotorScope,
 ) -> Result<Vec<[f64; 2]>, Fault> {
     let mut points: Vec<[f64; 2]> = Vec::new();
     for part in text
@@ -86,7 +86,7 @@ pub(super) fn points(
         let (x_value, x_for) = quantity(x, x_holds).map_err(|e| of(e, x))?;
         let (y_value, y_for) = quantity(y, y_holds).map_err(|e| of(e, y))?;
         for found in [x_for, y_for] {
-            if found != For::Any && found != motors {
+            if found != MotorScope::Any && found != motors {
                 return Err(Fault::new(
                     format!(
                         "has the point \"{shown}\", whose unit is for a {} motor",
@@ -114,10 +114,10 @@ pub(super) fn points(
 }
 
 /// "turning" or "sliding".
-pub(super) const fn words(motors: For) -> &'static str {
+pub(super) const fn words(motors: MotorScope) -> &'static str {
     match motors {
-        For::Any => "any",
-        For::Rotary => "turning",
-        For::Linear => "sliding",
+        MotorScope::Any => "any",
+        MotorScope::Rotary => "turning",
+        MotorScope::Linear => "sliding",
     }
 }

@@ -49,7 +49,7 @@ impl Kind {
 
 /// Kind of motor that a unit is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum For {
+pub(super) enum MotorScope {
     Any,
     Rotary,
     Linear,
@@ -61,7 +61,7 @@ pub(super) struct Unit {
     pub(super) text: String,
     /// Its SI value.
     pub(super) si: f64,
-    pub(super) motors: For,
+    pub(super) motors: MotorScope,
     /// The smallest positive and the largest value (SI). Others are mistakes and lead to infinite figures.
     pub(super) range: [f64; 2],
 }
@@ -74,7 +74,7 @@ pub(super) const RATIO: [f64; 2] = [1e-4, 1e6];
 
 /// Content of a cell or of a point of a curve.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Holds {
+pub(super) enum CellContent {
     /// Cycles per hour.
     Hourly,
     /// A quantity of one kind, or of two: for a rotary and for a linear motor. Empty: words, quantities with their own units, or plain numbers. The
@@ -83,17 +83,17 @@ pub(super) enum Holds {
 }
 
 /// Speeds of a curve.
-pub(super) const SPEED: Holds = Holds::Of(&[&units::ANGULAR_SPEED, &units::VELOCITY]);
+pub(super) const SPEED: CellContent = CellContent::Of(&[&units::ANGULAR_SPEED, &units::VELOCITY]);
 /// Torques or forces of a curve.
-pub(super) const EFFORT: Holds = Holds::Of(&[&units::TORQUE, &units::FORCE]);
+pub(super) const EFFORT: CellContent = CellContent::Of(&[&units::TORQUE, &units::FORCE]);
 /// Ambient temperatures.
-pub(super) const TEMPERATURE: Holds = Holds::Of(&[&units::TEMPERATURE]);
+pub(super) const TEMPERATURE: CellContent = CellContent::Of(&[&units::TEMPERATURE]);
 /// Altitudes.
-pub(super) const ALTITUDE: Holds = Holds::Of(&[&units::ALTITUDE]);
+pub(super) const ALTITUDE: CellContent = CellContent::Of(&[&units::ALTITUDE]);
 /// Factors.
-pub(super) const FACTOR: Holds = Holds::Of(&[&units::SHARE]);
+pub(super) const FACTOR: CellContent = CellContent::Of(&[&units::SHARE]);
 
-impl Holds {
+impl CellContent {
     /// The kinds of its quantities.
     pub(super) const fn kinds(self) -> &'static [&'static units::Kind] {
         match self {
@@ -109,16 +109,20 @@ impl Holds {
             Err(Fault::new(format!("has the unit \"{shown}\""), cure))
         };
         let (si, motors, range) = match self {
-            Self::Hourly if ["/h", "1/h", "per hour"].contains(&text) => (1.0, For::Any, PLAIN),
+            Self::Hourly if ["/h", "1/h", "per hour"].contains(&text) => {
+                (1.0, MotorScope::Any, PLAIN)
+            }
             Self::Hourly => return foreign("write cycles per hour: \"1000/h\""),
-            Self::Of([]) if text.is_empty() => (1.0, For::Any, PLAIN),
+            Self::Of([]) if text.is_empty() => (1.0, MotorScope::Any, PLAIN),
             Self::Of([]) => return foreign("write it without a unit"),
             Self::Of(kinds) => {
                 let (unit, kind) = unit_of(text, kinds)?;
-                let motors = [For::Rotary, For::Linear].into_iter().nth(kind);
+                let motors = [MotorScope::Rotary, MotorScope::Linear]
+                    .into_iter()
+                    .nth(kind);
                 let motors = motors.filter(|_| kinds.len() > 1);
                 let range = kinds.get(kind).map_or(PLAIN, |k| [k.smallest, k.largest]);
-                (unit.scale, motors.unwrap_or(For::Any), range)
+                (unit.scale, motors.unwrap_or(MotorScope::Any), range)
             }
         };
         let text = text.to_owned();
@@ -144,8 +148,8 @@ macro_rules! columns {
                 match self { $(Self::$column => $name,)* }
             }
 
-            pub(super) const fn holds(self) -> Holds {
-                match self { $(Self::$column => Holds::Of(&[$(&units::$holds,)*]),)* }
+            pub(super) const fn holds(self) -> CellContent {
+                match self { $(Self::$column => CellContent::Of(&[$(&units::$holds,)*]),)* }
             }
 
             /// The tables that contain it.

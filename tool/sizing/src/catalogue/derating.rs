@@ -1,7 +1,7 @@
 //! Derating of motors and amplifiers by heat and thin air at the site.
 //!
 //! The maker's points are used if the catalogue has them, otherwise the general rules of docs/sizing-rules.md. Neither extends beyond its source:
-//! [`Derated::hottest`] and [`Derated::highest`] are the limits.
+//! [`SiteRating::hottest`] and [`SiteRating::highest`] are the limits.
 
 use super::{Amplifier, Motor, broken_line};
 use jred_file::model::surroundings::{LOW, REFERENCE, Surroundings};
@@ -45,7 +45,7 @@ pub enum Basis {
 
 /// The ratings of a motor or an amplifier at a site.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Derated {
+pub struct SiteRating {
     /// Factor of the S1 torque at every speed, or of the current.
     pub factor: f64,
     /// Part of it that raises the relative torque in a thermal model with shares of the rated rise, because the maker gives it for the torque; the
@@ -65,7 +65,7 @@ pub struct Derated {
 
 impl Motor {
     /// Derating of the S1 torque at a site: T/T_N = √(available rise/rated rise) if the winding's maximum temperature is given.
-    pub fn derated(&self, site: &Surroundings) -> Derated {
+    pub fn derated(&self, site: &Surroundings) -> SiteRating {
         let limit = (self.thermal.max_temperature).filter(|limit| *limit > REFERENCE);
         let hot = (site.ambient - REFERENCE).max(0.0);
         let (by_maker, air) = (&self.derating, site.altitude_factor());
@@ -93,7 +93,7 @@ impl Motor {
             Basis::Maker
         };
         let general = limit.map_or(HOTTEST_MOTOR, |limit| limit.min(HOTTEST_MOTOR));
-        Derated {
+        SiteRating {
             // Cool air allows a larger rise, but no data sheet allows a larger S1 torque.
             factor: torque * rise.min(1.0).sqrt(),
             torque,
@@ -108,7 +108,7 @@ impl Motor {
 
 impl Amplifier {
     /// Derating of the currents at a site.
-    pub fn derated(&self, site: &Surroundings) -> Derated {
+    pub fn derated(&self, site: &Surroundings) -> SiteRating {
         let hot = (site.around_amplifier() - REFERENCE).max(0.0);
         let thin = (site.altitude - LOW).max(0.0);
         let basis = |points: &[[f64; 2]], more: f64| match points {
@@ -127,7 +127,7 @@ impl Amplifier {
             Basis::Maker => broken_line(&by_maker.altitude, site.altitude),
             _ => site.altitude_factor(),
         };
-        Derated {
+        SiteRating {
             factor: in_heat * in_air,
             torque: 1.0,
             rise: 1.0,

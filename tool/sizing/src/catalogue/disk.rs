@@ -12,7 +12,9 @@ use jred_file::units::closest;
 use super::Catalogue;
 use super::column::Kind;
 use super::fault::{CatalogueError, Remarks, Text};
-use super::files::{Format, NAMES, built_in, format_of, formatted, is_toml, kind_of, unreadable};
+use super::files::{
+    FileFormat, NAMES, built_in, format_of, formatted, is_toml, kind_of, unreadable,
+};
 use super::load::{Loader, twice};
 
 /// The largest file of a catalogue (bytes): some hundred thousand rows.
@@ -133,14 +135,14 @@ fn read(path: &Path) -> Result<Text, CatalogueError> {
     Ok(Text::new(plain::path(path), text).at(real(path)))
 }
 
-fn file(path: &Path) -> Result<Vec<(Format, Text)>, CatalogueError> {
+fn file(path: &Path) -> Result<Vec<(FileFormat, Text)>, CatalogueError> {
     Ok(vec![formatted(read(path)?)?])
 }
 
 /// Depth of folders in which tables are searched.
 const DEPTH: usize = 4;
 
-fn folder(path: &Path, remarks: &mut Remarks) -> Result<Vec<(Format, Text)>, CatalogueError> {
+fn folder(path: &Path, remarks: &mut Remarks) -> Result<Vec<(FileFormat, Text)>, CatalogueError> {
     let mut found = Vec::new();
     search(path, DEPTH, &mut found, remarks)?;
     if found.is_empty() {

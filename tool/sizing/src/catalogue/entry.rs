@@ -3,12 +3,12 @@
 mod motor;
 
 use super::amplifier::{Amplifier, Resistor};
-use super::column::{ALTITUDE, Column, FACTOR, Holds, Kind, TEMPERATURE};
+use super::column::{ALTITUDE, CellContent, Column, FACTOR, Kind, TEMPERATURE};
 use super::derating::Derating;
 use super::gearbox::Gearbox;
 use super::lists::{Listing, listing};
 use super::motor::Motor;
-use super::row::{Read, Row};
+use super::row::{CatalogueRow, RowResult};
 use jred_file::model::supply::{MAINS, rectified};
 use jred_file::number::rounding::figure;
 use jred_file::plain;
@@ -26,7 +26,7 @@ pub(super) enum Entry {
 
 impl Entry {
     /// Reads a row as an entry of its table.
-    pub(super) fn read(row: &mut Row) -> Read<Self> {
+    pub(super) fn read(row: &mut CatalogueRow) -> RowResult<Self> {
         // Faults of keys and units first: figures are checked only once these can be read.
         row.checked()?;
         Ok(match row.kind {
@@ -54,7 +54,7 @@ impl Entry {
 }
 
 /// A gearbox.
-fn gearbox(row: &Row) -> Read<Gearbox> {
+fn gearbox(row: &CatalogueRow) -> RowResult<Gearbox> {
     let efficiency = row.positive(Column::Efficiency);
     if efficiency > 1.0 {
         row.add(row.fault(
@@ -83,7 +83,7 @@ fn gearbox(row: &Row) -> Read<Gearbox> {
         no_load_torque: row.not_negative(Column::NoLoadTorque).unwrap_or(0.0),
         stiffness: row.optional(Column::Stiffness),
         backlash: row.not_negative(Column::Backlash),
-        shock_factors: row.points(Column::ShockFactors, [Holds::Hourly, FACTOR]),
+        shock_factors: row.points(Column::ShockFactors, [CellContent::Hourly, FACTOR]),
         mass: row.optional(Column::Mass),
         price: row.optional(Column::Price),
         from_maker: from_maker(row),
@@ -117,7 +117,7 @@ fn gearbox(row: &Row) -> Read<Gearbox> {
 }
 
 /// Factor of the torque where power flows back to the motor: η (the default), 2 − 1/η for friction, or a share.
-fn back_efficiency(row: &Row, efficiency: f64) -> f64 {
+fn back_efficiency(row: &CatalogueRow, efficiency: f64) -> f64 {
     let column = Column::BackDriving;
     match row.words(column) {
         None | Some("same") => efficiency,
@@ -143,7 +143,7 @@ fn back_efficiency(row: &Row, efficiency: f64) -> f64 {
 }
 
 /// A servo amplifier.
-fn amplifier(row: &Row) -> Read<Amplifier> {
+fn amplifier(row: &CatalogueRow) -> RowResult<Amplifier> {
     let amplifier = Amplifier {
         key: row.text(Column::Key),
         maker: row.text(Column::Maker),
@@ -185,7 +185,7 @@ fn amplifier(row: &Row) -> Read<Amplifier> {
 }
 
 /// The maker's derating factors at the site.
-fn derating(row: &Row) -> Derating {
+fn derating(row: &CatalogueRow) -> Derating {
     let points = |column, place| {
         let points = row.points(column, [place, FACTOR]);
         let rises = points.windows(2).any(|two| two[1][1] > two[0][1]);
@@ -207,7 +207,7 @@ fn derating(row: &Row) -> Derating {
 }
 
 /// A brake resistor.
-fn resistor(row: &Row) -> Read<Resistor> {
+fn resistor(row: &CatalogueRow) -> RowResult<Resistor> {
     let resistor = Resistor {
         key: row.text(Column::Key),
         maker: row.text(Column::Maker),
@@ -230,7 +230,7 @@ fn resistor(row: &Row) -> Read<Resistor> {
 }
 
 /// A mains voltage; it must be in the range of real mains.
-fn mains_voltage(row: &Row) -> Option<f64> {
+fn mains_voltage(row: &CatalogueRow) -> Option<f64> {
     let mains = row.optional(Column::MainsVoltage)?;
     let [least, most] = MAINS;
     if (least..=most).contains(&mains) {
@@ -246,7 +246,7 @@ fn mains_voltage(row: &Row) -> Option<f64> {
 }
 
 /// Whether the data come from the maker's own document; true if the column is missing or the cell empty.
-fn from_maker(row: &Row) -> bool {
+fn from_maker(row: &CatalogueRow) -> bool {
     let from = row.choice(Column::FiguresFrom, &[("maker", true), ("other", false)]);
     from.unwrap_or(true)
 }

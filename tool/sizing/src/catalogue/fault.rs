@@ -32,7 +32,7 @@ pub enum CatalogueError {
     /// Several places are wrong.
     #[error("{0}")]
     #[diagnostic(transparent)]
-    Several(Box<Several>),
+    Several(Box<BrokenRows>),
     /// The same file given twice.
     #[error("the catalogue {path} is given twice{}", if path == before { String::new() } else { format!(", the first time as {before}") })]
     #[diagnostic(help("name every folder and every file once"))]
@@ -70,7 +70,7 @@ pub enum CatalogueError {
 #[derive(Debug, Error, Diagnostic)]
 #[error("{}", self.words())]
 #[diagnostic(help("correct them, or skip them with --skip-broken-rows"))]
-pub struct Several {
+pub struct BrokenRows {
     /// Number of broken rows.
     pub rows: usize,
     /// Number of their faults.
@@ -80,7 +80,7 @@ pub struct Several {
     pub shown: Vec<Problem>,
 }
 
-impl Several {
+impl BrokenRows {
     fn words(&self) -> String {
         let mut words = match self.rows {
             1 => "1 row of the catalogue cannot be used".to_owned(),
@@ -165,7 +165,7 @@ impl Faults {
             Some(only) if self.count == 1 => Err(CatalogueError::Wrong(only)),
             Some(last) => {
                 self.shown.push(last);
-                Err(CatalogueError::Several(Box::new(Several {
+                Err(CatalogueError::Several(Box::new(BrokenRows {
                     rows: self.rows,
                     faults: self.count,
                     shown: self.shown,

@@ -24,18 +24,18 @@ const BUILT_IN: [(Kind, &str); 3] = [
 
 /// The format of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Format {
+pub(super) enum FileFormat {
     Csv(Kind),
     Toml,
     Database(Kind),
 }
 
 /// The built-in tables of some kinds.
-pub(super) fn built_in(of: impl Fn(Kind) -> bool) -> Vec<(Format, Text)> {
+pub(super) fn built_in(of: impl Fn(Kind) -> bool) -> Vec<(FileFormat, Text)> {
     let tables = BUILT_IN.into_iter().filter(|(kind, _)| of(*kind));
     let text = |kind: Kind, text| Text::new(format!("built-in {}.csv", kind.plural()), text);
     tables
-        .map(|(kind, table)| (Format::Csv(kind), text(kind, table)))
+        .map(|(kind, table)| (FileFormat::Csv(kind), text(kind, table)))
         .collect()
 }
 
@@ -52,7 +52,7 @@ const fn database(kind: Kind) -> bool {
 }
 
 /// jred's own format, or the format of the database.
-pub(super) fn format_of(kind: Kind, text: &Text) -> Format {
+pub(super) fn format_of(kind: Kind, text: &Text) -> FileFormat {
     let own_list = || {
         csv::header_of(&text.text)
             .split([',', ';', '\t'])
@@ -63,9 +63,9 @@ pub(super) fn format_of(kind: Kind, text: &Text) -> Format {
         _ => database(kind) && mgdb::is_header(&text.text),
     };
     if foreign {
-        Format::Database(kind)
+        FileFormat::Database(kind)
     } else {
-        Format::Csv(kind)
+        FileFormat::Csv(kind)
     }
 }
 
@@ -86,10 +86,10 @@ pub(super) const NAMES: &str = "file names of tables end in motors.csv, gearboxe
      or compatibility.csv, or in .toml";
 
 /// Format of a text, from its name.
-pub(super) fn formatted(text: Text) -> Result<(Format, Text), CatalogueError> {
+pub(super) fn formatted(text: Text) -> Result<(FileFormat, Text), CatalogueError> {
     let path = Path::new(&text.name);
     if is_toml(path) {
-        return Ok((Format::Toml, text));
+        return Ok((FileFormat::Toml, text));
     }
     let kind = kind_of(path);
     let kind =

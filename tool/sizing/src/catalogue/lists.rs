@@ -12,9 +12,9 @@ use super::Pairing;
 use super::column::Column;
 use super::fault::Text;
 use super::files::is_toml;
-use super::load::{Group, Loader};
+use super::load::{FileGroup, Loader};
 use super::pairing::Keys;
-use super::row::{Form, Read, Row};
+use super::row::{CatalogueRow, RowResult, Syntax};
 
 /// One line of a compatibility table.
 #[derive(Debug)]
@@ -61,7 +61,7 @@ impl Loader {
     }
 
     /// Pairs the motors of one catalogue by its list.
-    pub(super) fn pair(&mut self, group: &Group, pairing: &mut Pairing) {
+    pub(super) fn pair(&mut self, group: &FileGroup, pairing: &mut Pairing) {
         let lists_gearboxes = group.listings.iter().any(|(_, l)| l.gearboxes.is_some());
         let gear_motors: HashSet<u32> = self.gear_motors.iter().map(|g| g.0).collect();
         if lists_gearboxes {
@@ -144,16 +144,16 @@ impl Loader {
 }
 
 /// The format of a file.
-fn form_of(text: &Text) -> Form {
+fn form_of(text: &Text) -> Syntax {
     if is_toml(Path::new(&text.name)) {
-        Form::Toml
+        Syntax::Toml
     } else {
-        Form::Csv
+        Syntax::Csv
     }
 }
 
 /// A line of jred's own compatibility table.
-pub(super) fn listing(row: &Row) -> Read<Listing> {
+pub(super) fn listing(row: &CatalogueRow) -> RowResult<Listing> {
     let keys = |column| {
         let words = row.words(column).unwrap_or_default();
         let keys = words.split([';', ' ']).filter(|key| !key.is_empty());

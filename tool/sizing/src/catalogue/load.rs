@@ -8,14 +8,14 @@ use jred_file::plain;
 use jred_file::text::problem::Problem;
 
 use super::column::{Column, Kind};
+use super::duplicates::Duplicates;
 use super::entry::Entry;
 use super::fault::{CatalogueError, Faults, Remarks, Text};
-use super::files::{Format, unreadable};
+use super::files::{FileFormat, unreadable};
 use super::lists::Listing;
 use super::pairing::Partners;
-use super::row::{Read, Row};
-use super::table::Table;
-use super::twins::Twins;
+use super::row::{CatalogueRow, RowResult};
+use super::table::CatalogueTable;
 use super::{Catalogue, Pairing, mgdb, plausible, toml_table};
 use jred_file::number::words::counted;
 
@@ -23,17 +23,17 @@ use jred_file::number::words::counted;
 const MOST_ROWS: usize = 100_000;
 
 /// Largest possible number of rows of a table. Rows of lists take few bytes and are not counted.
-fn rows(format: Format, text: &str) -> usize {
+fn rows(format: FileFormat, text: &str) -> usize {
     match format {
-        Format::Csv(Kind::Compatibility) | Format::Database(Kind::Compatibility) => 0,
-        Format::Csv(_) | Format::Database(_) => text.lines().skip(1).count(),
-        Format::Toml => text.matches("[[").count(),
+        FileFormat::Csv(Kind::Compatibility) | FileFormat::Database(Kind::Compatibility) => 0,
+        FileFormat::Csv(_) | FileFormat::Database(_) => text.lines().skip(1).count(),
+        FileFormat::Toml => text.matches("[[").count(),
     }
 }
 
 /// The files of one catalogue; they share a compatibility list.
 #[derive(Debug, Default)]
-pub(super) struct Group {
+pub(super) struct FileGroup {
     pub(super) listings: Vec<(usize, Listing)>,
     pub(super) motors: Vec<u32>,
 }
@@ -47,7 +47,7 @@ pub(super) struct Loader {
     rows: usize,
     pub(super) faults: Faults,
     remarks: Remarks,
-    twins: Twins,
+    twins: Duplicates,
     /// Kind and key of each entry, with its file.
     keys: HashMap<(Kind, String), usize>,
     /// The files read so far, with canonical path and name.
@@ -65,7 +65,7 @@ pub(super) struct Loader {
 impl Loader {
     /// The catalogue of these groups of files.
     pub(super) fn load(
-        groups: Vec<Vec<(Format, Text)>>,
+        groups: Vec<Vec<(FileFormat, Text)>>,
         remarks: Remarks,
         skip: bool,
     ) -> Result<Catalogue, CatalogueError> {
@@ -82,9 +82,9 @@ impl Loader {
     }
 
     /// Reads the files of one catalogue.
-    fn group(&mut self, files: Vec<(Format, Text)>) -> Result<Group, CatalogueError> {
+    fn group(&mut self, files: Vec<(FileFormat, Text)>) -> Result<FileGroup, CatalogueError> {
         let first = self.catalogue.motors.len();
-        let mut group = Group::default();
+        let mut group = FileGroup::default();
         for (format, text) in files {
             // A file given in addition to its folder, or a folder within a folder.
             let path = PathBuf::from(&text.name);
@@ -103,20 +103,20 @@ impl Loader {
             self.texts.push(text.clone());
             let index = self.texts.len() - 1;
             let count = match format {
-                Format::Csv(kind) => self.csv(kind, index, &text, &mut group)?,
-                Format::Toml => {
+                FileFormat::Csv(kind) => self.csv(kind, index, &text, &mut group)?,
+                FileFormat::Toml => {
                     toml_table::each(&text.text, |row| self.row(index, &text, &mut group, row))
                         .map_err(|fault| wrong(&text, fault))?
                 }
-                Format::Database(kind) => self.database(kind, index, &text, &mut group)?,
+                FileFormat::Database(kind) => self.database(kind, index, &text, &mut group)?,
             };
             if count == 0 {
                 let (what, cure) = match format {
-                    Format::Csv(kind) | Format::Database(kind) => (
+                    FileFormat::Csv(kind) | FileFormat::Database(kind) => (
                         kind.plural(),
                         "add at least one row below the header; docs/catalogue.md shows the columns",
                     ),
-                    Format::Toml => (
+                    FileFormat::Toml => (
                         "tables",
                         "add at least one table such as [[motor]]; docs/catalogue.md shows its keys",
                     ),
@@ -133,9 +133,9 @@ impl Loader {
         kind: Kind,
         index: usize,
         text: &Text,
-        group: &mut Group,
+        group: &mut FileGroup,
     ) -> Result<usize, CatalogueError> {
-        let table = Table::read(&text.text, kind).map_err(|fault| wrong(text, fault))?;
+        let table = CatalogueTable::read(&text.text, kind).map_err(|fault| wrong(text, fault))?;
         let Some(table) = table else {
             return Ok(0);
         };
@@ -151,7 +151,7 @@ impl Loader {
         kind: Kind,
         index: usize,
         text: &Text,
-        group: &mut Group,
+        group: &mut FileGroup,
     ) -> Result<usize, CatalogueError> {
         let mut remarks = std::mem::take(&mut self.remarks);
         let place = |line: usize| format!("{}:{line}", text.name);
@@ -203,8 +203,8 @@ impl Loader {
         &mut self,
         index: usize,
         text: &Text,
-        group: &mut Group,
-        row: Result<(Row, usize), Problem>,
+        group: &mut FileGroup,
+        row: Result<(CatalogueRow, usize), Problem>,
     ) {
         let faults = match row {
             Err(fault) => vec![fault],
@@ -223,7 +223,7 @@ impl Loader {
     }
 
     /// The key of a row must be unique, even if the row is broken; skipped rows do not claim a key.
-    fn key(&mut self, index: usize, row: &Row, broken: bool) -> Option<Problem> {
+    fn key(&mut self, index: usize, row: &CatalogueRow, broken: bool) -> Option<Problem> {
         let key = row
             .words(Column::Key)
             .filter(|_| row.kind != Kind::Compatibility)?;
@@ -238,10 +238,10 @@ impl Loader {
         &mut self,
         index: usize,
         text: &Text,
-        group: &mut Group,
-        row: &mut Row,
+        group: &mut FileGroup,
+        row: &mut CatalogueRow,
         line: usize,
-    ) -> Read<()> {
+    ) -> RowResult<()> {
         let read = Entry::read(row);
         let clash = self.key(index, row, read.is_err());
         let entry = match (read, clash) {
@@ -286,7 +286,7 @@ impl Loader {
     }
 
     /// Records the currency of a price with the first file that uses it.
-    fn price(&mut self, row: &Row, text: &Text) {
+    fn price(&mut self, row: &CatalogueRow, text: &Text) {
         let currency = row.currency();
         let known = self.catalogue.currencies.iter();
         if !known
@@ -327,7 +327,7 @@ impl Loader {
             .help("give every row a unique key")
     }
 
-    fn finish(mut self, groups: Vec<Group>) -> Result<Catalogue, CatalogueError> {
+    fn finish(mut self, groups: Vec<FileGroup>) -> Result<Catalogue, CatalogueError> {
         let mut pairing = Pairing {
             motors: vec![Partners::default(); self.catalogue.motors.len()],
             lists_amplifiers: false,

@@ -125,13 +125,13 @@ impl Sheet<'_> {
 }
 
 /// Receives an entry with its line and position.
-type Take<'a, T> = &'a mut dyn FnMut(Result<(T, usize, Range<usize>), Problem>);
+type EntrySink<'a, T> = &'a mut dyn FnMut(Result<(T, usize, Range<usize>), Problem>);
 
 fn each<T>(
     text: &Text,
     remarks: &mut Remarks,
     build: impl Fn(&Sheet, &mut Remarks) -> Result<T, Problem>,
-    take: Take<T>,
+    take: EntrySink<T>,
 ) -> Result<usize, Problem> {
     let mut sheet = Sheet {
         name: &text.name,
@@ -150,7 +150,7 @@ fn each<T>(
 pub(super) fn motors(
     text: &Text,
     remarks: &mut Remarks,
-    take: Take<Motor>,
+    take: EntrySink<Motor>,
 ) -> Result<usize, Problem> {
     each(text, remarks, motor, take)
 }
@@ -213,7 +213,7 @@ fn motor(sheet: &Sheet, remarks: &mut Remarks) -> Result<Motor, Problem> {
 pub(super) fn gearboxes(
     text: &Text,
     remarks: &mut Remarks,
-    take: Take<Gearbox>,
+    take: EntrySink<Gearbox>,
 ) -> Result<usize, Problem> {
     each(text, remarks, gearbox, take)
 }

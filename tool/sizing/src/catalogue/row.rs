@@ -8,13 +8,13 @@ use jred_file::plain;
 use jred_file::text::problem::Problem;
 use jred_file::units::quantity::possible_units;
 
-use super::cell::{self, Cell, NUMBER_CURE};
-use super::column::{Column, For, Holds, Kind, PLAIN, RATIO, Unit};
+use super::cell::{self, NUMBER_CURE, TableCell};
+use super::column::{CellContent, Column, Kind, MotorScope, PLAIN, RATIO, Unit};
 
 /// Source of the cells of a row.
 pub(super) trait Cells {
     /// Content of a column; `None`: empty, or no such column.
-    fn cell(&self, column: Column) -> Option<Cell<'_>>;
+    fn cell(&self, column: Column) -> Option<TableCell<'_>>;
     /// The position of the cell, or of the row if there is no such cell.
     fn place(&self, column: Column) -> Range<usize>;
     /// Whether the row could have such a cell.
@@ -26,17 +26,17 @@ pub(super) trait Cells {
     /// The currency of its price, if given.
     fn currency(&self) -> &str;
     /// The form of the file.
-    fn form(&self) -> Form;
+    fn form(&self) -> Syntax;
 }
 
 /// The two forms of a catalogue; cures have different words for them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Form {
+pub(super) enum Syntax {
     Csv,
     Toml,
 }
 
-impl Form {
+impl Syntax {
     /// Words for omitting a figure.
     pub(super) const fn leave_out(self) -> &'static str {
         match self {
@@ -63,26 +63,26 @@ impl Form {
 }
 
 /// All faults of a row.
-pub(super) type Read<T> = Result<T, Vec<Problem>>;
+pub(super) type RowResult<T> = Result<T, Vec<Problem>>;
 
 /// One row. A faulty cell is recorded and read as a substitute value, so that all faults of a row are found at once;
-/// [`Row::checked`] returns them.
-pub(super) struct Row<'t> {
+/// [`CatalogueRow::checked`] returns them.
+pub(super) struct CatalogueRow<'t> {
     pub(super) kind: Kind,
     cells: &'t dyn Cells,
     /// The kind of motor that its units must be for.
-    motors: For,
+    motors: MotorScope,
     faults: RefCell<Vec<Problem>>,
     /// A column missing in the whole table.
     lacking: RefCell<Option<Problem>>,
 }
 
-impl<'t> Row<'t> {
+impl<'t> CatalogueRow<'t> {
     pub(super) fn new(kind: Kind, cells: &'t dyn Cells) -> Self {
         Self {
             kind,
             cells,
-            motors: For::Any,
+            motors: MotorScope::Any,
             faults: RefCell::default(),
             lacking: RefCell::default(),
         }
@@ -102,7 +102,7 @@ impl<'t> Row<'t> {
     }
 
     /// The recorded faults as an error, if there are any.
-    pub(super) fn checked(&self) -> Read<()> {
+    pub(super) fn checked(&self) -> RowResult<()> {
         let faults = self.faults.take();
         if faults.is_empty() && self.lacking.borrow().is_none() {
             Ok(())
@@ -117,7 +117,7 @@ impl<'t> Row<'t> {
     }
 
     /// From now on, units of the other kind of motor are faults.
-    pub(super) const fn expect(&mut self, motors: For) {
+    pub(super) const fn expect(&mut self, motors: MotorScope) {
         self.motors = motors;
     }
 
@@ -164,7 +164,7 @@ impl<'t> Row<'t> {
     }
 
     /// The form of the file.
-    pub(super) fn form(&self) -> Form {
+    pub(super) fn form(&self) -> Syntax {
         self.cells.form()
     }
 
@@ -187,7 +187,7 @@ impl<'t> Row<'t> {
         let name = column.name();
         let others = instead.iter().map(|other| other.name());
         let or: String = others.flat_map(|other| [", or ", other]).collect();
-        if self.form() == Form::Toml && !self.given(column) {
+        if self.form() == Syntax::Toml && !self.given(column) {
             let table = self.kind.singular();
             let help = format!("add {name}{or}, or remove the table");
             self.add(self.fault(
@@ -222,12 +222,12 @@ impl<'t> Row<'t> {
         least: f64,
         label: &'static str,
     ) -> Result<Option<f64>, Problem> {
-        let Some(Cell { text, unit }) = self.cells.cell(column) else {
+        let Some(TableCell { text, unit }) = self.cells.cell(column) else {
             return Ok(None);
         };
         if let Some(unit) = unit
-            && unit.motors != For::Any
-            && self.motors != For::Any
+            && unit.motors != MotorScope::Any
+            && self.motors != MotorScope::Any
             && unit.motors != self.motors
         {
             return Err(self.fault(
@@ -257,10 +257,10 @@ impl<'t> Row<'t> {
                     format!("{NUMBER_CURE}: \"{}\"", plain::cut(text).replace(',', "."))
                 } else {
                     match self.form() {
-                        Form::Csv => format!(
+                        Syntax::Csv => format!(
                             "{NUMBER_CURE}; its unit is in the header; leave the cell empty if the data sheet gives no value"
                         ),
-                        Form::Toml => format!(
+                        Syntax::Toml => format!(
                             "{NUMBER_CURE}, with its unit behind it in the same quotation marks; remove the key if the data sheet gives no value"
                         ),
                     }
@@ -353,7 +353,7 @@ impl<'t> Row<'t> {
     }
 
     /// Points "x: y; x: y", in SI; empty if the cell is empty.
-    pub(super) fn points(&self, column: Column, holds: [Holds; 2]) -> Vec<[f64; 2]> {
+    pub(super) fn points(&self, column: Column, holds: [CellContent; 2]) -> Vec<[f64; 2]> {
         let Some(text) = self.words(column) else {
             return Vec::new();
         };
@@ -406,8 +406,8 @@ impl<'t> Row<'t> {
                 format!(
                     "check {name} and {other} against the data sheet, and {}",
                     match self.form() {
-                        Form::Csv => "the units in the header",
-                        Form::Toml => "their units",
+                        Syntax::Csv => "the units in the header",
+                        Syntax::Toml => "their units",
                     }
                 ),
             ));

@@ -7,19 +7,19 @@ use jred_file::text::csv::{self, name_and_unit};
 use jred_file::text::problem::Problem;
 use jred_file::units::did_you_mean;
 
-use super::cell::Cell;
+use super::cell::TableCell;
 use super::column::{Column, Kind, Unit};
-use super::row::{Cells, Form, Row};
+use super::row::{CatalogueRow, Cells, Syntax};
 
 /// A CSV file with its parsed header.
-pub(super) struct Table<'t> {
+pub(super) struct CatalogueTable<'t> {
     kind: Kind,
     columns: [Option<(usize, Unit)>; Column::COUNT],
     currency: String,
     csv: csv::CsvTable<'t>,
 }
 
-impl<'t> Table<'t> {
+impl<'t> CatalogueTable<'t> {
     /// Reads the header; `None` if it is missing.
     pub(super) fn read(text: &'t str, kind: Kind) -> Result<Option<Self>, Problem> {
         let mut table = Self {
@@ -42,7 +42,7 @@ impl<'t> Table<'t> {
         let (name, unit) = name_and_unit(title);
         let at = self.csv.title_place(index);
         let Some(column) = Column::of(self.kind).find(|c| c.name() == name) else {
-            return Err(unknown(name, self.kind, Form::Csv, at));
+            return Err(unknown(name, self.kind, Syntax::Csv, at));
         };
         let holds = column.holds();
         let of_price = column == Column::Price;
@@ -61,33 +61,36 @@ impl<'t> Table<'t> {
     }
 
     /// Calls `take` with every row and its line number, or with the fault that makes it unreadable.
-    pub(super) fn each(mut self, mut take: impl FnMut(Result<(Row<'_>, usize), Problem>)) -> usize {
+    pub(super) fn each(
+        mut self,
+        mut take: impl FnMut(Result<(CatalogueRow<'_>, usize), Problem>),
+    ) -> usize {
         let mut count = 0;
         while let Some(read) = self.csv.advance() {
             count += 1;
-            take(read.map(|()| (Row::new(self.kind, &self), self.csv.line())));
+            take(read.map(|()| (CatalogueRow::new(self.kind, &self), self.csv.line())));
         }
         count
     }
 }
 
 /// The fault of a name that is not a column of this table.
-pub(super) fn unknown(name: &str, kind: Kind, form: Form, at: Range<usize>) -> Problem {
+pub(super) fn unknown(name: &str, kind: Kind, form: Syntax, at: Range<usize>) -> Problem {
     let names: Vec<&str> = Column::of(kind).map(Column::name).collect();
     let near = did_you_mean(name, &names);
     let elsewhere = Column::ALL.iter().find(|column| column.name() == name);
     let elsewhere = elsewhere.and_then(|column| column.kinds().first());
     let column = form.column();
     let table = |kind: Kind| match form {
-        Form::Csv => kind.plural().to_owned(),
-        Form::Toml => format!("[[{}]]", kind.singular()),
+        Syntax::Csv => kind.plural().to_owned(),
+        Syntax::Toml => format!("[[{}]]", kind.singular()),
     };
     let elsewhere = elsewhere.map_or(String::new(), |kind| {
         format!("It is a {column} of {}. ", table(*kind))
     });
     let (label, all) = match form {
-        Form::Csv => ("not a column of this table", "Columns"),
-        Form::Toml => ("not a key of this table", "Keys"),
+        Syntax::Csv => ("not a column of this table", "Columns"),
+        Syntax::Toml => ("not a key of this table", "Keys"),
     };
     Problem::new(format!("unknown {column} \"{}\"", plain::cut(name)))
         .at(at, label)
@@ -98,11 +101,11 @@ pub(super) fn unknown(name: &str, kind: Kind, form: Form, at: Range<usize>) -> P
         ))
 }
 
-impl Cells for Table<'_> {
-    fn cell(&self, column: Column) -> Option<Cell<'_>> {
+impl Cells for CatalogueTable<'_> {
+    fn cell(&self, column: Column) -> Option<TableCell<'_>> {
         let (index, unit) = self.columns[column as usize].as_ref()?;
         let text = self.csv.row().get(*index)?;
-        (!text.is_empty()).then_some(Cell {
+        (!text.is_empty()).then_some(TableCell {
             text,
             unit: Some(unit),
         })
@@ -130,7 +133,7 @@ impl Cells for Table<'_> {
         &self.currency
     }
 
-    fn form(&self) -> Form {
-        Form::Csv
+    fn form(&self) -> Syntax {
+        Syntax::Csv
     }
 }

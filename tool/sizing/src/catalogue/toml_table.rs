@@ -9,9 +9,9 @@ use jred_file::text::tree;
 use jred_file::units::kind::SHARE;
 use jred_file::units::quantity::split_number;
 
-use super::cell::{Cell, number_and_unit};
+use super::cell::{TableCell, number_and_unit};
 use super::column::{Column, Kind, Unit};
-use super::row::{Cells, Form, Row};
+use super::row::{CatalogueRow, Cells, Syntax};
 use super::table::unknown;
 
 /// One table of an array such as `[[motor]]`.
@@ -29,9 +29,9 @@ struct TomlCell {
 }
 
 impl Cells for TomlRow {
-    fn cell(&self, column: Column) -> Option<Cell<'_>> {
+    fn cell(&self, column: Column) -> Option<TableCell<'_>> {
         let found = self.cells.iter().find(|cell| cell.column == column)?;
-        (!found.text.is_empty()).then_some(Cell {
+        (!found.text.is_empty()).then_some(TableCell {
             text: &found.text,
             unit: found.unit.as_ref(),
         })
@@ -59,15 +59,15 @@ impl Cells for TomlRow {
         &self.currency
     }
 
-    fn form(&self) -> Form {
-        Form::Toml
+    fn form(&self) -> Syntax {
+        Syntax::Toml
     }
 }
 
 /// Calls `take` with every row of every table, or with the fault that makes it unreadable.
 pub(super) fn each(
     text: &str,
-    mut take: impl FnMut(Result<(Row<'_>, usize), Problem>),
+    mut take: impl FnMut(Result<(CatalogueRow<'_>, usize), Problem>),
 ) -> Result<usize, Problem> {
     let tree = tree::parse(text)?;
     let root = Section::new(String::new(), 0..0, tree.get_ref());
@@ -89,7 +89,7 @@ pub(super) fn each(
     let mut lines = Lines::new(text);
     for (kind, table) in &rows {
         let (cells, faults) = read_row(*kind, table);
-        let row = Row::new(*kind, &cells);
+        let row = CatalogueRow::new(*kind, &cells);
         for fault in faults {
             row.add(fault);
         }
@@ -108,7 +108,7 @@ fn read_row(kind: Kind, table: &Section) -> (TomlRow, Vec<Problem>) {
     let mut faults = Vec::new();
     for (name, item) in table.entries() {
         let column = Column::of(kind).find(|column| column.name() == name);
-        let cell = column.ok_or_else(|| unknown(name, kind, Form::Toml, item.key_span()));
+        let cell = column.ok_or_else(|| unknown(name, kind, Syntax::Toml, item.key_span()));
         match cell.and_then(|column| read_cell(column, &item, &mut row.currency)) {
             Ok(cell) => row.cells.push(cell),
             Err(fault) => faults.push(fault),

@@ -29,14 +29,14 @@ pub enum Basis {
 
 /// The largest voltage of the DC bus without braking that a device is made for.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct MadeFor {
+pub struct RatedBusVoltage {
     /// The voltage (V).
     pub largest: f64,
     /// Its source.
     pub basis: Basis,
 }
 
-impl MadeFor {
+impl RatedBusVoltage {
     /// For lists of drives: "200 V mains", "to 800 V DC", "48 V DC".
     pub fn words(&self) -> String {
         match self.basis {
@@ -56,7 +56,7 @@ fn class(mains: f64) -> f64 {
         .map_or(mains, |c| c[1])
 }
 
-impl MadeFor {
+impl RatedBusVoltage {
     fn mains(stated: f64) -> Self {
         let highest = class(stated);
         Self {
@@ -84,14 +84,14 @@ impl MadeFor {
 impl Motor {
     /// The largest bus voltage that the motor is made for: the limit of its insulation, else its mains, else the mains of its data's voltage; `None`
     /// if no voltage is given.
-    pub fn made_for(&self) -> Option<MadeFor> {
-        let stated = self.max_bus_voltage.map(|largest| MadeFor {
+    pub fn made_for(&self) -> Option<RatedBusVoltage> {
+        let stated = self.max_bus_voltage.map(|largest| RatedBusVoltage {
             largest,
             basis: Basis::Stated,
         });
         stated
-            .or_else(|| self.mains_voltage.map(MadeFor::mains))
-            .or_else(|| self.bus_voltage.map(MadeFor::figures))
+            .or_else(|| self.mains_voltage.map(RatedBusVoltage::mains))
+            .or_else(|| self.bus_voltage.map(RatedBusVoltage::figures))
     }
 
     /// Bus voltage for which the data are valid (V): given, or behind a rectifier on the given mains.
@@ -103,12 +103,12 @@ impl Motor {
 impl Amplifier {
     /// The largest supply bus voltage that the amplifier is made for: from its mains, else from the class of its nominal bus voltage, else the
     /// voltage at which it switches off; `None` if no voltage is given.
-    pub fn made_for(&self) -> Option<MadeFor> {
-        let mains = self.mains_voltage.map(MadeFor::mains);
+    pub fn made_for(&self) -> Option<RatedBusVoltage> {
+        let mains = self.mains_voltage.map(RatedBusVoltage::mains);
         mains
-            .or_else(|| self.bus_voltage.map(MadeFor::figures))
+            .or_else(|| self.bus_voltage.map(RatedBusVoltage::figures))
             .or_else(|| {
-                self.max_voltage.map(|largest| MadeFor {
+                self.max_voltage.map(|largest| RatedBusVoltage {
                     largest,
                     basis: Basis::Stated,
                 })

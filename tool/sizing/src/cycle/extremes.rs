@@ -10,10 +10,10 @@
 
 use std::ops::Range;
 
-use super::floor::{Falling, Floor, Level, Straight};
+use super::floor::{ConstantLimit, FallingLimit, Floor, LinearLimit};
 use super::front::Front;
 use super::tree::{Direction, Node, Tree};
-use super::{Peak, Sample};
+use super::{LoadSample, Peak};
 use crate::cycle::form::{Coefficients, LOADS};
 use crate::motor::envelope::Envelope;
 use jred_analysis::duty::{Panel, Smooth};
@@ -24,7 +24,7 @@ const ROUNDING: f64 = 64.0 * f64::EPSILON;
 /// The samples and their stretches.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Stretches<'c> {
-    pub(super) samples: &'c [Sample],
+    pub(super) samples: &'c [LoadSample],
     pub(super) tree: &'c Tree,
     pub(super) front: &'c Front,
     pub(super) largest: &'c [f64; LOADS],
@@ -49,8 +49,8 @@ impl Stretches<'_> {
         let top = self.tree.nodes.first()?.speed[1] * ratio;
         if let Some(limit) = envelope.level_up_to(top) {
             let known = limit.is_finite() && limit > 0.0;
-            let level = Level(if known { limit } else { 1.0 });
-            let (sample, mut peak) = Search::new(self, c, ratio, level).run();
+            let level = ConstantLimit(if known { limit } else { 1.0 });
+            let (sample, mut peak) = PeakSearch::new(self, c, ratio, level).run();
             peak.used = envelope.peak_used(peak.torque, peak.speed);
             return Some((sample, peak));
         }
@@ -65,7 +65,7 @@ impl Stretches<'_> {
         };
         if least <= 0.0 {
             let positive_below = envelope.positive_below() / ratio;
-            let beyond = First {
+            let beyond = ZeroLimitSearch {
                 stretches: self,
                 c,
                 ratio,
@@ -77,15 +77,15 @@ impl Stretches<'_> {
             }
         }
         if let Some(lines) = envelope.straight_up_to(top) {
-            let floor = Straight { lines, line, least };
-            return Some(Search::new(self, c, ratio, floor).run());
+            let floor = LinearLimit { lines, line, least };
+            return Some(PeakSearch::new(self, c, ratio, floor).run());
         }
-        let floor = Falling {
+        let floor = FallingLimit {
             envelope,
             line,
             least,
         };
-        Some(Search::new(self, c, ratio, floor).run())
+        Some(PeakSearch::new(self, c, ratio, floor).run())
     }
 
     /// Largest value of |c·x|.
@@ -93,7 +93,7 @@ impl Stretches<'_> {
         if self.samples.is_empty() {
             return 0.0;
         }
-        let (sample, peak) = Search::new(self, c, 1.0, Level(1.0)).run();
+        let (sample, peak) = PeakSearch::new(self, c, 1.0, ConstantLimit(1.0)).run();
         let between = self.between(sample, c, 1.0, |torque, _| torque.abs());
         between.unwrap_or(peak).torque.abs()
     }
@@ -217,7 +217,7 @@ impl Stretches<'_> {
 }
 
 /// The search for the largest share of a limit.
-struct Search<'s, F> {
+struct PeakSearch<'s, F> {
     stretches: Stretches<'s>,
     c: &'s Coefficients,
     ratio: f64,
@@ -228,7 +228,7 @@ struct Search<'s, F> {
     at: u32,
 }
 
-impl<'s, F: Floor> Search<'s, F> {
+impl<'s, F: Floor> PeakSearch<'s, F> {
     fn new(stretches: Stretches<'s>, c: &'s Coefficients, ratio: f64, floor: F) -> Self {
         Self {
             slack: stretches.slack(c),
@@ -399,7 +399,7 @@ impl<'s, F: Floor> Search<'s, F> {
 }
 
 /// The search for the first sample without any limit torque.
-struct First<'s> {
+struct ZeroLimitSearch<'s> {
     stretches: Stretches<'s>,
     c: &'s Coefficients,
     ratio: f64,
@@ -408,7 +408,7 @@ struct First<'s> {
     positive_below: f64,
 }
 
-impl First<'_> {
+impl ZeroLimitSearch<'_> {
     /// The first sample in a stretch at whose speed no torque is available.
     fn visit(&self, index: usize) -> Option<(usize, Peak)> {
         let node = &self.stretches.tree.nodes[index];

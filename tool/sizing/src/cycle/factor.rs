@@ -1,15 +1,15 @@
 //! The triangular factor of a cycle: root mean squares of linear forms, without the samples.
 
-use super::Sample;
+use super::LoadSample;
 use crate::cycle::form::LOADS;
 
 /// Rows of a block.
 const BLOCK: usize = 64;
 
 /// A weighted row of loads.
-type Row = [f64; LOADS];
+type LoadRow = [f64; LOADS];
 /// An upper triangle, row by row.
-type Triangle = [Row; LOADS];
+type Triangle = [LoadRow; LOADS];
 
 /// R of the QR factorization of the rows √w·x: ∑ w·(c·x)² = ‖R·c‖² for every c.
 ///
@@ -22,12 +22,12 @@ pub(super) struct Factor(Triangle);
 
 impl Factor {
     /// The factor of the samples' loads.
-    pub(super) fn of_loads(samples: &[Sample]) -> Self {
+    pub(super) fn of_loads(samples: &[LoadSample]) -> Self {
         Self::new(samples.iter().map(|s| (s.weight, s.loads())))
     }
 
     /// The factor of the loads times the speed: power is a linear form in these.
-    pub(super) fn of_powers(samples: &[Sample]) -> Self {
+    pub(super) fn of_powers(samples: &[LoadSample]) -> Self {
         Self::new(
             samples
                 .iter()
@@ -35,10 +35,10 @@ impl Factor {
         )
     }
 
-    fn new(rows: impl Iterator<Item = (f64, Row)>) -> Self {
+    fn new(rows: impl Iterator<Item = (f64, LoadRow)>) -> Self {
         // Place k of the row: the factor of 2^k blocks, or `None`.
         let mut joined: Vec<Option<Triangle>> = Vec::new();
-        let mut add = |block: &mut [Row]| {
+        let mut add = |block: &mut [LoadRow]| {
             let mut sum = triangle(block);
             for place in &mut joined {
                 let Some(other) = place.take() else {
@@ -68,7 +68,7 @@ impl Factor {
 
     /// √(∑ w·(c·x)²).
     pub(super) fn norm(&self, c: &[f64; LOADS]) -> f64 {
-        let row = |(k, row): (usize, &Row)| -> f64 {
+        let row = |(k, row): (usize, &LoadRow)| -> f64 {
             let terms = row.iter().zip(c).skip(k);
             terms.map(|(r, c)| r * c).sum()
         };
@@ -85,7 +85,7 @@ fn join(above: &Triangle, below: &Triangle) -> Triangle {
 }
 
 /// R of the QR factorization of the rows by Householder reflections, in place.
-fn triangle(rows: &mut [Row]) -> Triangle {
+fn triangle(rows: &mut [LoadRow]) -> Triangle {
     let mut triangle = Triangle::default();
     for k in 0..LOADS.min(rows.len()) {
         let rest = &mut rows[k..];

@@ -17,9 +17,9 @@ pub(super) trait Floor: Copy {
 
 /// The same limit at every speed of the cycle.
 #[derive(Clone, Copy)]
-pub(super) struct Level(pub(super) f64);
+pub(super) struct ConstantLimit(pub(super) f64);
 
-impl Floor for Level {
+impl Floor for ConstantLimit {
     fn line(&self) -> [f64; 2] {
         [self.0, 0.0]
     }
@@ -39,14 +39,14 @@ impl Floor for Level {
 
 /// A straight line over speed while the motor drives, and another while it brakes: the limit by a voltage.
 #[derive(Clone, Copy)]
-pub(super) struct Straight {
+pub(super) struct LinearLimit {
     /// Torque at rest and slope, driving and braking.
     pub(super) lines: [[f64; 2]; 2],
     pub(super) line: [f64; 2],
     pub(super) least: f64,
 }
 
-impl Floor for Straight {
+impl Floor for LinearLimit {
     fn line(&self) -> [f64; 2] {
         self.line
     }
@@ -68,13 +68,13 @@ impl Floor for Straight {
 
 /// A limit that falls with speed.
 #[derive(Clone, Copy)]
-pub(super) struct Falling<'e> {
+pub(super) struct FallingLimit<'e> {
     pub(super) envelope: &'e Envelope,
     pub(super) line: [f64; 2],
     pub(super) least: f64,
 }
 
-impl Floor for Falling<'_> {
+impl Floor for FallingLimit<'_> {
     fn line(&self) -> [f64; 2] {
         self.line
     }

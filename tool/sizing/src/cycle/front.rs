@@ -1,6 +1,6 @@
 //! A few stretches that cover the cycle, contiguous in memory, so that one pass finds those that can contain a peak.
 
-use super::Sample;
+use super::LoadSample;
 use super::tree::{Direction, Node, Tree};
 use crate::cycle::form::LOADS;
 
@@ -29,7 +29,7 @@ pub(super) struct Front {
 }
 
 impl Front {
-    pub(super) fn new(tree: &Tree, samples: &[Sample], largest: &[f64; LOADS]) -> Self {
+    pub(super) fn new(tree: &Tree, samples: &[LoadSample], largest: &[f64; LOADS]) -> Self {
         let mut front = Self {
             nodes: [0; WIDTH],
             len: 0,

@@ -2,7 +2,7 @@
 
 use std::convert::Infallible;
 
-use super::Sample;
+use super::LoadSample;
 use super::extremes::Stretches;
 use super::tree::Direction;
 use crate::cycle::form::{Coefficients, LOADS};
@@ -114,7 +114,7 @@ impl Stretches<'_> {
     pub(super) fn regenerates(self, c: &Coefficients, first: [Option<usize>; 2]) -> bool {
         fn visit(stretches: Stretches, c: &Coefficients, slack: f64, index: usize) -> bool {
             let node = &stretches.tree.nodes[index];
-            let back = |s: &Sample| s.gives_back(c, slack);
+            let back = |s: &LoadSample| s.gives_back(c, slack);
             if [node.first, node.last]
                 .iter()
                 .any(|k| back(&stretches.samples[*k as usize]))

@@ -3,17 +3,17 @@
 use std::collections::HashMap;
 use std::ops::Range;
 
-use super::Sample;
+use super::LoadSample;
 use super::front::Front;
 use super::tree::Tree;
 use crate::cycle::form::LOADS;
 use jred_analysis::duty::Smooth;
 
 /// Two values are equal if they differ by less than this share of the largest: rounding of a position after many turns.
-const SAME: f64 = 1e-10;
+const VALUE_TOLERANCE: f64 = 1e-10;
 
 /// Panels are compared if their values are equal after rounding to this share, so coarse that rounding seldom separates equal panels.
-const ALIKE: f64 = 1e-5;
+const KEY_ROUNDING: f64 = 1e-5;
 
 /// Multiplier of the hash of a panel's values (D. Knuth's 2⁶⁴/golden ratio).
 const MIX: u64 = 0x9e37_79b9_7f4a_7c15;
@@ -22,7 +22,7 @@ const MIX: u64 = 0x9e37_79b9_7f4a_7c15;
 const COMPARED: usize = 8;
 
 /// Largest share of the remaining samples for which a separate tree is worthwhile.
-const WORTH: f64 = 0.5;
+const WORTHWHILE_SHARE: f64 = 0.5;
 
 /// The rest of a cycle whose panels repeat. Any result that depends on a single sample, not on a sum, is found in it.
 #[derive(Clone, Debug)]
@@ -33,10 +33,14 @@ pub(super) struct Distinct {
 
 impl Distinct {
     /// The cycle without repeats; `None` if little is repeated.
-    pub(super) fn of(samples: &[Sample], smooth: &Smooth, largest: &[f64; LOADS]) -> Option<Self> {
+    pub(super) fn of(
+        samples: &[LoadSample],
+        smooth: &Smooth,
+        largest: &[f64; LOADS],
+    ) -> Option<Self> {
         let left = left(samples, smooth);
         let count: usize = left.iter().map(Range::len).sum();
-        if count as f64 > WORTH * samples.len() as f64 {
+        if count as f64 > WORTHWHILE_SHARE * samples.len() as f64 {
             return None;
         }
         let tree = Tree::of_parts(samples, &left, largest);
@@ -48,8 +52,8 @@ impl Distinct {
 }
 
 /// The samples without the panels that repeat an earlier one.
-fn left(samples: &[Sample], smooth: &Smooth) -> Vec<Range<usize>> {
-    let values = |s: &Sample| [s.alpha, s.output_torque, s.speed];
+fn left(samples: &[LoadSample], smooth: &Smooth) -> Vec<Range<usize>> {
+    let values = |s: &LoadSample| [s.alpha, s.output_torque, s.speed];
     let mut largest = [0.0_f64; 3];
     for sample in samples {
         for (most, value) in largest.iter_mut().zip(values(sample)) {
@@ -58,13 +62,13 @@ fn left(samples: &[Sample], smooth: &Smooth) -> Vec<Range<usize>> {
     }
     // At constant speed the acceleration is only rounding.
     largest[0] = largest[0].max(largest[2] * largest[2]);
-    let shares = |sample: &Sample| {
+    let shares = |sample: &LoadSample| {
         let values = values(sample);
         std::array::from_fn::<f64, 3, _>(|k| values[k] / largest[k].max(f64::MIN_POSITIVE))
     };
-    let are_one = |a: &Sample, b: &Sample| {
+    let are_one = |a: &LoadSample, b: &LoadSample| {
         let pairs = shares(a).into_iter().zip(shares(b));
-        pairs.fold(0.0, |most, (a, b)| f64::max(most, (a - b).abs())) < SAME
+        pairs.fold(0.0, |most, (a, b)| f64::max(most, (a - b).abs())) < VALUE_TOLERANCE
     };
     let mut seen: HashMap<u64, Vec<Range<usize>>> = HashMap::new();
     let mut left: Vec<Range<usize>> = Vec::new();
@@ -81,7 +85,7 @@ fn left(samples: &[Sample], smooth: &Smooth) -> Vec<Range<usize>> {
         let coarse = own
             .iter()
             .flat_map(shares)
-            .map(|share| (share / ALIKE).round() as i64);
+            .map(|share| (share / KEY_ROUNDING).round() as i64);
         let mark = coarse.fold(0, |mark: u64, x| {
             (mark.rotate_left(5) ^ x as u64).wrapping_mul(MIX)
         });

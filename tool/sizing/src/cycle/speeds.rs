@@ -5,14 +5,14 @@
 //! and LeVeque (1983, "Algorithms for computing the sample variance", American Statistician 37). For a function of a few pieces, each end of a piece
 //! costs one part of each size: the logarithm of the number of samples.
 
-use super::Sample;
+use super::LoadSample;
 
 /// Most samples of a part that is not halved.
 const LEAF: usize = 16;
 
 /// Form of a function of speed between two speeds.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Form {
+pub(crate) enum SpeedFunction {
     /// Zero.
     Zero,
     /// 1 − l², with l the straight line with these values at both ends.
@@ -23,7 +23,7 @@ pub(crate) enum Form {
 
 /// A sample with positive weight.
 #[derive(Clone, Copy, Debug)]
-struct Entry {
+struct WeightedSpeed {
     /// |n| at the gearbox output (rad/s).
     speed: f64,
     weight: f64,
@@ -31,7 +31,7 @@ struct Entry {
 
 /// Samples adjacent in the order of speed.
 #[derive(Clone, Copy, Debug)]
-struct Part {
+struct SpeedGroup {
     first: u32,
     last: u32,
     /// Index of the second half; the first half is the next part. Zero: not halved.
@@ -51,7 +51,7 @@ struct Sums {
 }
 
 impl Sums {
-    fn of(entry: &Entry) -> Self {
+    fn of(entry: &WeightedSpeed) -> Self {
         Self {
             weight: entry.weight,
             mean: entry.speed,
@@ -76,18 +76,18 @@ impl Sums {
 /// The samples of a cycle by speed.
 #[derive(Clone, Debug)]
 pub(crate) struct Speeds {
-    entries: Vec<Entry>,
-    parts: Vec<Part>,
+    entries: Vec<WeightedSpeed>,
+    parts: Vec<SpeedGroup>,
 }
 
 impl Speeds {
-    pub(super) fn new(samples: &[Sample]) -> Self {
+    pub(super) fn new(samples: &[LoadSample]) -> Self {
         let weighty = samples.iter().filter(|s| s.weight > 0.0);
-        let entry = |s: &Sample| Entry {
+        let entry = |s: &LoadSample| WeightedSpeed {
             speed: s.speed().abs(),
             weight: s.weight,
         };
-        let mut entries: Vec<Entry> = weighty.map(entry).collect();
+        let mut entries: Vec<WeightedSpeed> = weighty.map(entry).collect();
         entries.sort_unstable_by(|a, b| a.speed.total_cmp(&b.speed));
         let mut speeds = Self {
             parts: Vec::with_capacity(4 * entries.len() / LEAF + 1),
@@ -104,7 +104,7 @@ impl Speeds {
     fn build(&mut self, first: usize, last: usize) -> Sums {
         let own = self.parts.len();
         let known = Sums::of(&self.entries[first]);
-        let part = |second: usize, sums| Part {
+        let part = |second: usize, sums| SpeedGroup {
             first: first as u32,
             last: last as u32,
             second: second as u32,
@@ -126,11 +126,11 @@ impl Speeds {
         sums
     }
 
-    /// ∑w·g(|n|) (s). `on` gives g between two speeds (rad/s, at the gearbox output), `None` if it is not one of the [`Form`]s; `at` is g at one
+    /// ∑w·g(|n|) (s). `on` gives g between two speeds (rad/s, at the gearbox output), `None` if it is not one of the [`SpeedFunction`]s; `at` is g at one
     /// speed. If `on` always returns `None`, every sample is visited.
     pub(crate) fn sum(
         &self,
-        on: impl Fn([f64; 2]) -> Option<Form>,
+        on: impl Fn([f64; 2]) -> Option<SpeedFunction>,
         at: impl Fn(f64) -> f64,
     ) -> f64 {
         if self.parts.is_empty() {
@@ -143,7 +143,7 @@ impl Speeds {
     fn sum_of(
         &self,
         index: usize,
-        on: &impl Fn([f64; 2]) -> Option<Form>,
+        on: &impl Fn([f64; 2]) -> Option<SpeedFunction>,
         at: &impl Fn(f64) -> f64,
     ) -> f64 {
         let part = &self.parts[index];
@@ -164,10 +164,10 @@ impl Speeds {
 }
 
 impl Sums {
-    fn sum(&self, form: Form, [low, high]: [f64; 2]) -> f64 {
+    fn sum(&self, form: SpeedFunction, [low, high]: [f64; 2]) -> f64 {
         match form {
-            Form::Zero => 0.0,
-            Form::LessLine([start, end]) => {
+            SpeedFunction::Zero => 0.0,
+            SpeedFunction::LessLine([start, end]) => {
                 let slope = if high > low {
                     (end - start) / (high - low)
                 } else {
@@ -176,7 +176,7 @@ impl Sums {
                 let middle = start + slope * (self.mean - low);
                 self.weight * (1.0 - middle * middle) - slope * slope * self.spread
             }
-            Form::LessInverse(scale) => self.weight - scale * scale * self.inverse,
+            SpeedFunction::LessInverse(scale) => self.weight - scale * scale * self.inverse,
         }
     }
 }
@@ -185,17 +185,17 @@ impl Sums {
 mod tests {
     use std::cell::Cell;
 
-    use super::{Form, LEAF, Sample, Speeds};
+    use super::{LEAF, LoadSample, SpeedFunction, Speeds};
 
     /// Lines and a hyperbola over a million samples: a few dozen of them are visited, and the sum is correct.
     #[test]
     fn few_samples_are_looked_at() {
         let count = 1_000_000;
-        let samples: Vec<Sample> = (0..count)
+        let samples: Vec<LoadSample> = (0..count)
             .map(|k| {
                 let t = f64::from(k) / f64::from(count);
                 let speed = 100.0 * (std::f64::consts::TAU * t).sin();
-                Sample {
+                LoadSample {
                     t,
                     weight: 1.0 / f64::from(count),
                     alpha: 0.0,
@@ -213,11 +213,11 @@ mod tests {
         let on = |[from, to]: [f64; 2]| {
             asked.set(asked.get() + 1);
             match [from, to] {
-                [_, to] if to <= 20.0 => Some(Form::Zero),
-                [from, to] if from > 20.0 && to <= 50.0 => {
-                    Some(Form::LessLine([from, to].map(|speed| 1.2 - 0.01 * speed)))
-                }
-                [from, _] if from > 50.0 => Some(Form::LessInverse(35.0)),
+                [_, to] if to <= 20.0 => Some(SpeedFunction::Zero),
+                [from, to] if from > 20.0 && to <= 50.0 => Some(SpeedFunction::LessLine(
+                    [from, to].map(|speed| 1.2 - 0.01 * speed),
+                )),
+                [from, _] if from > 50.0 => Some(SpeedFunction::LessInverse(35.0)),
                 _ => None,
             }
         };

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::Sample;
+use super::LoadSample;
 use crate::cycle::form::LOADS;
 
 /// Most samples of a stretch that is not cut further.
@@ -54,13 +54,13 @@ pub(super) struct Tree {
 }
 
 impl Tree {
-    pub(super) fn new(samples: &[Sample], largest: &[f64; LOADS]) -> Self {
+    pub(super) fn new(samples: &[LoadSample], largest: &[f64; LOADS]) -> Self {
         Self::of_parts(samples, std::slice::from_ref(&(0..samples.len())), largest)
     }
 
     /// A tree of some of the samples, given as ranges in order.
     pub(super) fn of_parts(
-        samples: &[Sample],
+        samples: &[LoadSample],
         parts: &[Range<usize>],
         largest: &[f64; LOADS],
     ) -> Self {
@@ -78,7 +78,7 @@ impl Tree {
     }
 
     /// Adds the stretches of some ranges; returns the index of the stretch that contains all.
-    fn join(&mut self, samples: &[Sample], cuts: &[u32], parts: &[Range<usize>]) -> usize {
+    fn join(&mut self, samples: &[LoadSample], cuts: &[u32], parts: &[Range<usize>]) -> usize {
         if let [part] = parts {
             return self.build(samples, cuts, part.start, part.end - 1);
         }
@@ -93,7 +93,7 @@ impl Tree {
     }
 
     /// Adds the stretch from `first` to `last`, both included; returns its index.
-    fn build(&mut self, samples: &[Sample], cuts: &[u32], first: usize, last: usize) -> usize {
+    fn build(&mut self, samples: &[LoadSample], cuts: &[u32], first: usize, last: usize) -> usize {
         let own = self.nodes.len();
         let inside = {
             let from = cuts.partition_point(|&cut| (cut as usize) <= first);
@@ -122,9 +122,9 @@ impl Tree {
 }
 
 /// The samples after a jump, in order.
-fn jumps(samples: &[Sample], largest: &[f64; LOADS]) -> Vec<u32> {
+fn jumps(samples: &[LoadSample], largest: &[f64; LOADS]) -> Vec<u32> {
     let scale = largest.map(|x| if x > 0.0 { 1.0 / x } else { 0.0 });
-    let step = |a: &Sample, b: &Sample| -> f64 {
+    let step = |a: &LoadSample, b: &LoadSample| -> f64 {
         let (a, b) = (a.loads(), b.loads());
         let steps = (0..LOADS).map(|k| (b[k] - a[k]).abs() * scale[k]);
         steps.fold(0.0, f64::max)
@@ -145,14 +145,14 @@ fn jumps(samples: &[Sample], largest: &[f64; LOADS]) -> Vec<u32> {
 }
 
 /// Deviation of a sample from the chord between two others.
-fn astray(from: &Sample, to: &Sample, sample: &Sample) -> [f64; LOADS] {
+fn astray(from: &LoadSample, to: &LoadSample, sample: &LoadSample) -> [f64; LOADS] {
     let span = to.t - from.t;
     let part = if span > 0.0 {
         (sample.t - from.t) / span
     } else {
         0.0
     };
-    let [from, to, sample] = [from, to, sample].map(Sample::loads);
+    let [from, to, sample] = [from, to, sample].map(LoadSample::loads);
     std::array::from_fn(|k| {
         let chord = from[k] + part * (to[k] - from[k]);
         (sample[k] - chord).abs()
@@ -160,7 +160,7 @@ fn astray(from: &Sample, to: &Sample, sample: &Sample) -> [f64; LOADS] {
 }
 
 impl Node {
-    pub(super) fn leaf(samples: &[Sample], first: usize, last: usize) -> Self {
+    pub(super) fn leaf(samples: &[LoadSample], first: usize, last: usize) -> Self {
         let (from, to) = (&samples[first], &samples[last]);
         let mut node = Self {
             first: first as u32,
@@ -192,7 +192,7 @@ impl Node {
         node
     }
 
-    fn of_halves(samples: &[Sample], one: &Self, two: &Self, second: usize) -> Self {
+    fn of_halves(samples: &[LoadSample], one: &Self, two: &Self, second: usize) -> Self {
         let (from, to) = (&samples[one.first as usize], &samples[two.last as usize]);
         // The deviation of each half's chord from the whole chord is linear, so it is largest at the cut.
         let left = astray(from, to, &samples[one.last as usize]);

@@ -5,23 +5,23 @@
 //! range shows its margin.
 //!
 //! The range in which every rule is satisfied is searched on a grid, outwards from the current value, and its ends by bisection to 1e-10. The duty at
-//! every value is exact ([`Altered`]). A range narrower than the grid's step (3 % of the ratio, a tenth of the others) is found if it lies around the
+//! every value is exact ([`DutyModel`]). A range narrower than the grid's step (3 % of the ratio, a tenth of the others) is found if it lies around the
 //! value at which the worst rule uses least.
 //!
 //! Cost: up to some hundred judgements of one drive for each quantity. Where instants were added only to resolve peaks, most judgements omit them: a
-//! rule that is violated without them is violated ([`Altered::outline`]). Between two values of the grid there is no search if the result is worse on
+//! rule that is violated without them is violated ([`DutyModel::outline`]). Between two values of the grid there is no search if the result is worse on
 //! both sides.
 
 use jred::error::Error;
 use serde::Serialize;
 
-use super::altered::{Alteration, Altered};
-use super::seek::{Judge, State};
+use super::duty_model::{Alteration, DutyModel};
+use super::seek::{DriveResult, Judge};
 use crate::catalogue::Drive;
 use crate::catalogue::{Gearbox, MotorKind};
 use crate::cycle::Cycle;
 use crate::judge::Context;
-use crate::motor::envelope::Prepared;
+use crate::motor::envelope::MotorLimits;
 use crate::select::size::{Candidate, Selection};
 use jred_analysis::duty::Duty;
 use jred_file::model::rule::Rule;
@@ -119,7 +119,7 @@ pub struct Remedy {
 
 /// A rule that a drive violates.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, schemars::JsonSchema)]
-pub struct Miss {
+pub struct RuleViolation {
     /// The rule.
     pub rule: Rule,
     /// The share of its limit that is used; `None` if the limit is zero there, or for a yes-or-no rule.
@@ -141,35 +141,35 @@ pub struct Remedies {
     /// Whether it already satisfies every rule; the ranges then show how far each quantity may change.
     pub holds: bool,
     /// The rules that it violates.
-    pub misses: Vec<Miss>,
+    pub misses: Vec<RuleViolation>,
     /// One entry for each quantity.
     pub remedies: Vec<Remedy>,
 }
 
 /// Judges a drive by all rules, or by some of them.
-type Rules = fn(&Context, &RuleSet) -> State;
+type Rules = fn(&Context, &RuleSet) -> DriveResult;
 
 impl Remedies {
     /// Computes the changes for `drive`, without brake resistors to choose from.
     pub fn new(
-        altered: &Altered,
+        altered: &DutyModel,
         site: &Site,
         rules: &RuleSet,
         drive: Drive,
-        motor: &Prepared,
+        motor: &MotorLimits,
     ) -> Self {
         let cycle = Cycle::new(altered.original());
         Self::of(altered, rules, &Context::new(&cycle, site, drive, motor))
     }
 
     /// Computes the changes for a drive of a selection.
-    pub fn of_candidate(selection: &Selection, altered: &Altered, candidate: &Candidate) -> Self {
+    pub fn of_candidate(selection: &Selection, altered: &DutyModel, candidate: &Candidate) -> Self {
         let cycle = Cycle::new(altered.original());
         let context = selection.context(candidate);
         Self::of(altered, selection.rules, &context.in_cycle(&cycle))
     }
 
-    fn of(altered: &Altered, rules: &RuleSet, context: &Context) -> Self {
+    fn of(altered: &DutyModel, rules: &RuleSet, context: &Context) -> Self {
         let Context { drive, .. } = *context;
         let outline = altered.outline(Alteration::default());
         let outline = outline.map(|duty| Cycle::new(&duty));
@@ -195,17 +195,21 @@ impl Remedies {
                 judge(&context.in_cycle(&cycle), rules)
             };
             let state = |value: f64| match lever {
-                Lever::GearRatio | Lever::IdealGearbox => at_ratio(context, value, State::of),
-                _ => of(&altered.duty(lever.alteration(value)), State::of),
+                Lever::GearRatio | Lever::IdealGearbox => at_ratio(context, value, DriveResult::of),
+                _ => of(&altered.duty(lever.alteration(value)), DriveResult::of),
             };
             let at_best = |value: f64| match lever {
                 Lever::GearRatio | Lever::IdealGearbox => {
                     let cycle = outline.as_ref()?;
-                    Some(at_ratio(&context.in_cycle(cycle), value, State::direct))
+                    Some(at_ratio(
+                        &context.in_cycle(cycle),
+                        value,
+                        DriveResult::direct,
+                    ))
                 }
                 _ => {
                     let duty = altered.outline(lever.alteration(value))?;
-                    Some(of(&duty, State::direct))
+                    Some(of(&duty, DriveResult::direct))
                 }
             };
             let now = match lever {
@@ -229,7 +233,7 @@ impl Remedies {
     /// The mechanism cannot be placed somewhere.
     pub fn of_nearest(
         selection: &Selection,
-        altered: &Altered,
+        altered: &DutyModel,
         count: usize,
     ) -> Result<Vec<Self>, Error> {
         let nearest = selection.first_refused(count);
@@ -255,17 +259,17 @@ impl Lever {
 
 /// The rules that a drive violates, the most violated first. As in the ranking, rules that follow time are only evaluated if no other rule is
 /// violated.
-fn misses(context: &Context, rules: &RuleSet) -> Vec<Miss> {
+fn misses(context: &Context, rules: &RuleSet) -> Vec<RuleViolation> {
     let (findings, _) = context.ranked(rules);
     let broken = findings
         .iter()
         .filter(|(rule, finding)| rules.verdict(*rule, *finding) == RuleVerdict::Fail);
-    let mut misses: Vec<Miss> = broken
+    let mut misses: Vec<RuleViolation> = broken
         .filter_map(|(rule, finding)| {
             let limit = rules.limit(rule).fail?;
             // Another limit does not make a part fit for a supply that it is not made for.
             let share = |x: f64| Some(x).filter(|x| x.is_finite() && !rule.is_yes_or_no());
-            Some(Miss {
+            Some(RuleViolation {
                 rule,
                 used: share(rules.use_of_limit(rule, finding)),
                 limit,
@@ -273,7 +277,7 @@ fn misses(context: &Context, rules: &RuleSet) -> Vec<Miss> {
             })
         })
         .collect();
-    let far = |miss: &Miss| miss.used.unwrap_or(f64::INFINITY);
+    let far = |miss: &RuleViolation| miss.used.unwrap_or(f64::INFINITY);
     misses.sort_by(|a, b| far(b).total_cmp(&far(a)));
     misses
 }

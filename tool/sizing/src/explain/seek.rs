@@ -13,11 +13,11 @@ use jred_file::number::numerics::golden_section;
 const SECTIONS: u32 = 40;
 
 /// Score of violating a limit of zero.
-const BEYOND: f64 = 1e6;
+const ZERO_LIMIT_SCORE: f64 = 1e6;
 
 /// Result of a drive at one value.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct State {
+pub(super) struct DriveResult {
     /// The most violated rule.
     rule: Option<Rule>,
     /// Its share of the limit; without a violated rule the largest share of all.
@@ -26,7 +26,7 @@ pub(super) struct State {
     beyond: bool,
 }
 
-impl State {
+impl DriveResult {
     pub(super) fn of(context: &Context, rules: &RuleSet) -> Self {
         let mut findings = Findings::default();
         context.measure_directly(rules, &mut findings);
@@ -75,15 +75,15 @@ impl State {
 
     /// Increases with the distance from satisfying every rule.
     const fn score(&self) -> f64 {
-        self.used + if self.beyond { BEYOND } else { 0.0 }
+        self.used + if self.beyond { ZERO_LIMIT_SCORE } else { 0.0 }
     }
 
     /// A lower bound of the score over all instants, if this is the result over some of them: any limit may become zero over all of them.
     const fn bound(&self) -> f64 {
         if self.beyond {
-            BEYOND
+            ZERO_LIMIT_SCORE
         } else {
-            self.used.min(BEYOND)
+            self.used.min(ZERO_LIMIT_SCORE)
         }
     }
 }
@@ -96,8 +96,8 @@ pub(super) struct Judge<S, O> {
     pub(super) at_best: O,
 }
 
-impl<S: Fn(f64) -> State, O: Fn(f64) -> Option<State>> Judge<S, O> {
-    fn state(&self, value: f64) -> State {
+impl<S: Fn(f64) -> DriveResult, O: Fn(f64) -> Option<DriveResult>> Judge<S, O> {
+    fn state(&self, value: f64) -> DriveResult {
         (self.state)(value)
     }
 
@@ -128,22 +128,22 @@ impl<S: Fn(f64) -> State, O: Fn(f64) -> Option<State>> Judge<S, O> {
 }
 
 /// Share of the distance to the next grid value at which a result is compared with that of the grid value.
-const BESIDE: f64 = 1e-4;
+const NEIGHBOUR_SHARE: f64 = 1e-4;
 
 /// The values of a grid with the results computed so far.
-struct Tried<'j, S, O> {
+struct GridResults<'j, S, O> {
     judge: &'j Judge<S, O>,
     grid: &'j [f64],
-    states: Vec<Option<State>>,
-    at_best: Vec<Option<State>>,
+    states: Vec<Option<DriveResult>>,
+    at_best: Vec<Option<DriveResult>>,
 }
 
-impl<S: Fn(f64) -> State, O: Fn(f64) -> Option<State>> Tried<'_, S, O> {
-    fn state(&mut self, k: usize) -> State {
+impl<S: Fn(f64) -> DriveResult, O: Fn(f64) -> Option<DriveResult>> GridResults<'_, S, O> {
+    fn state(&mut self, k: usize) -> DriveResult {
         *self.states[k].get_or_insert_with(|| self.judge.state(self.grid[k]))
     }
 
-    fn at_best(&mut self, k: usize) -> State {
+    fn at_best(&mut self, k: usize) -> DriveResult {
         if let Some(known) = self.at_best[k] {
             return known;
         }
@@ -158,12 +158,12 @@ impl<S: Fn(f64) -> State, O: Fn(f64) -> Option<State>> Tried<'_, S, O> {
     }
 
     /// The value at which the worst rule uses least; of equal values the first in this order.
-    fn least(&mut self, order: &[usize]) -> Option<(usize, State)> {
+    fn least(&mut self, order: &[usize]) -> Option<(usize, DriveResult)> {
         let mut promising: Vec<(f64, usize)> = (order.iter().enumerate())
             .map(|(place, &k)| (self.at_best(k).bound(), place))
             .collect();
         promising.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let mut least: Option<(f64, usize, State)> = None;
+        let mut least: Option<(f64, usize, DriveResult)> = None;
         for (bound, place) in promising {
             let better =
                 |score: f64| least.is_none_or(|(least, at, _)| (score, place) < (least, at));
@@ -181,8 +181,8 @@ impl<S: Fn(f64) -> State, O: Fn(f64) -> Option<State>> Tried<'_, S, O> {
 impl Remedy {
     pub(super) fn find<S, O>(lever: Lever, now: f64, judge: &Judge<S, O>) -> Self
     where
-        S: Fn(f64) -> State,
-        O: Fn(f64) -> Option<State>,
+        S: Fn(f64) -> DriveResult,
+        O: Fn(f64) -> Option<DriveResult>,
     {
         let mut grid = lever.grid();
         if !judge.holds(now) {
@@ -193,7 +193,7 @@ impl Remedy {
         grid.push(now);
         grid.sort_by(f64::total_cmp);
         grid.dedup();
-        let mut tried = Tried {
+        let mut tried = GridResults {
             judge,
             grid: &grid,
             states: vec![None; grid.len()],
@@ -203,7 +203,7 @@ impl Remedy {
         let mut outwards: Vec<usize> = (0..grid.len()).collect();
         outwards.sort_by(|&a, &b| distance(grid[a]).total_cmp(&distance(grid[b])));
         let nearest = outwards.iter().copied().find(|&k| tried.holds(k));
-        let remedy = |range, best: Option<(f64, State)>| Self {
+        let remedy = |range, best: Option<(f64, DriveResult)>| Self {
             lever,
             now,
             range,
@@ -240,7 +240,7 @@ impl Remedy {
         ];
         // If the result is worse on both sides, there is no search between the values of the grid.
         let falls = |end: &f64| {
-            let beside = grid[least] + BESIDE * (end - grid[least]);
+            let beside = grid[least] + NEIGHBOUR_SHARE * (end - grid[least]);
             judge.state(beside).score() < first.score()
         };
         if !around.iter().any(falls) {
@@ -261,13 +261,13 @@ impl Remedy {
 }
 
 /// The value between two others at which the worst rule uses least, by golden section.
-fn golden(judge: impl Fn(f64) -> State, around: [f64; 2]) -> (f64, State) {
+fn golden(judge: impl Fn(f64) -> DriveResult, around: [f64; 2]) -> (f64, DriveResult) {
     let Ok([left, right]) = golden_section(
         |value| Ok::<_, Infallible>(judge(value)),
         around,
         SECTIONS,
         |a, b| a.score() < b.score(),
-        State::holds,
+        DriveResult::holds,
     );
     if right.1.holds() || (!left.1.holds() && right.1.score() < left.1.score()) {
         right

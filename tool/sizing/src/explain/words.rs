@@ -1,6 +1,6 @@
 //! Messages about remedies.
 
-use super::remedy::{Edge, Lever, Miss, Remedy};
+use super::remedy::{Edge, Lever, Remedy, RuleViolation};
 use jred_file::number::rounding::{short, told_apart};
 use jred_file::units::Vocabulary;
 
@@ -59,7 +59,7 @@ impl Remedy {
     }
 }
 
-impl Miss {
+impl RuleViolation {
     /// Sentence on the use of the limit and on a sufficient limit.
     pub fn sentence(&self, words: &Vocabulary) -> String {
         let name = self.rule.named(words);

@@ -69,7 +69,7 @@ fn peak_current(context: &Context) -> f64 {
 /// Overload, bus and brake resistor; [`measure`] provides the largest current (A).
 pub(super) fn follow(context: &Context, peak_current: Option<f64>, findings: &mut impl Record) {
     overload(context, peak_current.unwrap_or(f64::NAN), findings);
-    let Fed { data, .. } = fed(context);
+    let DriveBus { data, .. } = fed(context);
     if data.regenerative {
         return;
     }
@@ -150,7 +150,7 @@ fn overload(context: &Context, peak: f64, findings: &mut impl Record) {
         let current = context.motor.current(torque, speed).unwrap_or(0.0);
         [sample.t, current.copysign(torque)]
     });
-    let points: Vec<overload::Point> = points.collect();
+    let points: Vec<overload::CurrentSample> = points.collect();
     let largest = overload::largest(&points, cycle.duration(), rated);
     findings.set(Rule::Overload, Finding::against(largest, allowed));
 }
@@ -167,7 +167,7 @@ fn reduced(context: &Context) -> String {
 }
 
 /// The bus of a drive with its brake resistor, from the machine file or chosen from the catalogue.
-struct Fed<'a> {
+struct DriveBus<'a> {
     data: BusData,
     chosen: Option<&'a Resistor>,
     /// Requirements for a resistor, if one is needed and the file gives no resistor.
@@ -176,11 +176,11 @@ struct Fed<'a> {
 
 /// The bus of a drive. If it rises too far without a brake resistor, or its capacitance is unknown, the smallest suitable resistor of the catalogue
 /// is connected to it.
-fn fed<'a>(context: &Context<'a>) -> Fed<'a> {
+fn fed<'a>(context: &Context<'a>) -> DriveBus<'a> {
     let site = context.site;
     let drive = &context.drive;
     let mut data = BusData::new(&site.supply, site.bus_voltage, drive.amplifier, drive.motor);
-    let mut fed = Fed {
+    let mut fed = DriveBus {
         data,
         chosen: None,
         need: None,
@@ -313,7 +313,7 @@ pub(super) fn words(context: &Context, rule: Rule, finding: Finding) -> Words {
 
 /// Regenerated energy, and the brake resistor it would require.
 fn bus_place(context: &Context, finding: Finding) -> String {
-    let Fed { data, need, .. } = fed(context);
+    let DriveBus { data, need, .. } = fed(context);
     let curve = power(context);
     let [_, back] = curve.energies();
     if back == 0.0 {

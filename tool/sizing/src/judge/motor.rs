@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use super::{Context, Record, Words};
 use crate::cycle::Cycle;
-use crate::motor::envelope::Prepared;
+use crate::motor::envelope::MotorLimits;
 use jred_file::model::rule::Rule;
 use jred_file::model::rules::Finding;
 use jred_file::model::rules::RuleSet;
@@ -22,7 +22,7 @@ fn known(rating: f64) -> f64 {
 /// The largest speed; of the drive it needs only the ratio.
 pub(super) fn measure_speed(
     cycle: &Cycle,
-    motor: &Prepared,
+    motor: &MotorLimits,
     ratio: f64,
     findings: &mut impl Record,
 ) {

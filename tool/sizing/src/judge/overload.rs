@@ -10,11 +10,11 @@
 //! exact.
 
 /// Current (A, signed) at a time (s).
-pub type Point = [f64; 2];
+pub type CurrentSample = [f64; 2];
 
 /// The largest value (A²·s) of the integral over an endlessly repeated cycle. It is infinite if the RMS current exceeds the rated one, because the
 /// integral then grows from cycle to cycle.
-pub fn largest(points: &[Point], duration: f64, rated: f64) -> f64 {
+pub fn largest(points: &[CurrentSample], duration: f64, rated: f64) -> f64 {
     if points.iter().all(|[_, current]| current.abs() <= rated) {
         return 0.0;
     }
@@ -42,7 +42,7 @@ pub fn allowed(rated: f64, peak: f64, time: f64) -> f64 {
 }
 
 /// ∫(I² − I_r²) dt over pieces in which the integrand keeps its sign.
-fn pieces(points: &[Point], duration: f64, rated: f64, mut take: impl FnMut(f64)) {
+fn pieces(points: &[CurrentSample], duration: f64, rated: f64, mut take: impl FnMut(f64)) {
     let Some((first, last)) = points.first().zip(points.last()) else {
         return;
     };

@@ -9,8 +9,8 @@
 use super::outcome::Tally;
 use super::{Context, Outcome, brake, electric, gearbox, motor, site, stiffness, thermal, voltage};
 use crate::catalogue::{Drive, DriveId, Gearbox, Motor, Resistor};
-use crate::cycle::{Against, Cycle};
-use crate::motor::envelope::Prepared;
+use crate::cycle::{Cycle, PeakCheck};
+use crate::motor::envelope::MotorLimits;
 use jred_file::model::rule::Rule;
 use jred_file::model::rules::RuleSet;
 use jred_file::model::site::Site;
@@ -35,7 +35,7 @@ impl<'c> Screen<'c> {
         site: &'c Site,
         rules: &'c RuleSet,
         gearboxes: &'c [Gearbox],
-        any: Option<(&'c Motor, &'c Prepared)>,
+        any: Option<(&'c Motor, &'c MotorLimits)>,
     ) -> Self {
         let alone = |gearbox: Option<&'c Gearbox>| {
             let Some((motor, limits)) = any else {
@@ -65,7 +65,7 @@ impl<'c> Screen<'c> {
 
     /// Whether a drive fits, with its outcome as far as that needed. The verdict is exact. If the drive fits, the warnings and the rules without data
     /// are exact too. Shares of limits and the number of violated limits of zero are at most those of [`Context::outcome`].
-    pub(crate) fn judge(&self, id: DriveId, drive: Drive<'c>, limits: &'c Prepared) -> Outcome {
+    pub(crate) fn judge(&self, id: DriveId, drive: Drive<'c>, limits: &'c MotorLimits) -> Outcome {
         let alone = match id.gearbox() {
             Some(index) => self.alone[index],
             None => self.direct,
@@ -88,9 +88,9 @@ impl<'c> Screen<'c> {
             return tally.outcome;
         }
         match self.peak(&context) {
-            Against::Below => {}
-            Against::Beyond { used } => motor::set_peak_use(used, &mut tally),
-            Against::Open => motor::measure_peak(&context, &mut tally),
+            PeakCheck::Below => {}
+            PeakCheck::Beyond { used } => motor::set_peak_use(used, &mut tally),
+            PeakCheck::Open => motor::measure_peak(&context, &mut tally),
         }
         if tally.outcome.fails() {
             return tally.outcome;
@@ -105,10 +105,10 @@ impl<'c> Screen<'c> {
     }
 
     /// The peak torque relative to the lower of its limits (failure, warning), as far as bounds can decide.
-    fn peak(&self, context: &Context) -> Against {
+    fn peak(&self, context: &Context) -> PeakCheck {
         let limit = self.rules.limit(Rule::PeakTorque);
         let [low, high] = match (limit.warn, limit.fail) {
-            (None, None) => return Against::Below,
+            (None, None) => return PeakCheck::Below,
             (Some(share), None) => [share, f64::INFINITY],
             (None, Some(share)) => [share; 2],
             (Some(warn), Some(fail)) => [warn.min(fail), fail],

@@ -1,10 +1,10 @@
 //! Whether motor and amplifier are made for the ambient temperature and altitude of the site.
 //!
-//! Within the range of the maker's data, or of the general rule, the ratings are reduced ([`Derated`]) and the other rules judge them. The rules here
+//! Within the range of the maker's data, or of the general rule, the ratings are reduced ([`SiteRating`]) and the other rules judge them. The rules here
 //! judge whether the site is within that range.
 
 use super::{Context, Record, Words};
-use crate::catalogue::{Derated, DeratingBasis};
+use crate::catalogue::{DeratingBasis, SiteRating};
 use jred_file::model::rule::Rule;
 use jred_file::model::rules::Finding;
 use jred_file::model::surroundings::{LOW, REFERENCE};
@@ -40,7 +40,7 @@ pub(super) fn words(context: &Context, rule: Rule) -> Words {
     let motor = context.drive.motor.derated(site);
     let amplifier = context.drive.amplifier.map(|a| a.derated(site));
     let torque = context.vocabulary().torque;
-    let share = |derated: &Derated| short(100.0 * derated.factor);
+    let share = |derated: &SiteRating| short(100.0 * derated.factor);
     let (unit, rating, place) = match rule {
         Rule::AmbientTemperature => (
             "degC",

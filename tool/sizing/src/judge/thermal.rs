@@ -2,7 +2,7 @@
 
 use super::{Context, Record, Words};
 use crate::thermal::classify::Features;
-use crate::thermal::course::Hottest;
+use crate::thermal::loss_curve::PeakRise;
 use crate::thermal::{Heating, Load, Model, allowed_rise};
 use jred_file::model::operation::Operation;
 use jred_file::model::rule::Rule;
@@ -15,8 +15,8 @@ pub(super) fn follow(context: &Context, findings: &mut impl Record) {
         return;
     };
     let [winding, housing] = match heating.hottest {
-        Hottest::Rise(rise) => rise,
-        Hottest::Runaway => [f64::INFINITY; 2],
+        PeakRise::Rise(rise) => rise,
+        PeakRise::Runaway => [f64::INFINITY; 2],
     };
     let surroundings = &context.site.surroundings;
     let allowed = allowed_rise(context.drive.motor, surroundings, heating.relative);

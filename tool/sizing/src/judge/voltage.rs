@@ -2,13 +2,13 @@
 
 use super::{Context, Record, Words};
 use crate::catalogue::Basis;
-use crate::motor::envelope::Prepared;
+use crate::motor::envelope::MotorLimits;
 use jred_file::model::rule::Rule;
 use jred_file::model::rules::{Finding, RuleSet, RuleVerdict};
 use jred_file::number::rounding::short;
 
 /// Both rules; they do not need cycle and gearbox.
-pub(super) fn measure(limits: &Prepared, findings: &mut impl Record) {
+pub(super) fn measure(limits: &MotorLimits, findings: &mut impl Record) {
     findings.set(Rule::MotorVoltage, limits.voltages.motor);
     if let Some(amplifier) = limits.voltages.amplifier {
         findings.set(Rule::AmplifierVoltage, amplifier);

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use super::{Bound, Entry, Field, MeterLimits, below};
+use super::{Bound, Field, MeterLimit, MeterLimits, lower_curve};
 
 impl MeterLimits<'_> {
     /// The source. `machine`: description of the machine that the drive was sized for.
@@ -72,7 +72,7 @@ impl MeterLimits<'_> {
     }
 
     /// A limit's constant, or a comment with the reason why there is no limit.
-    fn constant(&self, entry: &Entry, text: &mut String) {
+    fn constant(&self, entry: &MeterLimit, text: &mut String) {
         let (name, words) = (entry.field.word().to_uppercase(), &entry.words);
         let unit = self.unit(entry.field);
         let _ = match &entry.bound {
@@ -182,7 +182,7 @@ impl MeterLimits<'_> {
         let context = self.context;
         let shares = context.cycle.samples().iter().map(|sample| {
             let torque = context.coefficients.torque(&sample.loads()).abs();
-            let limit = below::at(&curve.points, sample.speed().abs() * context.ratio);
+            let limit = lower_curve::at(&curve.points, sample.speed().abs() * context.ratio);
             if torque == 0.0 { 0.0 } else { torque / limit }
         });
         Some(shares.fold(0.0, f64::max))

@@ -9,7 +9,7 @@ use jred_file::number::words::counted;
 
 /// A drive of the front with its values, one for each objective.
 #[derive(Clone, Debug)]
-pub struct Point<'c> {
+pub struct ParetoPoint<'c> {
     /// The drive.
     pub candidate: Candidate<'c>,
     /// Its mass (kg), if in the catalogue.
@@ -26,7 +26,7 @@ pub struct Front<'c> {
     /// The objectives.
     pub objectives: Vec<Objective>,
     /// Its drives, by the first objective.
-    pub points: Vec<Point<'c>>,
+    pub points: Vec<ParetoPoint<'c>>,
     /// Number of suitable drives.
     pub fit: usize,
     /// Number of drives compared.
@@ -51,7 +51,7 @@ impl<'c> Front<'c> {
                 *count += usize::from(value.is_none());
             }
             if let Some(values) = values.into_iter().collect() {
-                points.push(Point {
+                points.push(ParetoPoint {
                     candidate: *candidate,
                     mass: None,
                     price: None,
@@ -60,7 +60,7 @@ impl<'c> Front<'c> {
             }
         }
         let compared = points.len();
-        let costs = |point: &Point| -> Vec<f64> {
+        let costs = |point: &ParetoPoint| -> Vec<f64> {
             let pairs = objectives.iter().zip(&point.values);
             pairs
                 .map(|(objective, value)| objective.cost(*value))
@@ -73,7 +73,7 @@ impl<'c> Front<'c> {
                 order.then(a.total_cmp(&b))
             })
         });
-        let mut front: Vec<(Vec<f64>, Point)> = Vec::new();
+        let mut front: Vec<(Vec<f64>, ParetoPoint)> = Vec::new();
         for point in points {
             let own = costs(&point);
             if !front.iter().any(|(other, _)| beats(other, &own)) {
@@ -83,7 +83,7 @@ impl<'c> Front<'c> {
         Self {
             objectives: objectives.to_vec(),
             points: (front.into_iter())
-                .map(|(_, point)| Point {
+                .map(|(_, point)| ParetoPoint {
                     mass: Objective::Mass.value(selection, &point.candidate),
                     price: Objective::Price.value(selection, &point.candidate),
                     ..point

@@ -4,9 +4,9 @@ use std::collections::HashSet;
 
 use crate::catalogue::{Catalogue, Drive, DriveId, Resistor};
 use crate::cycle::Cycle;
-use crate::judge::Judged;
+use crate::judge::Assessment;
 use crate::judge::{Context, Outcome, Screen};
-use crate::motor::envelope::Prepared;
+use crate::motor::envelope::MotorLimits;
 use crate::threads;
 use jred_file::model::rule::Rule;
 use jred_file::model::rules::RuleSet;
@@ -17,8 +17,8 @@ mod group;
 mod order;
 mod survey;
 
+use group::{DriveWithId, RankBound};
 pub use group::{FIRST, Group};
-use group::{Placed, Unranked};
 pub use order::{Certainty, Order};
 
 /// Default ranking of drives.
@@ -42,7 +42,7 @@ pub struct Candidate<'c> {
     /// The drive.
     pub drive: Drive<'c>,
     /// Limits of its motor.
-    pub motor: &'c Prepared,
+    pub motor: &'c MotorLimits,
     /// Result.
     pub outcome: Outcome,
     /// Identifies it in the catalogue; breaks ties.
@@ -121,7 +121,7 @@ pub struct Selection<'c> {
     pub fit: Group<'c>,
     /// Drives that violate a rule, closest first.
     pub refused: Group<'c>,
-    motors: &'c [Prepared],
+    motors: &'c [MotorLimits],
     /// Brake resistors to choose from.
     resistors: &'c [Resistor],
 }
@@ -131,7 +131,7 @@ impl<'c> Selection<'c> {
     /// rules that follow time: docs/performance.md.
     pub fn new(
         catalogue: &'c Catalogue,
-        motors: &'c [Prepared],
+        motors: &'c [MotorLimits],
         cycle: &'c Cycle,
         site: &'c Site,
         rules: &'c RuleSet,
@@ -144,7 +144,7 @@ impl<'c> Selection<'c> {
     pub fn among(
         drives: impl Iterator<Item = (DriveId, Drive<'c>)>,
         catalogue: &'c Catalogue,
-        motors: &'c [Prepared],
+        motors: &'c [MotorLimits],
         cycle: &'c Cycle,
         site: &'c Site,
         rules: &'c RuleSet,
@@ -158,7 +158,7 @@ impl<'c> Selection<'c> {
     /// The same as [`Selection::new`] on all cores: the same drives in the same order.
     pub fn parallel(
         catalogue: &'c Catalogue,
-        motors: &'c [Prepared],
+        motors: &'c [MotorLimits],
         cycle: &'c Cycle,
         site: &'c Site,
         rules: &'c RuleSet,
@@ -175,7 +175,7 @@ impl<'c> Selection<'c> {
 
     fn empty(
         catalogue: &'c Catalogue,
-        motors: &'c [Prepared],
+        motors: &'c [MotorLimits],
         cycle: &'c Cycle,
         site: &'c Site,
         rules: &'c RuleSet,
@@ -205,7 +205,7 @@ impl<'c> Selection<'c> {
 
     fn judge(&mut self, screen: &Screen<'c>, drives: impl Iterator<Item = (DriveId, Drive<'c>)>) {
         drives.for_each(|(id, drive)| {
-            let (unranked, outcome) = self.bound(screen, &Placed { drive, id });
+            let (unranked, outcome) = self.bound(screen, &DriveWithId { drive, id });
             let group = if outcome.fails() {
                 &mut self.refused
             } else {
@@ -216,11 +216,11 @@ impl<'c> Selection<'c> {
     }
 
     /// A drive with a lower bound on its rank.
-    fn bound(&self, screen: &Screen<'c>, drive: &Placed<'c>) -> (Unranked<'c>, Outcome) {
-        let Placed { drive, id } = *drive;
+    fn bound(&self, screen: &Screen<'c>, drive: &DriveWithId<'c>) -> (RankBound<'c>, Outcome) {
+        let DriveWithId { drive, id } = *drive;
         let outcome = screen.judge(id, drive, &self.motors[id.motor()]);
         let bound = Order::from(drive, &outcome, id);
-        (Unranked { drive, bound }, outcome)
+        (RankBound { drive, bound }, outcome)
     }
 
     fn join(mut self, other: Self) -> Self {
@@ -259,8 +259,8 @@ impl<'c> Selection<'c> {
         Group::of(all)
     }
 
-    fn in_full(&self, drive: &Placed<'c>) -> Candidate<'c> {
-        let Placed { drive, id } = *drive;
+    fn in_full(&self, drive: &DriveWithId<'c>) -> Candidate<'c> {
+        let DriveWithId { drive, id } = *drive;
         let motor = &self.motors[id.motor()];
         Candidate {
             drive,
@@ -387,8 +387,8 @@ impl<'c> Selection<'c> {
     }
 
     /// A candidate checked against every rule, with messages.
-    pub fn judged(&self, candidate: &Candidate<'c>) -> Judged<'c> {
-        Judged::new(&self.context(candidate), self.rules)
+    pub fn judged(&self, candidate: &Candidate<'c>) -> Assessment<'c> {
+        Assessment::new(&self.context(candidate), self.rules)
     }
 
     /// The context for judging a candidate.
@@ -396,7 +396,7 @@ impl<'c> Selection<'c> {
         self.context_of(candidate.drive, candidate.motor)
     }
 
-    fn context_of(&self, drive: Drive<'c>, motor: &'c Prepared) -> Context<'c> {
+    fn context_of(&self, drive: Drive<'c>, motor: &'c MotorLimits) -> Context<'c> {
         Context::new(self.cycle, self.site, drive, motor).with_resistors(self.resistors)
     }
 }

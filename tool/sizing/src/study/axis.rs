@@ -18,7 +18,7 @@ const MOST_STEPS: u32 = 1_000_000;
 
 /// One quantity and the values that it takes.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Axis {
+pub struct Variation {
     /// Index of the quantity in the document.
     pub quantity: usize,
     /// Its full path.
@@ -33,7 +33,7 @@ pub struct Axis {
 const SHAPE: &str = "write --vary slider.mass=50..120kg:8 for eight values in equal steps, …:8:log for equal ratios, \
                      or a list: slider.mass=50,60,80kg";
 
-impl Axis {
+impl Variation {
     /// Reads one `--vary`.
     ///
     /// # Errors
@@ -179,7 +179,7 @@ fn list(text: &str) -> Result<(Vec<f64>, literal::Literal), String> {
 #[derive(Clone, Debug)]
 pub struct Grid {
     /// The axes.
-    pub axes: Vec<Axis>,
+    pub axes: Vec<Variation>,
     count: u64,
 }
 
@@ -191,7 +191,7 @@ impl Grid {
     ///
     /// # Errors
     /// There are too many combinations, or a quantity is varied twice.
-    pub fn new(axes: Vec<Axis>) -> Result<Self> {
+    pub fn new(axes: Vec<Variation>) -> Result<Self> {
         for (k, axis) in axes.iter().enumerate() {
             if axes
                 .iter()

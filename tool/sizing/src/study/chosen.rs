@@ -5,7 +5,7 @@ use jred_file::text::problem::Result;
 
 use crate::catalogue::{Amplifier, Catalogue, Drive, Gearbox, Motor, Resistor};
 use crate::judge::{Context, Findings};
-use crate::motor::envelope::Prepared;
+use crate::motor::envelope::MotorLimits;
 use crate::select::filter::Filter;
 use crate::select::rank::{Objective, rank};
 use crate::select::size::Selection;
@@ -75,7 +75,7 @@ impl ChosenDrive {
     /// Findings of every rule in a machine.
     pub fn findings(&self, machine: &PreparedMachine) -> Findings {
         let site = &machine.file.site;
-        let limits = Prepared::new(&self.motor, self.amplifier.as_ref(), site);
+        let limits = MotorLimits::new(&self.motor, self.amplifier.as_ref(), site);
         Context::new(&machine.cycle, site, self.drive(), &limits)
             .with_resistors(&self.resistors)
             .findings(&machine.file.rules)

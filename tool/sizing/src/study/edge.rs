@@ -19,7 +19,7 @@ pub(super) struct Grid {
 }
 
 /// A grid index, and the height there.
-type Place = (u32, f64);
+type GridSample = (u32, f64);
 
 impl Grid {
     const HALVINGS: u32 = 16;
@@ -76,8 +76,8 @@ impl Grid {
 /// The next place between two: on the parabola x(y) through them and `before`, which the newer of them has replaced, if that is sure to be monotonic
 /// between them; otherwise the middle. T. R. Chandrupatla, *A new hybrid quadratic/bisection algorithm*, Advances in Engineering Software 28 (1997),
 /// p. 145.
-fn next(low: Place, high: Place, before: Option<Place>) -> u32 {
-    let real = |(k, y): Place| (f64::from(k), y);
+fn next(low: GridSample, high: GridSample, before: Option<GridSample>) -> u32 {
+    let real = |(k, y): GridSample| (f64::from(k), y);
     let [a, b] = [low, high].map(real);
     let guess = match before.map(real) {
         None => a.0 - a.1 * (b.0 - a.0) / (b.1 - a.1),

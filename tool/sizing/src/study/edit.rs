@@ -21,7 +21,7 @@ const NOT_VARIED: [&str; 3] = ["title", "name", "tolerance"];
 
 /// Notation of a quantity in the file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Written {
+enum Notation {
     /// A text in quotes.
     Text,
     /// A whole number.
@@ -40,7 +40,7 @@ pub struct Quantity {
     /// The words that match each step of the path.
     steps: Vec<Vec<String>>,
     span: Range<usize>,
-    written: Written,
+    written: Notation,
 }
 
 impl Quantity {
@@ -61,16 +61,16 @@ impl Quantity {
 
     /// Whether it is a count, such as a number of teeth, or a number written like one.
     pub fn is_whole(&self) -> bool {
-        self.written == Written::Whole
+        self.written == Notation::Whole
     }
 
     /// `number` in `unit`, as written in place of the quantity.
     fn text(&self, number: f64, unit: &str) -> String {
         match self.written {
-            Written::Text => format!("\"{}\"", format!("{number:?} {unit}").trim_end()),
+            Notation::Text => format!("\"{}\"", format!("{number:?} {unit}").trim_end()),
             _ if !unit.is_empty() => format!("\"{number:?} {unit}\""),
             // Whole numbers stay whole, so that counts may be varied.
-            Written::Whole if number.fract() == 0.0 && number.abs() < 1e15 => {
+            Notation::Whole if number.fract() == 0.0 && number.abs() < 1e15 => {
                 format!("{number:.0}")
             }
             _ => format!("{number:?}"),
@@ -286,11 +286,12 @@ impl Finder {
 
     fn value(&mut self, value: &Value) {
         let (literal, written) = match value {
-            Value::String(text) => (literal::read(text.value()).ok(), Written::Text),
-            Value::Integer(number) => {
-                (Some(Literal::plain(*number.value() as f64)), Written::Whole)
-            }
-            Value::Float(number) => (Some(Literal::plain(*number.value())), Written::Plain),
+            Value::String(text) => (literal::read(text.value()).ok(), Notation::Text),
+            Value::Integer(number) => (
+                Some(Literal::plain(*number.value() as f64)),
+                Notation::Whole,
+            ),
+            Value::Float(number) => (Some(Literal::plain(*number.value())), Notation::Plain),
             Value::InlineTable(table) => return self.table(table),
             Value::Array(list) => {
                 let name = |value: &Value| value.as_inline_table().and_then(|t| name_of(t));

@@ -8,7 +8,7 @@ use crate::select::size::{Candidate, Selection};
 use crate::study::cell::Cell;
 use crate::study::common::{Study, sentence};
 use crate::study::header::{Header, digest};
-use crate::study::task::Task;
+use crate::study::task::RowSource;
 use jred_file::number::words::counted;
 
 /// Machines of a grid, to be sized.
@@ -26,7 +26,7 @@ pub struct GridStudy<'s> {
 
 jred_file::words! {
     /// Result for a machine of a study: the words of the column `verdict`.
-    pub enum Verdict {
+    pub enum GridVerdict {
         /// A drive satisfies every rule.
         Fits = "fits",
         /// No drive does.
@@ -53,10 +53,10 @@ const COLUMNS: [&str; 13] = [
     "note",
 ];
 
-impl Task for GridStudy<'_> {
+impl RowSource for GridStudy<'_> {
     fn header(&self) -> Header {
         let axes = self.grid.axes.iter();
-        let own = axes.clone().map(super::axis::Axis::column);
+        let own = axes.clone().map(super::axis::Variation::column);
         let mut options: Vec<String> = axes
             .map(|axis| {
                 let ends = [axis.values.first(), axis.values.last()]
@@ -109,7 +109,7 @@ impl GridStudy<'_> {
             Err(report) => {
                 let mut cells = vec![Cell::Empty; COLUMNS.len()];
                 if let [verdict, .., note] = cells.as_mut_slice() {
-                    *verdict = Verdict::Refused.word().into();
+                    *verdict = GridVerdict::Refused.word().into();
                     *note = sentence(&report).into();
                 }
                 return cells;
@@ -126,7 +126,7 @@ impl GridStudy<'_> {
         let fit = selection.fit.len();
         match (selection.fit.first(), selection.refused.first()) {
             (Some(best), _) => {
-                let mut cells = vec![Verdict::Fits.word().into(), (fit as f64).into()];
+                let mut cells = vec![GridVerdict::Fits.word().into(), (fit as f64).into()];
                 cells.extend(drive_cells(&selection, best));
                 cells.push(match best.outcome.not_checked.count() {
                     0 => Cell::Empty,
@@ -139,13 +139,13 @@ impl GridStudy<'_> {
                 cells
             }
             (None, Some(nearest)) => {
-                let mut cells = vec![Verdict::NoneFits.word().into(), 0.0.into()];
+                let mut cells = vec![GridVerdict::NoneFits.word().into(), 0.0.into()];
                 cells.extend(drive_cells(&selection, nearest));
                 cells.push("closest drive".into());
                 cells
             }
             (None, None) => {
-                let mut cells = vec![Verdict::NoneFits.word().into(), 0.0.into()];
+                let mut cells = vec![GridVerdict::NoneFits.word().into(), 0.0.into()];
                 cells.resize(COLUMNS.len() - 1, Cell::Empty);
                 cells.push("no drive passes the filter".into());
                 cells

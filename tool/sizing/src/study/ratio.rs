@@ -4,9 +4,9 @@ use std::collections::HashSet;
 
 use crate::catalogue::{Catalogue, Gearbox, Motor};
 use crate::cycle::Cycle;
-use crate::motor::envelope::Prepared;
+use crate::motor::envelope::MotorLimits;
 use crate::select::ratio::obstacle::Obstacle;
-use crate::select::ratio::ranges::{Found, Trial};
+use crate::select::ratio::ranges::{RatioRange, Trial};
 use crate::select::ratio::{Gear, Moments, Range, accelerating_factor};
 use crate::select::size::Selection;
 use crate::threads;
@@ -26,7 +26,7 @@ pub struct Ratios<'a> {
     /// Motors and gearboxes.
     pub catalogue: &'a Catalogue,
     /// Limits of the motors, in the order of the catalogue.
-    pub motors: &'a [Prepared],
+    pub motors: &'a [MotorLimits],
     /// Data of a gearbox of any ratio.
     pub gear: Gear,
 }
@@ -45,7 +45,7 @@ pub struct MotorRatio<'a> {
     /// The ratios with an RMS torque within this limit.
     pub rms: Option<Range>,
     /// The range, or the obstacle; `Err(None)`: the range is narrower than the step of the search.
-    pub found: Result<Found, Option<Obstacle>>,
+    pub found: Result<RatioRange, Option<Obstacle>>,
     /// The gearboxes with a ratio in the range, each with whether the drive satisfies every rule.
     pub gearboxes: Vec<(&'a Gearbox, bool)>,
 }
@@ -80,7 +80,7 @@ impl<'a> Ratios<'a> {
         let fits: HashSet<(&str, &str)> = (selection.fit.drives())
             .filter_map(|drive| Some((drive.motor.key.as_str(), drive.gearbox?.key.as_str())))
             .collect();
-        let mut motors: Vec<(&Motor, &Prepared)> =
+        let mut motors: Vec<(&Motor, &MotorLimits)> =
             self.catalogue.motors.iter().zip(self.motors).collect();
         let power = |motor: &Motor| motor.rated_power().unwrap_or(f64::INFINITY);
         motors.sort_by(|a, b| power(a.0).total_cmp(&power(b.0)));
@@ -93,7 +93,7 @@ impl<'a> Ratios<'a> {
     fn of_motor(
         &self,
         motor: &'a Motor,
-        prepared: &Prepared,
+        prepared: &MotorLimits,
         share: f64,
         fits: &HashSet<(&str, &str)>,
     ) -> Vec<MotorRatio<'a>> {
@@ -108,12 +108,12 @@ impl<'a> Ratios<'a> {
             gear: self.gear,
         };
         let limit = motor.rated_torque.map(|torque| share * torque);
-        let mut found: Vec<Result<Found, Option<Obstacle>>> =
+        let mut found: Vec<Result<RatioRange, Option<Obstacle>>> =
             trial.ranges(best).into_iter().map(Ok).collect();
         if found.is_empty() {
             found.push(Err(trial.obstacle(best)));
         }
-        let row = |found: Result<Found, Option<Obstacle>>| MotorRatio {
+        let row = |found: Result<RatioRange, Option<Obstacle>>| MotorRatio {
             motor,
             moments,
             best,
@@ -129,7 +129,7 @@ impl<'a> Ratios<'a> {
     fn gearboxes(
         &self,
         motor: &Motor,
-        found: Option<&Found>,
+        found: Option<&RatioRange>,
         fits: &HashSet<(&str, &str)>,
     ) -> Vec<(&'a Gearbox, bool)> {
         let inside = self.catalogue.gearboxes.iter().filter(|g| {

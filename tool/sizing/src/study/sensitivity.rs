@@ -134,7 +134,7 @@ struct Mover<'a> {
 }
 
 /// A drive in a machine with one quantity changed.
-struct Judged {
+struct LimitUse {
     /// Shares of the limits.
     shares: Vec<(Rule, f64)>,
     /// The violated rule.
@@ -143,12 +143,9 @@ struct Judged {
     load: f64,
 }
 
-/// The judged drive, or why the file was refused.
-type Tried = Result<Judged, String>;
-
 impl Mover<'_> {
     /// The drive after a relative change of the quantity.
-    fn at(&self, change: f64) -> Tried {
+    fn at(&self, change: f64) -> Result<LimitUse, String> {
         let number = self.number * (1.0 + change);
         // A count changed by its own step is whole except for rounding.
         let whole = number.round();
@@ -167,7 +164,7 @@ impl Mover<'_> {
             .map_err(|report| sentence(&report))?;
         let findings = self.one.findings(&machine);
         let rules = &machine.file.rules;
-        Ok(Judged {
+        Ok(LimitUse {
             shares: shares(rules, &findings),
             broken: broken(rules, &findings),
             load: load(rules, &findings),
@@ -175,9 +172,9 @@ impl Mover<'_> {
     }
 
     /// The slopes for `change`, and the drive at both ends, downwards and upwards.
-    fn slopes(&self, change: f64) -> Result<(Vec<Slope>, [Judged; 2]), String> {
+    fn slopes(&self, change: f64) -> Result<(Vec<Slope>, [LimitUse; 2]), String> {
         // Upwards first: if both ends are refused, its reason is given.
-        let ends = |step: f64| -> Result<[Judged; 2], String> {
+        let ends = |step: f64| -> Result<[LimitUse; 2], String> {
             let above = self.at(step)?;
             Ok([self.at(-step)?, above])
         };
@@ -239,7 +236,7 @@ impl Mover<'_> {
     }
 
     /// The drive with the count increased by `by`.
-    fn more(&self, by: f64) -> Tried {
+    fn more(&self, by: f64) -> Result<LimitUse, String> {
         self.at(by / self.number)
     }
 
@@ -247,7 +244,7 @@ impl Mover<'_> {
         let below = self.more(-1.0).map_err(|why| format!("one less: {why}"))?;
         let [same, above] = [0.0, 1.0].map(|by| self.more(by));
         let (same, above) = (same?, above.map_err(|why| format!("one more: {why}"))?);
-        let of = |judged: &Judged, rule: Rule| {
+        let of = |judged: &LimitUse, rule: Rule| {
             let found = judged.shares.iter().find(|(r, _)| *r == rule);
             found.map(|(_, share)| *share)
         };
@@ -272,7 +269,8 @@ impl Mover<'_> {
         } else {
             most
         };
-        let holds = |tried: &Tried| matches!(tried, Ok(Judged { broken: None, .. }));
+        let holds =
+            |tried: &Result<LimitUse, String>| matches!(tried, Ok(LimitUse { broken: None, .. }));
         let (mut held, mut step) = (0.0, 1.0f64);
         let mut stopped = loop {
             let by = step.min(most);
@@ -295,22 +293,22 @@ impl Mover<'_> {
             }
         }
         match stopped.1 {
-            Ok(Judged {
+            Ok(LimitUse {
                 broken: Some(rule), ..
             }) => Room::UpTo(share(held), rule),
             Err(why) => Room::Refused(share(held), why),
-            Ok(Judged { broken: None, .. }) => Room::AtLeast(share(held)),
+            Ok(LimitUse { broken: None, .. }) => Room::AtLeast(share(held)),
         }
     }
 
     /// Room of the quantity in the direction of `sign`, by doubling steps, then on a [`Grid`] of the last one; `first` is the drive after the first
     /// step.
-    fn room(&self, sign: f64, reach: Reach, first: Judged) -> Room {
+    fn room(&self, sign: f64, reach: Reach, first: LimitUse) -> Room {
         let (mut held, mut tried) = ((0.0, self.load), reach.change);
         let mut there = Ok(first);
         let stopped = loop {
             match there {
-                Ok(Judged {
+                Ok(LimitUse {
                     broken: None, load, ..
                 }) => held = (tried, load),
                 stopped => break stopped,
@@ -321,8 +319,8 @@ impl Mover<'_> {
             tried = (2.0 * tried).min(reach.most);
             there = self.at(sign * tried);
         };
-        let trial = |what: Tried| Trial {
-            holds: matches!(what, Ok(Judged { broken: None, .. })),
+        let trial = |what: Result<LimitUse, String>| Trial {
+            holds: matches!(what, Ok(LimitUse { broken: None, .. })),
             // Without a file there is no share: the step is halved.
             height: what.as_ref().map_or(f64::NAN, |judged| judged.load - 1.0),
             what,
@@ -334,11 +332,11 @@ impl Mover<'_> {
         let at = |change: f64| trial(self.at(sign * change));
         let (held, stopped) = grid.last_held(held.1 - 1.0, trial(stopped), at);
         match stopped {
-            Ok(Judged {
+            Ok(LimitUse {
                 broken: Some(rule), ..
             }) => Room::UpTo(sign * held, rule),
             Err(why) => Room::Refused(sign * held, why),
-            Ok(Judged { broken: None, .. }) => Room::AtLeast(sign * held),
+            Ok(LimitUse { broken: None, .. }) => Room::AtLeast(sign * held),
         }
     }
 }
@@ -352,7 +350,7 @@ fn load(rules: &RuleSet, findings: &Findings) -> f64 {
 }
 
 /// (u(ε) − u(−ε))/(2ε) of every rule.
-fn differences([below, above]: &[Judged; 2], change: f64) -> Vec<(Rule, f64)> {
+fn differences([below, above]: &[LimitUse; 2], change: f64) -> Vec<(Rule, f64)> {
     let pairs = above.shares.iter().filter_map(|(rule, above)| {
         let below = below.shares.iter().find(|(other, _)| other == rule)?.1;
         Some((*rule, (above - below) / (2.0 * change)))

@@ -4,7 +4,7 @@ use super::cell::Cell;
 use super::header::Header;
 
 /// A study: rows that are computed one by one, in any order.
-pub trait Task: Sync {
+pub trait RowSource: Sync {
     /// Identity of the study.
     fn header(&self) -> Header;
 

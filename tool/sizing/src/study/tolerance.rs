@@ -25,7 +25,7 @@ use crate::study::chosen::ChosenDrive;
 use crate::study::common::{PreparedMachine, Study, sentence};
 use crate::study::edit::Edit;
 use crate::study::header::{Header, digest};
-use crate::study::task::Task;
+use crate::study::task::RowSource;
 use jred_file::model::rule::Rule;
 use jred_file::model::rules::Limit;
 use jred_file::model::tolerance::{Distribution, Tolerance};
@@ -154,7 +154,7 @@ fn twice(study: &Study, path: &str, both: [&Tolerance; 2]) -> Problem {
 
 jred_file::words! {
     /// Result for a machine: the words of the column `verdict`.
-    pub enum Verdict {
+    pub enum ToleranceVerdict {
         /// Every rule is satisfied.
         Holds = "holds",
         /// A rule is violated.
@@ -223,7 +223,7 @@ impl<'s> Samples<'s> {
     }
 }
 
-impl Task for Samples<'_> {
+impl RowSource for Samples<'_> {
     fn header(&self) -> Header {
         let scatters = self.scatters.iter().map(|s| match s.unit.as_str() {
             "" => s.path.clone(),
@@ -267,7 +267,7 @@ impl Task for Samples<'_> {
         let mut cells: Vec<Cell> = values.into_iter().map(Cell::from).collect();
         match self.study.machine(&edits) {
             Err(report) => {
-                cells.extend([Verdict::Refused.word().into(), Cell::Empty]);
+                cells.extend([ToleranceVerdict::Refused.word().into(), Cell::Empty]);
                 cells.extend(self.rules.iter().map(|_| Cell::Empty));
                 cells.push(sentence(&report).into());
             }
@@ -277,9 +277,9 @@ impl Task for Samples<'_> {
                 let broken = broken(rules, &findings);
                 let known = |rule: &Rule| findings.get(*rule).is_some_and(|f| f.is_known());
                 let verdict = match broken {
-                    Some(_) => Verdict::Broken,
-                    None if self.rules.iter().all(known) => Verdict::Holds,
-                    None => Verdict::NotChecked,
+                    Some(_) => ToleranceVerdict::Broken,
+                    None if self.rules.iter().all(known) => ToleranceVerdict::Holds,
+                    None => ToleranceVerdict::NotChecked,
                 };
                 cells.push(verdict.word().into());
                 cells.push(broken.map_or(Cell::Empty, |rule| rule.name().into()));

@@ -15,7 +15,7 @@
 use std::fmt;
 
 use crate::cycle::form::Coefficients;
-use crate::cycle::{Cycle, Sample};
+use crate::cycle::{Cycle, LoadSample};
 
 /// Features of the motor's operation in the cycle.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -117,7 +117,7 @@ impl Features {
         let nearest = nearest.fold(f64::INFINITY, f64::min);
         Self {
             rest: rest / cycle.duration(),
-            starts: starts(samples.iter().map(Sample::speed)),
+            starts: starts(samples.iter().map(LoadSample::speed)),
             braking: back > ROUNDING * turned,
             constant_speed: constant(slowest, fastest),
             constant_torque: constant(least, most),

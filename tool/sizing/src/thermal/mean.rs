@@ -11,8 +11,8 @@ use super::network::Losses;
 use super::{Load, Model};
 use crate::cycle::Cycle;
 use crate::cycle::form::{Coefficients, LOADS};
-use crate::cycle::speeds::Form;
-use crate::motor::envelope::{Envelope, Prepared, Segment};
+use crate::cycle::speeds::SpeedFunction;
+use crate::motor::envelope::{Envelope, MotorLimits, TorqueSegment};
 
 impl Model {
     /// The mean losses (W; in the relative model shares of the rated ones). Cost: a few square roots; in the relative model also the logarithm of the
@@ -53,7 +53,7 @@ pub fn rms_current(
     cycle: &Cycle,
     coefficients: &Coefficients,
     ratio: f64,
-    prepared: &Prepared,
+    prepared: &MotorLimits,
 ) -> Option<f64> {
     let curve = prepared.torques?;
     let bent = cycle.bent(coefficients, ratio);
@@ -86,18 +86,18 @@ fn lost_to_speed(cycle: &Cycle, ratio: f64, envelope: &Envelope, standstill: f64
     let on = |speeds: [f64; 2]| {
         let speeds = speeds.map(|speed| speed * ratio);
         let (torques, form) = match envelope.continuous_segment(speeds)? {
-            Segment::Unknown => return Some(Form::Zero),
-            Segment::Line(torques) => {
+            TorqueSegment::Unknown => return Some(SpeedFunction::Zero),
+            TorqueSegment::Line(torques) => {
                 let shares = torques.map(|torque| torque / standstill);
-                (torques, Form::LessLine(shares))
+                (torques, SpeedFunction::LessLine(shares))
             }
-            Segment::Power(power) => (
+            TorqueSegment::Power(power) => (
                 speeds.map(|speed| power / speed),
-                Form::LessInverse(power / (standstill * ratio)),
+                SpeedFunction::LessInverse(power / (standstill * ratio)),
             ),
         };
         if torques.iter().all(|torque| *torque >= standstill) {
-            Some(Form::Zero)
+            Some(SpeedFunction::Zero)
         } else if torques.iter().any(|torque| *torque > standstill) {
             None
         } else {

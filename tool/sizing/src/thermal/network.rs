@@ -42,7 +42,7 @@ pub struct Network {
 
 /// θ ↦ θ + D·θ + g: effect of a stretch of time on the rises. D is stored, not I + D, so that short times lose no digits.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Change {
+pub struct Transition {
     matrix: Matrix,
     shift: Rise,
 }
@@ -111,10 +111,10 @@ impl Network {
     }
 
     /// Change of the rises by `time` (s) of constant losses.
-    pub fn change(&self, losses: Losses, time: f64) -> Change {
+    pub fn change(&self, losses: Losses, time: f64) -> Transition {
         let linear = self.linear(losses);
         let m = linear.integral(time);
-        Change {
+        Transition {
             matrix: product(&linear.a, &m),
             shift: apply(&m, linear.b),
         }
@@ -173,10 +173,10 @@ impl Linear {
     /// M = ∫₀ʰ e^(A·s) ds.
     fn integral(&self, h: f64) -> Matrix {
         // Below this, seven terms of the power series give full precision.
-        const SHORT: f64 = 0.02;
+        const SERIES_LIMIT: f64 = 0.02;
         let [[a, b], [c, d]] = self.a;
         let size = (a.abs() + b.abs()).max(c.abs() + d.abs()) * h;
-        if size < SHORT {
+        if size < SERIES_LIMIT {
             let scaled = [[a * h, b * h], [c * h, d * h]];
             let mut sum = [[1.0, 0.0], [0.0, 1.0]];
             for k in (2..=8).rev() {
@@ -200,7 +200,7 @@ impl Linear {
     }
 }
 
-impl Change {
+impl Transition {
     /// The rises after it.
     pub fn of(&self, rise: Rise) -> Rise {
         let [p, q] = apply(&self.matrix, rise);

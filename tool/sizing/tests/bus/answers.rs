@@ -4,7 +4,7 @@ mod cures;
 mod judged;
 
 use jred_file::model::supply::{BrakeResistor, Supply};
-use jred_sizing::bus::answer::{Answer, Axis};
+use jred_sizing::bus::analysis::{BusAnalysis, BusAxis};
 use jred_sizing::bus::curve::PowerCurve;
 use jred_sizing::bus::supply::BusData;
 use jred_sizing::catalogue::{Catalogue, Motor};
@@ -26,8 +26,8 @@ const RESISTOR: BrakeResistor = BrakeResistor {
     pulse_energy: None,
 };
 
-fn answer(curves: &[PowerCurve], supply: &Supply, only_in_step: bool) -> Answer {
-    let axis = |curve: &PowerCurve| Axis {
+fn answer(curves: &[PowerCurve], supply: &Supply, only_in_step: bool) -> BusAnalysis {
+    let axis = |curve: &PowerCurve| BusAxis {
         title: String::new(),
         drive: String::new(),
         curve: curve.clone(),
@@ -35,5 +35,5 @@ fn answer(curves: &[PowerCurve], supply: &Supply, only_in_step: bool) -> Answer 
         holds: true,
     };
     let axes = curves.iter().map(axis).collect();
-    Answer::new(axes, only_in_step, supply, &Catalogue::default(), &()).unwrap()
+    BusAnalysis::new(axes, only_in_step, supply, &Catalogue::default(), &()).unwrap()
 }

@@ -16,7 +16,7 @@ use jred_sizing::cycle::Cycle;
 use jred_sizing::cycle::form::Coefficients;
 use jred_sizing::judge::Context;
 use jred_sizing::judge::check::Check;
-use jred_sizing::motor::envelope::Prepared;
+use jred_sizing::motor::envelope::MotorLimits;
 
 use super::{budget, near};
 use crate::support::press_text;
@@ -60,7 +60,7 @@ fn field_weakening_is_drawn_and_not_fed_back() {
         losses: [20.0, 8.0],
         ..Amplifier::default()
     };
-    let prepared = Prepared::new(&motor, Some(&amplifier), &site);
+    let prepared = MotorLimits::new(&motor, Some(&amplifier), &site);
     assert!(prepared.circuit.is_some_and(|circuit| circuit.weakens));
     let drive = Drive {
         motor: &motor,
@@ -122,7 +122,7 @@ fn resistance(amplifier: Option<f64>, supply: Option<f64>) -> Check {
         min_resistance: amplifier,
         ..Amplifier::default()
     };
-    let prepared = Prepared::new(&motor, Some(&amplifier), &site);
+    let prepared = MotorLimits::new(&motor, Some(&amplifier), &site);
     let drive = Drive {
         motor: &motor,
         gearbox: None,
@@ -183,7 +183,7 @@ fn unrated(chopper: f64, peak_power: Option<f64>, pulse_energy: Option<f64>) -> 
         },
         ..Site::default()
     };
-    let prepared = Prepared::new(&motor, None, &site);
+    let prepared = MotorLimits::new(&motor, None, &site);
     let drive = Drive {
         motor: &motor,
         gearbox: None,
@@ -231,7 +231,7 @@ fn the_energy_that_comes_back_is_said() {
         },
         ..Site::default()
     };
-    let prepared = Prepared::new(&motor, None, &site);
+    let prepared = MotorLimits::new(&motor, None, &site);
     let drive = Drive {
         motor: &motor,
         gearbox: None,
@@ -261,7 +261,7 @@ fn the_course_of_the_voltage_reaches_the_judged_figure() {
         },
         ..Site::default()
     };
-    let prepared = Prepared::new(&motor, None, &site);
+    let prepared = MotorLimits::new(&motor, None, &site);
     let drive = Drive {
         motor: &motor,
         gearbox: None,
@@ -279,7 +279,7 @@ fn the_course_of_the_voltage_reaches_the_judged_figure() {
     near("its length", last[0] - first[0], cycle.duration(), 1e-9);
     near("it repeats", last[1], first[1], 1e-9);
     site.bus_voltage = None;
-    let prepared = Prepared::new(&motor, None, &site);
+    let prepared = MotorLimits::new(&motor, None, &site);
     let context = Context::new(&cycle, &site, drive, &prepared);
     assert!(context.bus_voltage().is_empty());
 }
@@ -306,7 +306,7 @@ fn idling_in_the_weakened_field_is_not_free() {
         peak_current: 400.0,
         ..Amplifier::default()
     };
-    let prepared = Prepared::new(&motor, Some(&amplifier), &site);
+    let prepared = MotorLimits::new(&motor, Some(&amplifier), &site);
     let coefficients = Coefficients([0.0, 1.0, 1.0, 0.0, 0.0]);
     let current = prepared.current(0.0, 60.0).unwrap();
     assert!(current > 1.0, "{current} A weaken the field");
@@ -339,7 +339,7 @@ fn the_mean_power_of_a_resistor_is_its_energy_over_the_cycle() {
         },
         ..Site::default()
     };
-    let prepared = Prepared::new(&motor, None, &site);
+    let prepared = MotorLimits::new(&motor, None, &site);
     let drive = Drive {
         motor: &motor,
         gearbox: None,

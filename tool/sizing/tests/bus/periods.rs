@@ -1,6 +1,6 @@
 //! Common periods of cycles, and curves with fewer points.
 
-use jred_sizing::bus::axes::{Axes, Goal};
+use jred_sizing::bus::axes::{Axes, WorstCase};
 use jred_sizing::bus::curve::PowerCurve;
 use jred_sizing::bus::period::Common;
 use rand::rngs::ChaCha8Rng;
@@ -75,7 +75,7 @@ fn a_long_common_period_is_searched_with_fewer_points() {
             random.random_range(0.0..0.9),
         ];
         let figures = axes.at(&phases).unwrap();
-        for (goal, worst) in Goal::ALL.into_iter().zip(&worst) {
+        for (goal, worst) in WorstCase::ALL.into_iter().zip(&worst) {
             let [found, other] = [&worst.figures, &figures].map(|figures| goal.of(figures));
             assert!(
                 found >= other * (1.0 - budget::THREE_PHASES),

@@ -1,7 +1,7 @@
 //! The search over phases: closed forms, brute force, and cycles that meet late or never.
 
 use jred_file::model::supply::Supply;
-use jred_sizing::bus::axes::{Axes, Goal};
+use jred_sizing::bus::axes::{Axes, WorstCase};
 use jred_sizing::bus::curve::PowerCurve;
 use jred_sizing::bus::store::Bus;
 use jred_sizing::bus::supply::BusData;
@@ -56,7 +56,7 @@ fn brute(axes: &Axes, periods: &[f64], grid: i32) -> [f64; 4] {
                 phases.push(part(k, 2));
             }
             let figures = axes.at(&phases).unwrap();
-            for (most, goal) in most.iter_mut().zip(Goal::ALL) {
+            for (most, goal) in most.iter_mut().zip(WorstCase::ALL) {
                 *most = most.max(goal.of(&figures));
             }
         }
@@ -86,7 +86,7 @@ fn phases_by_brute_force() {
         let bounds = axes.bounds();
         let period = axes.power(&[0.0]).unwrap().period();
         let worst = axes.worst(&()).unwrap();
-        for ((goal, worst), most) in Goal::ALL.into_iter().zip(worst).zip(most) {
+        for ((goal, worst), most) in WorstCase::ALL.into_iter().zip(worst).zip(most) {
             let found = goal.of(&worst.figures);
             assert_eq!(worst.figures, axes.at(&worst.phases).unwrap());
             let case = format!("{periods:?} {goal:?}: {found}, by brute force {most}");

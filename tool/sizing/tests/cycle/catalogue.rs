@@ -12,7 +12,7 @@ use jred_file::model::site::Site;
 use jred_sizing::catalogue::Catalogue;
 use jred_sizing::cycle::Cycle;
 use jred_sizing::judge::{Context, Outcome};
-use jred_sizing::motor::envelope::Prepared;
+use jred_sizing::motor::envelope::MotorLimits;
 use jred_sizing::select::size::{Candidate, FIRST, Group, Selection};
 
 use crate::brute;
@@ -20,7 +20,7 @@ use crate::support::{budget, press_text};
 
 struct Ready {
     catalogue: Catalogue,
-    motors: Vec<Prepared>,
+    motors: Vec<MotorLimits>,
     cycle: Cycle,
     site: Site,
     rules: RuleSet,

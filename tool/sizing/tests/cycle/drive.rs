@@ -145,8 +145,9 @@ fn power_that_comes_back_is_known() {
     let cycle = Cycle::new(&press());
     let with = |coulomb: f64| Coefficients([1e-3, 1.0, 1.0, 0.0, coulomb]);
     let least = |coulomb: f64| {
-        let along =
-            |s: &jred_sizing::cycle::Sample| with(coulomb).torque(&s.loads()) * s.speed().signum();
+        let along = |s: &jred_sizing::cycle::LoadSample| {
+            with(coulomb).torque(&s.loads()) * s.speed().signum()
+        };
         let moving = cycle.samples().iter().filter(|s| s.speed() != 0.0);
         moving.map(along).fold(f64::INFINITY, f64::min)
     };

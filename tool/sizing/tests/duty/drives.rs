@@ -8,8 +8,8 @@ use jred_file::model::site::Site;
 use jred_sizing::catalogue::Drive;
 use jred_sizing::catalogue::{Catalogue, Gearbox, Motor};
 use jred_sizing::cycle::Cycle;
-use jred_sizing::judge::Judged;
-use jred_sizing::motor::envelope::Prepared;
+use jred_sizing::judge::Assessment;
+use jred_sizing::motor::envelope::MotorLimits;
 use jred_sizing::select::size::{Candidate, Certainty, Selection};
 
 use super::{catalogue, duty_of, read};
@@ -19,7 +19,7 @@ use crate::support::{budget, near, press_text, within};
 /// Data borrowed by a selection.
 struct Ready {
     catalogue: Catalogue,
-    motors: Vec<Prepared>,
+    motors: Vec<MotorLimits>,
     cycle: Cycle,
     site: Site,
     rules: RuleSet,
@@ -153,7 +153,7 @@ fn every_drive_by_brute_force() {
 }
 
 /// The rules for which the catalogue always has data.
-fn check_rules(judged: &Judged) {
+fn check_rules(judged: &Assessment) {
     let name = judged.drive.name();
     let of_motor = [
         Rule::RmsTorque,

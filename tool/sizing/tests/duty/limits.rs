@@ -3,8 +3,8 @@
 use jred_file::model::site::Site;
 use jred_sizing::catalogue::{Catalogue, Motor};
 use jred_sizing::cycle::Cycle;
+use jred_sizing::judge::Assessment;
 use jred_sizing::judge::Context;
-use jred_sizing::judge::Judged;
 use jred_sizing::motor::envelope::Envelope;
 
 use super::drives::drive;
@@ -142,7 +142,7 @@ fn assumptions_are_reported_exactly_where_a_figure_is_missing() {
     };
     let prepared = alone.prepare(&site);
     let context = Context::new(&cycle, &site, drive(&motor, None), &prepared[0]);
-    let judged = Judged::new(&context, &file.rules);
+    let judged = Assessment::new(&context, &file.rules);
     let expected = Envelope::of(&motor).assumptions();
     assert!(judged.assumptions.ends_with(&expected));
 }

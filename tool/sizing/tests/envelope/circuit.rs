@@ -3,7 +3,7 @@
 use jred_file::model::site::Site;
 use jred_sizing::catalogue::Commutation;
 use jred_sizing::catalogue::{Motor, Winding};
-use jred_sizing::motor::envelope::{Envelope, Prepared};
+use jred_sizing::motor::envelope::{Envelope, MotorLimits};
 
 use super::{RPM, bare, budget, near, servo, site};
 
@@ -171,7 +171,7 @@ fn the_sheets_voltage_says_whether_the_field_is_weakened() {
     // Largest line-to-line RMS voltage: 560 V/√2.
     let no_load = 560.0 / 2f64.sqrt() / (0.85 / 3f64.sqrt());
     let weakens = |motor: &Motor, bus: f64| {
-        let prepared = Prepared::new(motor, None, &site(bus));
+        let prepared = MotorLimits::new(motor, None, &site(bus));
         prepared.circuit.unwrap().weakens
     };
     for bus in [280.0, 560.0, 1120.0] {
@@ -185,7 +185,7 @@ fn the_sheets_voltage_says_whether_the_field_is_weakened() {
 /// Above the speed at which the magnets take the whole voltage there is no current in either direction; nor at a speed of NaN.
 #[test]
 fn beyond_the_no_load_speed_there_is_no_current() {
-    let circuit = Prepared::new(&servo(), None, &Site::default())
+    let circuit = MotorLimits::new(&servo(), None, &Site::default())
         .circuit
         .unwrap();
     assert!(!circuit.weakens);
@@ -207,7 +207,7 @@ fn a_sheet_beyond_its_winding_is_used() {
     motor.corner_speed = Some(200.0);
     // 20 A at 0.4 Ω, and 0.05 V·s/rad at the corner: 18 V, and so 360 rad/s without a load.
     let from_winding = |motor: &Motor| {
-        Prepared::new(motor, None, &Site::default())
+        MotorLimits::new(motor, None, &Site::default())
             .circuit
             .is_some()
     };
@@ -307,7 +307,7 @@ fn weakening_is_said_either_way() {
             max_speed: Some(rpm * RPM),
             ..servo()
         };
-        let prepared = Prepared::new(&motor, None, &Site::default());
+        let prepared = MotorLimits::new(&motor, None, &Site::default());
         assert_eq!(prepared.circuit.unwrap().weakens, weakens);
         let said = prepared.envelope.assumptions().join("; ");
         assert_eq!(

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use jred_file::model::site::Site;
 use jred_sizing::catalogue::Commutation;
 use jred_sizing::catalogue::Winding;
-use jred_sizing::motor::envelope::Prepared;
+use jred_sizing::motor::envelope::MotorLimits;
 use jred_sizing::motor::winding::CurrentCurve;
 
 use super::{RPM, bare, budget, near, servo};
@@ -118,7 +118,7 @@ fn the_constant_comes_from_currents_where_it_is_not_stated() {
 fn weakening_the_field_takes_current_of_its_own() {
     let mut motor = servo();
     motor.max_speed = Some(9000.0 * RPM);
-    let prepared = Prepared::new(&motor, None, &Site::default());
+    let prepared = MotorLimits::new(&motor, None, &Site::default());
     let slow = prepared.current(1.0, 1000.0 * RPM).unwrap();
     near(slow, 1.0 / 0.85, budget::CLOSED_FORM);
     let speed = 0.98 * prepared.envelope.max_speed();

@@ -2,7 +2,7 @@
 //! range. The limit itself is solved here from the quadratic of docs/motor-limits.md by bisection.
 
 use jred_sizing::catalogue::{Commutation, Motor, Winding};
-use jred_sizing::motor::envelope::{Envelope, Piece, Shape};
+use jred_sizing::motor::envelope::{Curvature, Envelope, LimitPiece};
 
 use super::{bare, budget, near};
 
@@ -152,7 +152,7 @@ fn lines() -> [Line; 5] {
     ]
 }
 
-fn at_cut(pieces: &[Piece], speed: f64, within: f64) -> bool {
+fn at_cut(pieces: &[LimitPiece], speed: f64, within: f64) -> bool {
     pieces
         .iter()
         .any(|piece| (piece.from - speed).abs() <= within)
@@ -191,13 +191,13 @@ fn it_is_cut_where_it_leaves_the_current_limit_and_where_saturation_begins() {
             line.speed_of(line.knee / line.constant()),
         );
         assert!(level > 0.0 && knee > 1.1 * level && knee < 0.99 * line.no_load_speed());
-        assert_eq!(pieces[0].shape, Shape::Straight);
+        assert_eq!(pieces[0].shape, Curvature::Straight);
         near(pieces[0].to, level, budget::PIECE_JOINT);
         near(pieces[0].torque(0.0), line.peak_torque, budget::PIECE_JOINT);
         assert!(
             pieces[1..]
                 .iter()
-                .all(|piece| piece.shape != Shape::Straight)
+                .all(|piece| piece.shape != Curvature::Straight)
         );
         assert!(at_cut(pieces, knee, budget::PIECE_JOINT * knee));
     }
@@ -213,16 +213,16 @@ fn it_is_concave_where_the_resistance_decides_and_near_no_load() {
     let envelope = line.envelope();
     let pieces = envelope.limit(false).pieces();
     let first = pieces[0];
-    assert_eq!(first.shape, Shape::Concave);
+    assert_eq!(first.shape, Curvature::Concave);
     // Two of 128 steps up to 2·r/x′; the effect of k_e·n is less than 1 %.
     near(first.to, turning, 0.06);
     let shape_at = |speed: f64| {
         let piece = pieces.iter().find(|piece| speed <= piece.to).unwrap();
         piece.shape
     };
-    assert_eq!(shape_at(3.0 * turning), Shape::Monotone);
-    assert_eq!(shape_at(0.1 * end), Shape::Monotone);
-    assert_eq!(shape_at(0.98 * end), Shape::Concave);
+    assert_eq!(shape_at(3.0 * turning), Curvature::Monotone);
+    assert_eq!(shape_at(0.1 * end), Curvature::Monotone);
+    assert_eq!(shape_at(0.98 * end), Curvature::Concave);
 }
 
 /// There is a cut at the maximum of braking, within the step of the search; on either side the limit is monotonic.

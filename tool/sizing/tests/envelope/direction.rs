@@ -3,7 +3,7 @@
 use jred_file::model::site::Site;
 use jred_file::units::RPM;
 use jred_sizing::catalogue::Motor;
-use jred_sizing::motor::envelope::{Envelope, Limit, Piece, Prepared};
+use jred_sizing::motor::envelope::{Envelope, Limit, LimitPiece, MotorLimits};
 
 use super::{bare, near, servo};
 use crate::support::budget;
@@ -13,7 +13,7 @@ use crate::support::budget;
 fn the_current_does_not_depend_on_the_direction() {
     let mut motor = servo();
     motor.max_speed = Some(9000.0 * RPM);
-    let prepared = Prepared::new(&motor, None, &Site::default());
+    let prepared = MotorLimits::new(&motor, None, &Site::default());
     let fastest = prepared.envelope.max_speed();
     let mut weakened = 0;
     for share in [0.1, 0.5, 0.9, 0.98] {
@@ -43,7 +43,7 @@ fn levels_and_lines() {
     }
     let cut = level.pieces()[0].cut(3.0, f64::INFINITY);
     assert_eq!(cut.torque(f64::INFINITY), 5.0);
-    let line = Piece::line([10.0, 6.0], [40.0, 0.0]);
+    let line = LimitPiece::line([10.0, 6.0], [40.0, 0.0]);
     for (speed, torque) in [(10.0, 6.0), (25.0, 3.0), (40.0, 0.0)] {
         near(line.torque(speed), torque, budget::CLOSED_FORM);
         near(
@@ -54,10 +54,10 @@ fn levels_and_lines() {
     }
     // From rest to speed zero: a step, not a slope.
     assert_eq!(
-        Piece::line([0.0, 5.0], [f64::INFINITY, 5.0]).torque(1e9),
+        LimitPiece::line([0.0, 5.0], [f64::INFINITY, 5.0]).torque(1e9),
         5.0
     );
-    let lower = level.min(&Limit::new([Piece::level(0.0, 10.0, 7.0), line]));
+    let lower = level.min(&Limit::new([LimitPiece::level(0.0, 10.0, 7.0), line]));
     for (speed, torque) in [
         (0.0, 5.0),
         (12.0, 5.0),

@@ -5,7 +5,7 @@ use std::ops::RangeInclusive;
 use jred_file::model::site::Site;
 use jred_sizing::catalogue::Commutation;
 use jred_sizing::catalogue::{Motor, Thermal, Winding};
-use jred_sizing::motor::envelope::{Envelope, Prepared};
+use jred_sizing::motor::envelope::{Envelope, MotorLimits};
 
 use super::{RPM, bare, budget, near};
 
@@ -51,7 +51,7 @@ fn a_small_brushless_motor_runs_as_its_maker_says() {
             },
             ..bare()
         };
-        let prepared = Prepared::new(&motor, None, &Site::default());
+        let prepared = MotorLimits::new(&motor, None, &Site::default());
         let envelope = &prepared.envelope;
         near(
             envelope.peak_torque(1.0, 0.0),

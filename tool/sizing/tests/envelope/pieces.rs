@@ -2,7 +2,7 @@
 
 use jred_sizing::catalogue::Commutation;
 use jred_sizing::catalogue::{Motor, Winding};
-use jred_sizing::motor::envelope::{Envelope, Limit, Piece, Shape};
+use jred_sizing::motor::envelope::{Curvature, Envelope, Limit, LimitPiece};
 use proptest::prelude::*;
 
 use super::{bare, budget};
@@ -45,7 +45,7 @@ fn motors() -> impl Strategy<Value = Motor> {
         })
 }
 
-fn shape_holds(piece: &Piece, scale: f64) -> Result<(), TestCaseError> {
+fn shape_holds(piece: &LimitPiece, scale: f64) -> Result<(), TestCaseError> {
     // Effect of the rounding of the speed on the torque.
     let rise = (piece.torque(piece.to) - piece.torque(piece.from)).abs();
     let rounding = 8.0 * f64::EPSILON * piece.to * rise / (piece.to - piece.from);
@@ -55,17 +55,17 @@ fn shape_holds(piece: &Piece, scale: f64) -> Result<(), TestCaseError> {
         let [low, high] = [f64::from(j) / 40.0, f64::from(j + 1) / 40.0];
         let [first, middle, last] = [at(low), at(0.5 * (low + high)), at(high)];
         match piece.shape {
-            Shape::Straight => {
+            Curvature::Straight => {
                 prop_assert!((middle - 0.5 * (first + last)).abs() <= slack);
             }
-            Shape::Concave => {
+            Curvature::Concave => {
                 prop_assert!(
                     middle >= 0.5 * (first + last) - slack,
                     "{piece:?} {low} {:e}",
                     (0.5 * (first + last) - middle) / scale
                 );
             }
-            Shape::Monotone => {
+            Curvature::Monotone => {
                 prop_assert!(middle >= first.min(last) - slack, "{piece:?} {low}");
                 let falls = at(1.0) <= at(0.0);
                 let along = if falls {

@@ -2,7 +2,7 @@
 
 use jred_sizing::catalogue::Commutation;
 use jred_sizing::catalogue::{Motor, Winding};
-use jred_sizing::motor::envelope::{Envelope, Prepared};
+use jred_sizing::motor::envelope::{Envelope, MotorLimits};
 use proptest::prelude::*;
 
 use super::{amplifier, bare, site};
@@ -91,7 +91,7 @@ proptest! {
         torque in odd(),
     ) {
         let amplifier = amplifier(current, Some(bus));
-        let prepared = Prepared::new(&motor, amplified.then_some(&amplifier), &site(bus));
+        let prepared = MotorLimits::new(&motor, amplified.then_some(&amplifier), &site(bus));
         let envelope = &prepared.envelope;
         let own = [0.0, 0.5, 1.0].map(|share| share * envelope.max_speed());
         let ends = [false, true].map(|braking| envelope.limit(braking).pieces().to_vec()).concat();

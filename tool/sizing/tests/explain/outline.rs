@@ -11,9 +11,9 @@ use jred_file::model::rule::Rule;
 use jred_file::model::rules::{InertiaOf, Limit, RuleSet, RuleVerdict};
 use jred_sizing::catalogue::{Amplifier, Drive, Gearbox, Motor, Winding};
 use jred_sizing::cycle::Cycle;
-use jred_sizing::explain::{Alteration, Altered};
+use jred_sizing::explain::{Alteration, DutyModel};
 use jred_sizing::judge::{Context, Findings};
-use jred_sizing::motor::envelope::Prepared;
+use jred_sizing::motor::envelope::MotorLimits;
 use proptest::prelude::*;
 use proptest::test_runner::{RngAlgorithm, TestRng, TestRunner};
 
@@ -91,7 +91,7 @@ fn directly(
     duty: &Duty,
     file: &MachineFile,
     drive: Drive,
-    limits: &Prepared,
+    limits: &MotorLimits,
     rules: &RuleSet,
 ) -> Findings {
     let cycle = Cycle::new(duty);
@@ -145,7 +145,7 @@ fn what_an_outline_violates_is_violated() {
                 instant.weight = 0.0;
             }
         }
-        let altered = Altered::new(&file, &duty).unwrap();
+        let altered = DutyModel::new(&file, &duty).unwrap();
         let [time, mass, process] = by.map(|x| 10f64.powf(x));
         let by = Alteration {
             time,
@@ -162,7 +162,7 @@ fn what_an_outline_violates_is_violated() {
             gearbox: Some(&gearbox).filter(|_| geared),
             amplifier: Some(&amplifier).filter(|_| amplified),
         };
-        let limits = Prepared::new(&motor, drive.amplifier, &file.site);
+        let limits = MotorLimits::new(&motor, drive.amplifier, &file.site);
         let rules = rules(of, share);
         let [some, all] =
             [&outline, &whole].map(|duty| directly(duty, &file, drive, &limits, &rules));
@@ -233,7 +233,7 @@ fn moves_between_two_weighted_instants_count() {
     // Eleven times there and back, in sixteen steps.
     let duty = Duty::new(&file, file.motion.as_ref().unwrap(), 16).unwrap();
     let moves = duty.mechanics.moves;
-    let altered = Altered::new(&file, &duty).unwrap();
+    let altered = DutyModel::new(&file, &duty).unwrap();
     let by = Alteration {
         time: 2.0,
         ..Alteration::default()

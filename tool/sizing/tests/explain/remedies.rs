@@ -9,7 +9,7 @@ use jred_file::model::rules::{Limit, RuleSet};
 use jred_sizing::catalogue::Catalogue;
 use jred_sizing::catalogue::Drive;
 use jred_sizing::cycle::Cycle;
-use jred_sizing::explain::{Altered, Lever, Remedies, Remedy};
+use jred_sizing::explain::{DutyModel, Lever, Remedies, Remedy};
 use jred_sizing::judge::Context;
 use jred_sizing::select::size::Selection;
 
@@ -61,7 +61,7 @@ fn ranges_of_a_wheel_in_closed_form() {
     let catalogue = Catalogue::load(Some(&motors), None).unwrap();
     let file = parse(WHEEL);
     let duty = duty_of(&file);
-    let altered = Altered::new(&file, &duty).unwrap();
+    let altered = DutyModel::new(&file, &duty).unwrap();
     let prepared = catalogue.prepare(&file.site);
     let drive = Drive {
         motor: &catalogue.motors[0],
@@ -131,7 +131,7 @@ fn no_value_helps_where_the_rotor_alone_is_too_heavy() {
     let catalogue = Catalogue::load(Some(&motors), None).unwrap();
     let file = parse(WHEEL);
     let duty = duty_of(&file);
-    let altered = Altered::new(&file, &duty).unwrap();
+    let altered = DutyModel::new(&file, &duty).unwrap();
     let prepared = catalogue.prepare(&file.site);
     let drive = Drive {
         motor: &catalogue.motors[0],
@@ -182,7 +182,7 @@ fn a_peak_between_the_steps_ends_the_range() {
     let catalogue = Catalogue::load(Some(&motors), None).unwrap();
     let file = parse(WHEEL);
     let duty = Duty::new(&file, file.motion.as_ref().unwrap(), 32).unwrap();
-    let altered = Altered::new(&file, &duty).unwrap();
+    let altered = DutyModel::new(&file, &duty).unwrap();
     let mut rules = only_rms();
     rules.set(Rule::RmsTorque, Limit::default());
     let fail = Some(0.1);
@@ -210,7 +210,7 @@ fn what_is_missed_is_what_the_ranking_goes_by() {
     let catalogue = Catalogue::load(Some(&motors), None).unwrap();
     let file = parse(WHEEL);
     let duty = duty_of(&file);
-    let altered = Altered::new(&file, &duty).unwrap();
+    let altered = DutyModel::new(&file, &duty).unwrap();
     let prepared = catalogue.prepare(&file.site);
     let drive = Drive {
         motor: &catalogue.motors[0],
@@ -246,7 +246,7 @@ fn a_change_written_into_the_machine_file_does_what_was_said() {
     let motors = catalogue.prepare(&file.site);
     let cycle = Cycle::new(&duty);
     let selection = Selection::new(&catalogue, &motors, &cycle, &file.site, &file.rules);
-    let altered = Altered::new(&file, &duty).unwrap();
+    let altered = DutyModel::new(&file, &duty).unwrap();
     let all = Remedies::of_nearest(&selection, &altered, 3).unwrap();
     assert_eq!(all.len(), 3);
     let mut checked = 0;
@@ -318,7 +318,7 @@ fn nobody_is_told_to_make_the_machine_heavier() {
     let catalogue = Catalogue::load(Some(&motors), None).unwrap();
     let file = parse(WHEEL);
     let duty = duty_of(&file);
-    let altered = Altered::new(&file, &duty).unwrap();
+    let altered = DutyModel::new(&file, &duty).unwrap();
     let prepared = catalogue.prepare(&file.site);
     let drive = Drive {
         motor: &catalogue.motors[0],

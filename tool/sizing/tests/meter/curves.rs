@@ -3,7 +3,7 @@
 use jred::duty::{Curve, MAX_POINTS};
 use jred_sizing::catalogue::Commutation;
 use jred_sizing::catalogue::{Catalogue, Motor, Winding};
-use jred_sizing::meter::{Below, continuous, peak};
+use jred_sizing::meter::{LowerCurve, continuous, peak};
 use jred_sizing::motor::envelope::Envelope;
 use proptest::prelude::*;
 
@@ -12,7 +12,7 @@ use crate::support::budget;
 const SPEEDS: u32 = 10_000;
 
 /// Checks a curve against the limit at many speeds, its own points and their neighbours.
-fn holds(what: &str, curve: &Below, end: f64, limit: impl Fn(f64) -> f64) {
+fn holds(what: &str, curve: &LowerCurve, end: f64, limit: impl Fn(f64) -> f64) {
     assert!((1..=MAX_POINTS).contains(&curve.points.len()), "{curve:?}");
     let read = Curve::new(&curve.points).unwrap();
     let even = (0..SPEEDS).map(|k| (1.01 * end * f64::from(k) / f64::from(SPEEDS)) as f32);

@@ -2,7 +2,7 @@
 
 use jred_file::model::rules::{Limit, RuleVerdict};
 use jred_sizing::catalogue::Amplifier;
-use jred_sizing::judge::{Judged, Outcome, cure};
+use jred_sizing::judge::{Assessment, Outcome, cure};
 
 use super::{Context, Drive, Rule, RuleSet, Stand, near, press_text};
 
@@ -43,7 +43,7 @@ fn a_judged_drive_in_figures() {
     let judged = |stand: &Stand| {
         let prepared = stand.prepared();
         let context = Context::new(&stand.cycle, &stand.file.site, stand.drive(true), &prepared);
-        let judged = Judged::new(&context, &stand.file.rules);
+        let judged = Assessment::new(&context, &stand.file.rules);
         let found = context
             .findings(&stand.file.rules)
             .get(Rule::Speed)

@@ -4,7 +4,7 @@ use jred_file::model::rule::Rule;
 use jred_file::model::rules::Finding;
 use jred_sizing::catalogue::{Amplifier, Drive};
 use jred_sizing::judge::Context;
-use jred_sizing::motor::envelope::Prepared;
+use jred_sizing::motor::envelope::MotorLimits;
 
 use super::Stand;
 
@@ -18,7 +18,7 @@ fn found(torque_constant: Option<f64>, rated: f64, peak_time: Option<f64>) -> Fi
         ..Amplifier::default()
     };
     let site = &stand.file.site;
-    let prepared = Prepared::new(&stand.motor, Some(&amplifier), site);
+    let prepared = MotorLimits::new(&stand.motor, Some(&amplifier), site);
     let drive = Drive {
         amplifier: Some(&amplifier),
         ..stand.drive(true)

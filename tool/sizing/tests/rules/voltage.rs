@@ -7,7 +7,7 @@ use jred_file::model::rules::RuleVerdict;
 use jred_file::model::site::Site;
 use jred_sizing::bus::supply::BusData;
 use jred_sizing::catalogue::{Amplifier, Basis, Catalogue, Drive, Motor};
-use jred_sizing::motor::envelope::{Envelope, Prepared};
+use jred_sizing::motor::envelope::{Envelope, MotorLimits};
 use jred_sizing::select::rank::{Objective, rank};
 use jred_sizing::select::size::{Certainty, Selection};
 
@@ -205,7 +205,7 @@ fn findings(stand: &Stand, amplifier: &Amplifier) -> [Option<Finding>; 2] {
         ..stand.drive(true)
     };
     let site = &stand.file.site;
-    let prepared = Prepared::new(&stand.motor, None, site);
+    let prepared = MotorLimits::new(&stand.motor, None, site);
     let prepared = prepared.with(&stand.motor, std::iter::once(amplifier), site);
     let context = Context::new(&stand.cycle, site, drive, &prepared);
     let found = context.findings(&stand.file.rules);
@@ -402,7 +402,7 @@ fn a_part_unfit_for_the_supply_is_named() {
         let motor = motor(motor_class, None, None);
         let amplifier = amplifier_class.map(amplifier);
         let rules = RuleSet::default();
-        Prepared::new(&motor, amplifier.as_ref(), &site).unfit(&rules)
+        MotorLimits::new(&motor, amplifier.as_ref(), &site).unfit(&rules)
     };
     let [low, high] = [Some(200.0), Some(400.0)];
     let said = |found: Option<String>, part: &str| {
@@ -428,7 +428,7 @@ fn the_supply_of_an_amplifier_is_said() {
     let mut stand = Stand::press();
     stand.motor.max_bus_voltage = Some(900.0);
     let note = |amplifier: &Amplifier| {
-        let prepared = Prepared::new(&stand.motor, Some(amplifier), &stand.file.site);
+        let prepared = MotorLimits::new(&stand.motor, Some(amplifier), &stand.file.site);
         let drive = Drive {
             amplifier: Some(amplifier),
             ..stand.drive(true)

@@ -4,7 +4,7 @@ use jred_file::model::rules::RuleVerdict;
 use jred_file::model::supply::BrakeResistor;
 use jred_file::units::RPM;
 use jred_sizing::catalogue::{Amplifier, Motor};
-use jred_sizing::motor::envelope::Prepared;
+use jred_sizing::motor::envelope::MotorLimits;
 
 use super::{Check, Context, Drive, Finding, Rule, RuleSet, Stand, near, press_text};
 
@@ -61,7 +61,7 @@ fn full() -> (Stand, Amplifier) {
 fn judged(change: impl Fn(&mut Stand, &mut Amplifier)) -> Vec<(Rule, Finding, Check)> {
     let (mut stand, mut amplifier) = full();
     change(&mut stand, &mut amplifier);
-    let prepared = Prepared::new(&stand.motor, Some(&amplifier), &stand.file.site);
+    let prepared = MotorLimits::new(&stand.motor, Some(&amplifier), &stand.file.site);
     let drive = Drive {
         amplifier: Some(&amplifier),
         ..stand.drive(true)

@@ -13,8 +13,8 @@ use jred_file::model::supply::BrakeResistor;
 use jred_sizing::catalogue::{Catalogue, Drive, Sources};
 use jred_sizing::cycle::Cycle;
 use jred_sizing::judge::check::Check;
-use jred_sizing::judge::{Context, Judged};
-use jred_sizing::motor::envelope::Prepared;
+use jred_sizing::judge::{Assessment, Context};
+use jred_sizing::motor::envelope::MotorLimits;
 use jred_sizing::select::rank::{Objective, rank};
 use jred_sizing::select::size::{Certainty, Selection};
 
@@ -162,7 +162,7 @@ fn drives_stand_in_the_order_in_which_a_buyer_takes_them() {
                     };
                     let context = Context::new(&cycle, &file.site, drive, limits)
                         .with_resistors(&catalogue.resistors);
-                    let checks = Judged::new(&context, &file.rules).checks;
+                    let checks = Assessment::new(&context, &file.rules).checks;
                     let verdicts: Vec<RuleVerdict> = checks.iter().map(|c| c.verdict).collect();
                     if !verdicts.contains(&RuleVerdict::Fail) {
                         expected.push((keys(&drive), verdicts.contains(&RuleVerdict::Warn)));
@@ -203,7 +203,7 @@ fn bears(
     file: &MachineFile,
     cycle: &Cycle,
     drive: Drive,
-    limits: &Prepared,
+    limits: &MotorLimits,
     with: Option<BrakeResistor>,
 ) -> bool {
     let mut site = file.site.clone();

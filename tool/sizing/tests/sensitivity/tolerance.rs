@@ -9,7 +9,7 @@ use jred_sizing::select::filter::Filter;
 use jred_sizing::study::cell::Cell;
 use jred_sizing::study::chosen::ChosenDrive;
 use jred_sizing::study::common::Study;
-use jred_sizing::study::task::Task as _;
+use jred_sizing::study::task::RowSource as _;
 use jred_sizing::study::tolerance::summary::{Probability, quantile};
 use jred_sizing::study::tolerance::{Samples, Scatter};
 

@@ -14,7 +14,7 @@ use jred_sizing::catalogue::{Amplifier, Gearbox, Motor, Thermal, Winding};
 use jred_sizing::cycle::Cycle;
 use jred_sizing::judge::Context;
 use jred_sizing::judge::check::Check;
-use jred_sizing::motor::envelope::Prepared;
+use jred_sizing::motor::envelope::MotorLimits;
 use jred_sizing::motor::winding::COPPER;
 use jred_sizing::thermal::{Load, Model};
 
@@ -65,7 +65,7 @@ fn amplifier() -> Amplifier {
 
 fn checks(motor: &Motor, amplifier: Option<&Amplifier>, site: &Site) -> Vec<Check> {
     let cycle = cycle();
-    let prepared = Prepared::new(motor, amplifier, site);
+    let prepared = MotorLimits::new(motor, amplifier, site);
     let drive = Drive {
         motor,
         gearbox: None,
@@ -241,7 +241,7 @@ fn the_housing_keeps_its_limit_where_it_is_known() {
 #[test]
 fn the_course_of_the_temperatures_reaches_the_judged_figure() {
     let (motor, site, cycle) = (motor(), Site::default(), cycle());
-    let prepared = Prepared::new(&motor, None, &site);
+    let prepared = MotorLimits::new(&motor, None, &site);
     let drive = Drive {
         motor: &motor,
         gearbox: None,
@@ -362,7 +362,7 @@ fn losses_behind_a_gearbox_are_at_the_speed_of_the_motor() {
         gearbox: Some(&gearbox),
         amplifier: None,
     };
-    let prepared = Prepared::new(&motor, None, &site);
+    let prepared = MotorLimits::new(&motor, None, &site);
     let coefficients = drive.coefficients();
     let load = Load {
         cycle: &cycle,

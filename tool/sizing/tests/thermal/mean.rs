@@ -7,7 +7,7 @@ use jred_sizing::catalogue::Commutation;
 use jred_sizing::catalogue::{Motor, Winding};
 use jred_sizing::cycle::Cycle;
 use jred_sizing::cycle::form::Coefficients;
-use jred_sizing::motor::envelope::Prepared;
+use jred_sizing::motor::envelope::MotorLimits;
 use jred_sizing::thermal::mean::rms_current;
 use jred_sizing::thermal::{Load, Model};
 use proptest::prelude::*;
@@ -110,7 +110,7 @@ fn relative_losses_are_those_of_a_plain_loop() {
     let every = (duty(), coefficients(), 0.2..300.0, motor());
     let check = |(duty, c, ratio, motor): (_, Coefficients, f64, Motor)| {
         let cycle = Cycle::new(&duty);
-        let prepared = Prepared::new(&motor, None, &Site::default());
+        let prepared = MotorLimits::new(&motor, None, &Site::default());
         let envelope = &prepared.envelope;
         // Ratios that stay within the curve, reach its end or exceed it.
         let ratio = ratio / cycle.peak_speed().max(1e-3);
@@ -153,7 +153,7 @@ fn a_level_s1_torque_leaves_the_rms() {
             rated_torque: Some(2.0),
             ..Motor::default()
         };
-        let prepared = Prepared::new(&motor, None, &Site::default());
+        let prepared = MotorLimits::new(&motor, None, &Site::default());
         let model = Model::of(&motor, &prepared, &Surroundings::default(), 1.0).unwrap();
         let found = model.mean_losses(&Load {
             cycle: &cycle,
@@ -200,7 +200,7 @@ fn rms_currents_are_those_of_a_plain_loop() {
             },
             ..Motor::default()
         };
-        let prepared = Prepared::new(&motor, None, &Site::default());
+        let prepared = MotorLimits::new(&motor, None, &Site::default());
         let ratio = 24.0 / slope / cycle.peak_speed().max(1e-3);
         let found = rms_current(&cycle, &c, ratio, &prepared).unwrap();
         let (mut squares, mut largest) = (0.0, 0.0f64);
@@ -235,7 +235,7 @@ fn an_instant_without_weight_adds_no_current() {
             },
             ..Motor::default()
         };
-        let prepared = Prepared::new(&motor, None, &Site::default());
+        let prepared = MotorLimits::new(&motor, None, &Site::default());
         prop_assert!(prepared.circuit.as_ref().is_some_and(|c| c.weakens));
         let mut more = duty.clone();
         let instant = Instant {
@@ -262,7 +262,7 @@ fn a_curve_of_one_point_is_level() {
             ..Motor::default()
         };
         let cycle = Cycle::new(&duty);
-        let prepared = Prepared::new(&motor, None, &Site::default());
+        let prepared = MotorLimits::new(&motor, None, &Site::default());
         let model = Model::of(&motor, &prepared, &Surroundings::default(), 1.0).unwrap();
         let load = Load {
             cycle: &cycle,

@@ -9,8 +9,8 @@ use jred_file::model::site::Site;
 use jred_file::model::surroundings::Surroundings;
 use jred_sizing::catalogue::{Drive, Motor, Thermal};
 use jred_sizing::cycle::Cycle;
-use jred_sizing::motor::envelope::Prepared;
-use jred_sizing::thermal::course::Hottest;
+use jred_sizing::motor::envelope::MotorLimits;
+use jred_sizing::thermal::loss_curve::PeakRise;
 use jred_sizing::thermal::network::Losses;
 use jred_sizing::thermal::{Load, Model, allowed_rise};
 
@@ -36,7 +36,7 @@ fn the_rise_is_the_mean_of_the_shares() {
         },
         ..Motor::default()
     };
-    let mean = |motor: &Motor, prepared: &Prepared| {
+    let mean = |motor: &Motor, prepared: &MotorLimits| {
         let drive = Drive {
             motor,
             gearbox: None,
@@ -53,7 +53,7 @@ fn the_rise_is_the_mean_of_the_shares() {
     };
     for time in [None, Some(300.0)] {
         let motor = motor(time);
-        let prepared = Prepared::new(&motor, None, &Site::default());
+        let prepared = MotorLimits::new(&motor, None, &Site::default());
         let drive = Drive {
             motor: &motor,
             gearbox: None,
@@ -81,8 +81,8 @@ fn the_rise_is_the_mean_of_the_shares() {
             assert!(heating.relative && !heating.housing);
             assert_eq!(heating.ripple, time.is_some());
             match heating.hottest {
-                Hottest::Rise([rise, _]) => Some(rise),
-                Hottest::Runaway => panic!("runaway"),
+                PeakRise::Rise([rise, _]) => Some(rise),
+                PeakRise::Runaway => panic!("runaway"),
             }
         };
         // The ripple of half a second in 300 s, and linear interpolation between samples.

@@ -8,7 +8,7 @@ use super::motor_coordinate;
 use crate::commands::core_error::core_report;
 use crate::commands::{quantity, rate};
 use crate::options::fastest::Fastest as Options;
-use crate::options::retime::Ends;
+use crate::options::retime::EndAcceleration;
 use jred::Domain;
 use jred::machine::Mechanism as _;
 use jred_analysis::reduce::joints_with_force;
@@ -21,7 +21,7 @@ use jred_file::number::words::counted;
 use jred_file::plain;
 use jred_file::text::key::{ACCELERATIONS, EFFORT, EFFORT_RATES, JERKS, SPEED};
 use jred_motion::fastest::tool_speed::MOST;
-use jred_motion::fastest::{JointForces, Limits, ToolSpeed, ToolSpeeds};
+use jred_motion::fastest::{JointForces, MoveLimits, ToolSpeed, ToolSpeeds};
 
 /// The given options, except moves, drive and reserve, which the answer contains anyway.
 fn asked(options: &Options) -> Vec<String> {
@@ -52,8 +52,8 @@ fn asked(options: &Options) -> Vec<String> {
 pub(super) fn limits(
     options: &Options,
     file: &MachineFile,
-    gearbox: &Limits,
-) -> Result<(Limits, Vec<String>)> {
+    gearbox: &MoveLimits,
+) -> Result<(MoveLimits, Vec<String>)> {
     let axis = file.axis();
     let read = |name: &str, text: &Option<String>, argument: Argument| {
         rate(name, text.as_deref(), argument, &axis)
@@ -76,14 +76,14 @@ pub(super) fn limits(
         motor_coordinate(file),
     )?;
     let has_rates = jerk.is_some() || torque_rate.is_some();
-    if options.ends == Some(Ends::Zero) && !has_rates {
+    if options.ends == Some(EndAcceleration::Zero) && !has_rates {
         return Err(miette!(
             help = "give --max-jerk or --max-torque-rate as well",
             "--ends zero alone has no fastest motion: the faster the acceleration rises from zero, the less time the motion takes"
         ));
     }
     let (tool, words) = tool_speeds(&options.max_tool_speed, file)?;
-    let limits = Limits {
+    let limits = MoveLimits {
         speed: read("max-speed", &options.max_speed, Argument::positive(SPEED))?,
         tool,
         forces: forces(&options.max_reaction, file)?,
@@ -91,7 +91,7 @@ pub(super) fn limits(
         deceleration: deceleration.or(acceleration),
         jerk,
         torque_rate,
-        level_ends: has_rates && options.ends != Some(Ends::Free),
+        level_ends: has_rates && options.ends != Some(EndAcceleration::Free),
         ..*gearbox
     };
     Ok((limits, asked(options).into_iter().chain(words).collect()))

@@ -5,19 +5,19 @@ use miette::{Result, miette};
 use jred_file::model::machine::MachineFile;
 use jred_file::number::rounding::short;
 use jred_motion::fastest::cycle::{Cycle, cycle, endless, single};
-use jred_motion::fastest::{Limits, NoMotion, Rms, Task};
+use jred_motion::fastest::{MoveLimits, NoMotion, Rms, Task};
 use jred_motion::moves::{Chain, NoMoves, Part, chain};
-use jred_motion::way::Actuator;
+use jred_motion::path_dynamics::Actuator;
 
 /// The motion to optimise.
-pub(super) enum Motion {
+pub(super) enum MotionInput {
     /// One move.
     Move(Box<Task>),
     /// The motion of the file.
     Chain(Chain),
 }
 
-impl Motion {
+impl MotionInput {
     /// The parts of the file's motion.
     pub(super) const fn chain(&self) -> Option<&Chain> {
         match self {
@@ -31,7 +31,7 @@ impl Motion {
         &self,
         file: &MachineFile,
         actuator: &Actuator,
-        limits: &Limits,
+        limits: &MoveLimits,
         rms: Option<Rms>,
     ) -> Result<Cycle, (Option<usize>, NoMotion)> {
         match self {
@@ -56,7 +56,11 @@ impl Motion {
 }
 
 /// The moves of the file's motion.
-pub(super) fn of_motion(file: &MachineFile, limits: &Limits, rms: Option<Rms>) -> Result<Motion> {
+pub(super) fn of_motion(
+    file: &MachineFile,
+    limits: &MoveLimits,
+    rms: Option<Rms>,
+) -> Result<MotionInput> {
     let motion = file.motion_or("give --from and --to, or ")?;
     let chain = chain(motion, &file.process()).map_err(|why| match why {
         NoMoves::Still => miette!(
@@ -88,5 +92,5 @@ pub(super) fn of_motion(file: &MachineFile, limits: &Limits, rms: Option<Rms>) -
             file.name
         ));
     }
-    Ok(Motion::Chain(chain))
+    Ok(MotionInput::Chain(chain))
 }

@@ -2,13 +2,13 @@
 
 use miette::{Result, miette};
 
-use super::Chosen;
+use super::DriveInput;
 use crate::options::fastest::Fastest as Options;
 use crate::output;
 use jred_file::argument;
 use jred_file::number::rounding::short;
 use jred_file::plain;
-use jred_motion::fastest::winding::{Unknown, Winding};
+use jred_motion::fastest::winding::{UnknownTemperature, Winding};
 use jred_sizing::catalogue::MotorKind;
 
 /// The winding whose temperature is limited, and the limit (°C).
@@ -17,7 +17,7 @@ use jred_sizing::catalogue::MotorKind;
 /// A limit below the ambient temperature, or a motor without thermal data.
 pub(super) fn limit<'a>(
     options: &Options,
-    chosen: &'a Chosen,
+    chosen: &'a DriveInput,
 ) -> Result<Option<(&'a Winding, f64)>> {
     let Some(text) = &options.max_winding_temperature else {
         return Ok(None);
@@ -41,8 +41,8 @@ pub(super) fn limit<'a>(
     }
     winding.known().map_err(|unknown| {
         let missing = match unknown {
-            Unknown::Figures(sentence) => sentence(MotorKind::Rotary.vocabulary()),
-            Unknown::RatedRise => "maximum temperature of the winding (max_winding_temperature), or its resistance, torque constant and thermal resistances".to_owned(),
+            UnknownTemperature::Figures(sentence) => sentence(MotorKind::Rotary.vocabulary()),
+            UnknownTemperature::RatedRise => "maximum temperature of the winding (max_winding_temperature), or its resistance, torque constant and thermal resistances".to_owned(),
         };
         miette!(
             help = "fill them in in the catalogue (docs/catalogue.md), or limit the RMS torque with --max-rms",

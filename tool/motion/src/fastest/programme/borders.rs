@@ -3,22 +3,22 @@
 use super::interior::Programme as _;
 use super::limits::Margins;
 use super::mesh::{Border, SHARES};
-use super::{Asked, Found, PIECES, RAMP, Warm};
-use crate::collocation::shape::Shape;
+use super::{MeshMotion, MoveRequest, PIECES, RAMP, WarmStart};
+use crate::collocation::shape::Parametrization;
 use crate::fastest::field::Binding;
 use crate::trace::{Node, Trace};
 
 /// Borders that are closer than this share of u are one border.
-const APART: f64 = 1e-9;
+const BORDER_SPACING: f64 = 1e-9;
 
 /// A limit counts as met within this share of it.
-const MET: f64 = 1e-3;
+const ACTIVE_TOLERANCE: f64 = 1e-3;
 
 /// Share by which a limit of speed, acceleration or torque may be exceeded between stations. Beyond it the polynomial is considered to oscillate.
-const SWINGS: f64 = 1e-4;
+const OSCILLATION: f64 = 1e-4;
 
 /// The same for the torque rate; beyond it a long piece is divided.
-const CHANGES: f64 = 1e-2;
+const RATE_OSCILLATION: f64 = 1e-2;
 
 /// A piece in which w falls below this share of its greatest value is too long: a polynomial of fifth degree oscillates there.
 const STEEP: f64 = 0.1;
@@ -29,7 +29,7 @@ const SHORTEST: f64 = 6e-4;
 
 /// A limit that is met at a station: its inequality, its multiplier per weight (the gain of easing it), and its value, 0 where it is just met.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Met {
+pub(super) struct ActiveConstraint {
     pub(super) limit: Binding,
     row: usize,
     force: f64,
@@ -37,7 +37,7 @@ pub(super) struct Met {
 }
 
 /// The limit with the largest gain of easing it.
-pub(super) fn strongest(met: &[Met]) -> Option<Met> {
+pub(super) fn strongest(met: &[ActiveConstraint]) -> Option<ActiveConstraint> {
     let each = met.iter().copied().filter(|met| met.force > 0.0);
     each.max_by(|a, b| a.force.total_cmp(&b.force))
 }
@@ -52,9 +52,9 @@ pub(super) const fn inner(u: f64) -> Border {
     }
 }
 
-impl Asked<'_> {
+impl MoveRequest<'_> {
     /// Equal pieces, cut where the path or the machine is not smooth.
-    pub(super) fn first_borders(&self, shape: &Shape) -> Vec<Border> {
+    pub(super) fn first_borders(&self, shape: &Parametrization) -> Vec<Border> {
         let [pieces, _] = PIECES;
         let border = |u: f64, stays: bool| Border { stays, ..inner(u) };
         let corners = self.ends.corners.iter();
@@ -68,7 +68,7 @@ impl Asked<'_> {
             .collect();
         borders.sort_by(|a, b| a.u.total_cmp(&b.u));
         borders.dedup_by(|b, a| {
-            let same = b.u - a.u <= APART;
+            let same = b.u - a.u <= BORDER_SPACING;
             a.is_corner |= same && b.is_corner;
             a.stays |= same && b.stays;
             same
@@ -77,7 +77,7 @@ impl Asked<'_> {
     }
 
     /// The limits that are met at each station.
-    pub(super) fn all_met(&self, found: &Found) -> Vec<Vec<Met>> {
+    pub(super) fn all_met(&self, found: &MeshMotion) -> Vec<Vec<ActiveConstraint>> {
         let mesh = &found.mesh;
         let mut met = vec![Vec::new(); mesh.stations.len()];
         let margins = vec![Margins::default(); mesh.elements.len()];
@@ -90,19 +90,19 @@ impl Asked<'_> {
         for (row, multiplier) in rows.iter().zip(&found.point.multipliers) {
             number = if row.station == before { number + 1 } else { 0 };
             before = row.station;
-            let Some(limit) = row.limit.filter(|_| row.value > -MET) else {
+            let Some(limit) = row.limit.filter(|_| row.value > -ACTIVE_TOLERANCE) else {
                 continue;
             };
             // Where power changes direction the torque bends and the jerk jumps, so the torque rate on each side counts as a limit of its own.
             let flow = if limit == Binding::TorqueRate {
                 let station = &mesh.stations[row.station];
                 let state = problem.state(station, &mesh.values(&found.point.x, station.element));
-                let way = self.field.way;
-                way.flow(&station.place, state.speed, state.acceleration)
+                let dynamics = self.field.dynamics;
+                dynamics.flow(&station.place, state.speed, state.acceleration)
             } else {
                 0
             };
-            met[row.station].push(Met {
+            met[row.station].push(ActiveConstraint {
                 limit,
                 row: number % 2 + 2 * flow,
                 force: multiplier / row.weight,
@@ -113,14 +113,14 @@ impl Asked<'_> {
     }
 
     /// The active limit at each station, and its inequality (upper and lower limits are two).
-    pub(super) fn met(&self, found: &Found) -> Vec<Option<(Binding, usize)>> {
+    pub(super) fn met(&self, found: &MeshMotion) -> Vec<Option<(Binding, usize)>> {
         let met = self.all_met(found).into_iter();
         met.map(|met| strongest(&met).map(|met| (met.limit, met.row)))
             .collect()
     }
 
     /// For each piece: whether the active limit changes in it or at its borders, and whether it changes in it.
-    pub(super) fn changes(&self, found: &Found) -> Vec<[bool; 2]> {
+    pub(super) fn changes(&self, found: &MeshMotion) -> Vec<[bool; 2]> {
         let met = self.met(found);
         let all: Vec<_> = met.chunks(SHARES.len()).collect();
         let changes = |(index, own): (usize, &&[_])| {
@@ -149,7 +149,7 @@ impl Asked<'_> {
 
     /// Divides the pieces in which limits are exceeded by much, and turns oscillating pieces into cubics. A margin would slow their neighbours
     /// instead. Returns whether anything changed.
-    pub(super) fn divide(&self, warm: &mut Warm, exceeded: &[[f64; 3]]) -> bool {
+    pub(super) fn divide(&self, warm: &mut WarmStart, exceeded: &[[f64; 3]]) -> bool {
         let shortest = self.shortest();
         let mut borders = Vec::with_capacity(warm.borders.len());
         let mut margins = Vec::with_capacity(warm.margins.len());
@@ -163,10 +163,10 @@ impl Asked<'_> {
             let own = warm.margins[k];
             margins.push(own);
             let is_long = next.u - border.u > 2.0 * shortest;
-            let swings = *state > SWINGS && self.limits().has_rates();
+            let swings = *state > OSCILLATION && self.limits().has_rates();
             border.is_plain |= swings;
             borders.push(border);
-            if is_long && (swings || *rate > CHANGES) {
+            if is_long && (swings || *rate > RATE_OSCILLATION) {
                 margins.push(own);
                 borders.push(Border {
                     is_plain: border.is_plain,
@@ -180,7 +180,7 @@ impl Asked<'_> {
     }
 
     /// Whether w changes in a piece by more than its polynomial can follow.
-    fn is_steep(found: &Found, piece: usize) -> bool {
+    fn is_steep(found: &MeshMotion, piece: usize) -> bool {
         let shares = (0..=20).map(|k| f64::from(k) / 20.0);
         let each = shares.map(|z| found.mesh.pace(&found.point.x, piece, z)[0]);
         let [least, most] = each.fold([f64::INFINITY, 0.0_f64], |[least, most], w| {
@@ -190,7 +190,7 @@ impl Asked<'_> {
     }
 
     /// Middles of the pieces in which the active limit or w changes much.
-    pub(super) fn finer(&self, found: &Found) -> Vec<Border> {
+    pub(super) fn finer(&self, found: &MeshMotion) -> Vec<Border> {
         let pieces = found.mesh.elements.iter().zip(self.changes(found));
         let shortest = self.shortest();
         let finer = pieces
@@ -207,7 +207,7 @@ impl Asked<'_> {
     pub(super) fn moved(
         &self,
         borders: &[Border],
-        found: &Found,
+        found: &MeshMotion,
         trace: &Trace,
     ) -> Option<Vec<Border>> {
         let met = self.met(found);

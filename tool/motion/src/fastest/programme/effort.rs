@@ -2,10 +2,10 @@
 
 use super::mesh::{Local, Station};
 use crate::collocation::torque::Torque;
-use crate::way::{Demand, Place};
+use crate::path_dynamics::{Demand, Place};
 
 /// A motion at a station.
-pub(super) struct State {
+pub(super) struct StationState {
     pub(super) speed: f64,
     pub(super) acceleration: f64,
     pub(super) w: f64,
@@ -29,7 +29,7 @@ impl Effort {
     /// The torque with its derivatives; `rate`: slope of the torque by the speed itself; bends are rounded over loads ± `range`.
     pub(super) fn of(
         station: &Station,
-        state: &State,
+        state: &StationState,
         rate: f64,
         range: f64,
         demand: impl Fn(&Place) -> Demand,

@@ -55,7 +55,7 @@ pub(super) trait Programme {
 
 /// A point with the multipliers of the limits.
 #[derive(Clone, Debug)]
-pub(super) struct Point {
+pub(super) struct PrimalDual {
     pub(super) x: Vec<f64>,
     pub(super) multipliers: Vec<f64>,
 }
@@ -105,7 +105,7 @@ pub(super) struct Iterate {
 
 /// A failure of the method: the most violated limit, its station, and the share.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Stuck {
+pub(super) struct StuckStation {
     pub(super) limit: Option<Binding>,
     pub(super) station: usize,
     pub(super) missed: f64,
@@ -119,10 +119,10 @@ pub(super) fn minimise(
     programme: &impl Programme,
     start: &[f64],
     [first, last]: [f64; 2],
-) -> Result<Point, Stuck> {
+) -> Result<PrimalDual, StuckStation> {
     let mesh = programme.mesh();
     let mut mu = first;
-    let nowhere = Stuck {
+    let nowhere = StuckStation {
         limit: None,
         station: 0,
         missed: 0.0,
@@ -201,16 +201,16 @@ impl Iterate {
         })
     }
 
-    fn point(self, multipliers: Vec<f64>) -> Point {
-        Point {
+    fn point(self, multipliers: Vec<f64>) -> PrimalDual {
+        PrimalDual {
             x: self.x,
             multipliers,
         }
     }
 
-    fn stuck(&self) -> Stuck {
+    fn stuck(&self) -> StuckStation {
         let worst = (self.rows.iter()).max_by(|a, b| a.value.total_cmp(&b.value));
-        Stuck {
+        StuckStation {
             limit: worst.and_then(|row| row.limit),
             station: worst.map_or(0, |row| row.station),
             missed: worst.map_or(0.0, |row| row.value),

@@ -7,7 +7,7 @@
 //! with t the unit of time. Limits of the squared speed and of the acceleration are linear in w and w′. So is the torque, except for viscous friction
 //! (√w). The jerk is limited as |g‴·w + …| ≤ t³·j/(L·√w). Every limit is divided by itself: c ≤ 0, and c = −1 where the limited quantity is zero.
 
-use super::effort::{Effort, State, mix};
+use super::effort::{Effort, StationState, mix};
 use super::interior::{Programme, Term};
 use super::mesh::{Local, Mesh, Station, VALUES};
 use super::rate::{Rate, smooth_slopes};
@@ -15,7 +15,7 @@ use crate::collocation::pieces::{Value, dot};
 use crate::fastest::field::{Binding, Field};
 
 /// Difference of speeds for the slope of a torque-speed curve, as a share of the mean speed.
-const NEAR: f64 = 1e-6;
+const SPEED_DIFFERENCE: f64 = 1e-6;
 
 /// Least share of w that a step leaves.
 const LEAVES: f64 = 0.1;
@@ -50,7 +50,7 @@ impl Price {
 }
 
 /// A programme on a mesh.
-pub(super) struct Problem<'a> {
+pub(super) struct MeshProblem<'a> {
     pub(super) field: &'a Field<'a, 'a>,
     pub(super) mesh: &'a Mesh,
     /// Unit of time (s).
@@ -71,14 +71,14 @@ pub(super) struct Problem<'a> {
 
 const NONE: (f64, Local) = (0.0, [0.0; VALUES]);
 
-impl Problem<'_> {
-    pub(super) fn state(&self, station: &Station, values: &Local) -> State {
+impl MeshProblem<'_> {
+    pub(super) fn state(&self, station: &Station, values: &Local) -> StationState {
         let [slope, bend, _] = station.path;
         let [own, change, _] = &station.basis;
         let t = self.unit;
         let w = dot(own, values);
         let by = mix((bend / (t * t), own), (0.5 * slope / (t * t), change));
-        State {
+        StationState {
             speed: slope / t * w.max(0.0).sqrt(),
             acceleration: dot(&by, values),
             w,
@@ -89,21 +89,21 @@ impl Problem<'_> {
 
     /// Slope of the motor's torque by the speed, from friction of the motor itself.
     fn friction(&self) -> f64 {
-        let way = self.field.way;
-        way.actuator.coefficients.0[3] * way.file.drive_train.ratio().abs()
+        let dynamics = self.field.dynamics;
+        dynamics.actuator.coefficients.0[3] * dynamics.file.drive_train.ratio().abs()
     }
 
-    fn motor(&self, station: &Station, state: &State) -> Effort {
-        let way = self.field.way;
+    fn motor(&self, station: &Station, state: &StationState) -> Effort {
+        let dynamics = self.field.dynamics;
         Effort::of(station, state, self.friction(), self.range, |place| {
-            way.demand(place, state.speed, state.acceleration)
+            dynamics.demand(place, state.speed, state.acceleration)
         })
     }
 
-    fn gearbox(&self, station: &Station, state: &State) -> Effort {
-        let way = self.field.way;
+    fn gearbox(&self, station: &Station, state: &StationState) -> Effort {
+        let dynamics = self.field.dynamics;
         Effort::of(station, state, 0.0, self.range, |place| {
-            way.gearbox_demand(place, state.speed, state.acceleration)
+            dynamics.gearbox_demand(place, state.speed, state.acceleration)
         })
     }
 
@@ -112,14 +112,14 @@ impl Problem<'_> {
     fn torque_limits(
         &self,
         station: &Station,
-        state: &State,
+        state: &StationState,
         torque: &Effort,
         rows: &mut Vec<Term>,
     ) {
         let field = self.field;
         let margin = self.margins[station.element].state;
         let scale = field.motor_torques(0.0).map(f64::abs);
-        let near = NEAR * self.pace;
+        let near = SPEED_DIFFERENCE * self.pace;
         for (k, sign) in [(0, -1.0), (1, 1.0)] {
             let limit = if k == 0 {
                 Binding::Braking
@@ -161,7 +161,7 @@ impl Problem<'_> {
         &self,
         station: &Station,
         values: &Local,
-        state: &State,
+        state: &StationState,
         torque: &Effort,
         rows: &mut Vec<Term>,
     ) {
@@ -230,10 +230,10 @@ impl Problem<'_> {
             let rate = if which == Binding::Jerk {
                 Rate::of_acceleration(station, values, self.unit)
             } else {
-                let way = self.field.way;
+                let dynamics = self.field.dynamics;
                 let torque =
                     smooth_slopes(&station.place, state.acceleration, self.range, |place| {
-                        way.demand(place, state.speed, state.acceleration)
+                        dynamics.demand(place, state.speed, state.acceleration)
                     });
                 Rate::of_torque(station, values, state, &torque, self.friction(), self.unit)
             };
@@ -261,7 +261,7 @@ impl Problem<'_> {
     }
 
     /// Time and heat of a station.
-    fn cost(&self, station: &Station, state: &State, torque: &Effort) -> Term {
+    fn cost(&self, station: &Station, state: &StationState, torque: &Effort) -> Term {
         let w = state.w;
         let root = w.sqrt();
         let t = torque.value;
@@ -290,7 +290,7 @@ impl Problem<'_> {
     }
 }
 
-impl Problem<'_> {
+impl MeshProblem<'_> {
     /// Whether a motion satisfies the limits of jerk and torque rate.
     pub(super) fn keeps_rates(&self, x: &[f64]) -> bool {
         let is_kept = |row: &Term| {
@@ -308,7 +308,7 @@ impl Problem<'_> {
             let resisting = carried + place.load + place.viscous * state.speed + place.coulomb;
             (place.inertia * state.acceleration + resisting).abs()
         };
-        let range = if self.field.way.bends() {
+        let range = if self.field.dynamics.bends() {
             share * self.mesh.stations.iter().map(load).fold(0.0, f64::max)
         } else {
             0.0
@@ -325,7 +325,7 @@ impl Problem<'_> {
     }
 }
 
-impl Programme for Problem<'_> {
+impl Programme for MeshProblem<'_> {
     fn mesh(&self) -> &Mesh {
         self.mesh
     }

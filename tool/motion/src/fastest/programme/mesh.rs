@@ -1,17 +1,17 @@
 //! The square of the pace in pieces of fifth degree, and the stations at which limits are imposed.
 //!
-//! Along the path s = L·g(u) of [`Shape`], w = (du/dτ)², with τ the time in the programme's own unit. w and w′ are continuous, and so is the
+//! Along the path s = L·g(u) of [`Parametrization`], w = (du/dτ)², with τ the time in the programme's own unit. w and w′ are continuous, and so is the
 //! acceleration. w″, and with it the jerk, may jump where two pieces meet. With the fifth degree w″ is a cubic in each piece, which follows an arc of
 //! constant jerk or of constant torque with an error of order 4.
 
 use jred::error::Error;
 
 use crate::collocation::pieces::{Value, dot, first_columns, hermite};
-use crate::collocation::shape::Shape;
+use crate::collocation::shape::Parametrization;
 use crate::fastest::field::Field;
-use crate::fastest::track::INSIDE;
+use crate::fastest::track::CORNER_INSET;
+use crate::path_dynamics::Place;
 use crate::skyline::Skyline;
-use crate::way::Place;
 
 /// Unknowns of a piece: w and w′ at its start, factors of two functions that are zero with zero slope at both ends, w and w′ at its end.
 pub(super) const VALUES: usize = 6;
@@ -20,11 +20,11 @@ pub(super) const VALUES: usize = 6;
 pub(super) type Local = [f64; VALUES];
 
 /// Least distance of a corner from the end as a share of u: in a short piece, rounding of u must not move it outside.
-const NEAR: f64 = 1e-13;
+const CORNER_SPACING: f64 = 1e-13;
 
 /// Conditions at the ends of the motion, and jumps that are allowed inside.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Form {
+pub(super) struct BoundaryConditions {
     /// Whether each end is at rest.
     pub(super) rest: [bool; 2],
     /// w at an end that moves.
@@ -68,12 +68,12 @@ pub(super) struct Station {
     /// Coefficients of the piece's values in w, w′, w″.
     pub(super) basis: [Local; 3],
     /// Slopes of the machine by u.
-    pub(super) change: Change,
+    pub(super) change: Slopes,
 }
 
 /// Slopes of the machine by u.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Change {
+pub(super) struct Slopes {
     pub(super) inertia: f64,
     pub(super) inertia_slope: f64,
     /// Slope of the load with Coulomb friction.
@@ -93,7 +93,7 @@ pub(super) const SHARES: [[f64; 2]; 7] = [
 ];
 
 /// Slopes at the stations of a piece of length h, from the polynomial through the values at all stations.
-fn changes(places: &[Place], h: f64) -> impl Iterator<Item = Change> {
+fn changes(places: &[Place], h: f64) -> impl Iterator<Item = Slopes> {
     let at = move |k: usize, value: fn(&Place) -> f64| {
         let each = (0..SHARES.len()).filter(|j| *j != k).map(|j| {
             let [zk, zj] = [SHARES[k][0], SHARES[j][0]];
@@ -106,7 +106,7 @@ fn changes(places: &[Place], h: f64) -> impl Iterator<Item = Change> {
         });
         each.sum::<f64>() / h
     };
-    (0..places.len()).map(move |k| Change {
+    (0..places.len()).map(move |k| Slopes {
         inertia: at(k, |place| place.inertia),
         inertia_slope: at(k, |place| place.inertia_slope),
         load: at(k, |place| place.load + place.coulomb),
@@ -152,8 +152,8 @@ impl Mesh {
     pub(super) fn new(
         field: &Field,
         course: [f64; 2],
-        shape: &Shape,
-        form: Form,
+        shape: &Parametrization,
+        form: BoundaryConditions,
         borders: &[Border],
     ) -> Result<Self, Error> {
         let (elements, unknowns) = elements(shape, form, borders);
@@ -164,11 +164,11 @@ impl Mesh {
             let h = to - from;
             for [z, weight] in SHARES {
                 let u = from + z * h;
-                let near = (NEAR / h).clamp(INSIDE, 0.1);
+                let near = (CORNER_SPACING / h).clamp(CORNER_INSET, 0.1);
                 let inside = from + z.clamp(near, 1.0 - near) * h;
                 let [_, slope, bend, jerk] = shape.series(u, from.midpoint(to));
                 let [g, ..] = shape.series(inside, inside);
-                let place = field.way.place(start + distance * g)?;
+                let place = field.dynamics.place(start + distance * g)?;
                 stations.push(Station {
                     element: index,
                     u,
@@ -177,7 +177,7 @@ impl Mesh {
                     tool: field.tool_speed(place.phi)?,
                     path: [slope, bend, jerk].map(|derivative| derivative * distance.abs()),
                     basis: basis(z, h),
-                    change: Change::default(),
+                    change: Slopes::default(),
                 });
             }
             if form.smooth {
@@ -215,7 +215,7 @@ impl Mesh {
             let h = to - from;
             let middle = from.midpoint(to);
             let pace = |u: f64| {
-                let within = u + INSIDE * (middle - u);
+                let within = u + CORNER_INSET * (middle - u);
                 let at = other.elements.partition_point(|e| e.span[1] <= within);
                 let at = at.min(other.elements.len() - 1);
                 let [start, end] = other.elements[at].span;
@@ -283,7 +283,11 @@ impl Mesh {
     }
 }
 
-fn elements(shape: &Shape, form: Form, borders: &[Border]) -> (Vec<Element>, usize) {
+fn elements(
+    shape: &Parametrization,
+    form: BoundaryConditions,
+    borders: &[Border],
+) -> (Vec<Element>, usize) {
     let mut unknowns = 0;
     let mut next = || {
         unknowns += 1;

@@ -3,39 +3,39 @@
 use jred::error::Error;
 use jred_file::number::quadrature::GAUSS_5;
 
-use super::borders::{Met, strongest};
+use super::borders::{ActiveConstraint, strongest};
 use super::limits::Margins;
 use super::mesh::SHARES;
-use super::{Asked, Found, PROGRAMME_EXCESS};
-use crate::collocation::shape::Shape;
+use super::{MeshMotion, MoveRequest, PROGRAMME_EXCESS};
+use crate::collocation::shape::Parametrization;
 use crate::fastest::between::{BETWEEN_NODES, within_step};
 use crate::fastest::field::Binding;
-use crate::fastest::track::Seen;
+use crate::fastest::track::PathPoint;
 use crate::fastest::{NoMotion, Phase};
+use crate::path_dynamics::Place;
 use crate::trace::{Node, Trace};
-use crate::way::Place;
 
 /// Rounding errors of a speed or a torque, in units of the last digit; within a step they look like a jerk or a torque rate.
 const ROUNDINGS: f64 = 4.0;
 
 /// Share of a step over which the torque rate is computed.
-const NEAR: f64 = 0.02;
+const RATE_STEP: f64 = 0.02;
 
 /// Parts of a step for the check of the torque rate where the torque bends in it.
 const PARTS: u32 = 32;
 
 /// Two limits whose values differ by less than this share count as met together.
-const TIED: f64 = 1e-6;
+const TIE_TOLERANCE: f64 = 1e-6;
 
 /// The most exceeded limit between the nodes, the share of the excess, and the position.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Worst {
+pub(super) struct LargestExcess {
     pub(super) excess: f64,
     pub(super) limit: Option<Binding>,
     pub(super) phi: f64,
 }
 
-impl Worst {
+impl LargestExcess {
     /// Not checked.
     pub(super) const NONE: Self = Self {
         excess: f64::INFINITY,
@@ -79,10 +79,10 @@ fn greatest([first, middle, last]: [f64; 3]) -> f64 {
         .fold(0.0, f64::max)
 }
 
-impl Asked<'_> {
+impl MoveRequest<'_> {
     /// The motion over time.
-    pub(super) fn trace(&self, shape: &Shape, found: &Found) -> Trace {
-        let direction = self.field.way.direction;
+    pub(super) fn trace(&self, shape: &Parametrization, found: &MeshMotion) -> Trace {
+        let direction = self.field.dynamics.direction;
         let problem = self.problem(&found.mesh, &[], found.range);
         let mut nodes: Vec<Node> = Vec::new();
         let mut t = 0.0;
@@ -122,11 +122,11 @@ impl Asked<'_> {
             last.alpha[1] = 0.0;
             last.phi = self.ends.from + direction * self.ends.length;
         }
-        Trace::new(self.field.way.coordinate(), nodes)
+        Trace::new(self.field.dynamics.coordinate(), nodes)
     }
 
     /// The time (s) from one station of a piece to another.
-    pub(super) fn step(&self, found: &Found, element: usize, stations: [usize; 2]) -> f64 {
+    pub(super) fn step(&self, found: &MeshMotion, element: usize, stations: [usize; 2]) -> f64 {
         let [from, to] = stations.map(|k| SHARES[k][0]);
         let [start, end] = found.mesh.elements[element].span;
         let each = GAUSS_5.into_iter().map(|[z, weight]| {
@@ -143,13 +143,13 @@ impl Asked<'_> {
         &self,
         trace: &Trace,
         pieces: usize,
-    ) -> Result<(Worst, Vec<[f64; 3]>), NoMotion> {
-        let way = self.field.way;
-        let direction = way.direction;
+    ) -> Result<(LargestExcess, Vec<[f64; 3]>), NoMotion> {
+        let dynamics = self.field.dynamics;
+        let direction = dynamics.direction;
         let limits = self.limits();
-        let mut worst = Worst {
+        let mut worst = LargestExcess {
             excess: f64::NEG_INFINITY,
-            ..Worst::NONE
+            ..LargestExcess::NONE
         };
         let near = self.ends.inside(0.0);
         let distance = |phi: f64| (phi - self.ends.from) * direction;
@@ -164,7 +164,7 @@ impl Asked<'_> {
                 let all = &mut own[piece][kind];
                 *all = all.max(excess);
                 if excess > worst.excess {
-                    worst = Worst {
+                    worst = LargestExcess {
                         excess,
                         limit: Some(limit),
                         phi: a.phi,
@@ -178,11 +178,11 @@ impl Asked<'_> {
                 let x = distance(phi)
                     .max((first + near).min(middle))
                     .min((last - near).max(middle));
-                way.place(self.ends.from + direction * x)
+                dynamics.place(self.ends.from + direction * x)
             };
             for share in BETWEEN_NODES {
                 let state = within_step(a, b, share);
-                let seen = Seen::new(self.field, place(state.phi)?.phi)?;
+                let seen = PathPoint::new(self.field, place(state.phi)?.phi)?;
                 let (v, alpha) = (state.omega * direction, state.alpha * direction);
                 let (excess, limit) = self.field.excess_by(&seen, v, alpha);
                 look(0, excess, limit);
@@ -207,20 +207,20 @@ impl Asked<'_> {
         [a, b]: [&Node; 2],
         place: impl Fn(f64) -> Result<Place, Error>,
     ) -> Result<f64, NoMotion> {
-        let way = self.field.way;
+        let dynamics = self.field.dynamics;
         let slope = |share: f64| -> Result<(f64, [usize; 2]), NoMotion> {
-            let ends = [share * (1.0 - NEAR), share + NEAR * (1.0 - share)];
+            let ends = [share * (1.0 - RATE_STEP), share + RATE_STEP * (1.0 - share)];
             let mut torques = [0.0; 2];
             let mut flows = [0; 2];
             let mut rounding = 0.0_f64;
             for (k, share) in ends.into_iter().enumerate() {
                 let state = b.after(a, share);
                 let place = place(state.phi)?;
-                let [v, alpha] = [state.omega, state.alpha].map(|x| x * way.direction);
-                let demand = way.demand(&place, v, alpha);
-                (torques[k], flows[k]) = (demand.torque, way.flow(&place, v, alpha));
+                let [v, alpha] = [state.omega, state.alpha].map(|x| x * dynamics.direction);
+                let demand = dynamics.demand(&place, v, alpha);
+                (torques[k], flows[k]) = (demand.torque, dynamics.flow(&place, v, alpha));
                 let parts = demand.torque.abs() + demand.per_acceleration * alpha.abs();
-                let own = ROUNDINGS * f64::EPSILON * parts / (NEAR * b.step)
+                let own = ROUNDINGS * f64::EPSILON * parts / (RATE_STEP * b.step)
                     + rounded_jerk([a, b]) * demand.per_acceleration;
                 rounding = rounding.max(own);
             }
@@ -242,7 +242,7 @@ impl Asked<'_> {
     }
 
     /// The active limit of each part of the motion.
-    pub(super) fn phases(&self, found: &Found, trace: &Trace) -> Vec<Phase> {
+    pub(super) fn phases(&self, found: &MeshMotion, trace: &Trace) -> Vec<Phase> {
         let met = self.all_met(found);
         let count = SHARES.len();
         let mut phases: Vec<Phase> = Vec::new();
@@ -261,7 +261,9 @@ impl Asked<'_> {
             // Where two limits are met together, the one that was active before is kept.
             let limit = limit.map(|(at, own)| {
                 let before = phases.last().map(|phase| phase.limit);
-                let goes_on = |met: &Met| Some(met.limit) == before && met.value > own.value - TIED;
+                let goes_on = |met: &ActiveConstraint| {
+                    Some(met.limit) == before && met.value > own.value - TIE_TOLERANCE
+                };
                 at.iter()
                     .find(|met| goes_on(met))
                     .map_or(own.limit, |met| met.limit)

@@ -7,11 +7,11 @@
 //!
 //! with slopes by u. Times √w/t they are rates by time: |da/du| ≤ t·j/√w.
 
-use super::effort::{State, mix};
+use super::effort::{StationState, mix};
 use super::mesh::{Local, Station, VALUES};
 use crate::collocation::pieces::dot;
-use crate::collocation::torque::{STRAIGHT, Torque};
-use crate::way::{Demand, Place};
+use crate::collocation::torque::{SLOPE_TOLERANCE, Torque};
+use crate::path_dynamics::{Demand, Place};
 
 /// The slopes of a torque averaged over loads ± `range` a second time: Newton's method needs a continuous gradient.
 pub(super) fn smooth_slopes(
@@ -30,7 +30,7 @@ pub(super) fn smooth_slopes(
     let own = at(0.0);
     let [low, high] = [-range, range].map(at);
     let rise = high.by_load - low.by_load;
-    if rise <= STRAIGHT * high.by_load {
+    if rise <= SLOPE_TOLERANCE * high.by_load {
         return own;
     }
     let lean = (high.by_acceleration - low.by_acceleration) / rise;
@@ -75,7 +75,7 @@ impl Rate {
     pub(super) fn of_torque(
         station: &Station,
         values: &Local,
-        state: &State,
+        state: &StationState,
         torque: &Torque,
         friction: f64,
         t: f64,

@@ -4,8 +4,8 @@ use super::borders::inner;
 use super::limits::Margins;
 use super::mesh::Border;
 use super::starts::SAME;
-use super::{Asked, FINER, Found, PIECES, RANGES, WIDER, Warm};
-use crate::collocation::shape::Shape;
+use super::{FINER, MeshMotion, MoveRequest, PIECES, RANGES, WIDER, WarmStart};
+use crate::collocation::shape::Parametrization;
 use crate::fastest::NoMotion;
 
 /// Most rounds of refinement.
@@ -53,16 +53,20 @@ fn longest_halved(borders: &[Border]) -> Vec<Border> {
         .collect()
 }
 
-impl Asked<'_> {
+impl MoveRequest<'_> {
     /// The range over which bends of the torque are rounded in a search from a motion, and its share of that motion's largest load.
-    fn range(&self, found: &Found, share: f64) -> [f64; 2] {
+    fn range(&self, found: &MeshMotion, share: f64) -> [f64; 2] {
         let problem = self.problem(&found.mesh, &[], found.range);
         [problem.ranged(&found.point.x, share).range, share]
     }
 
     /// The motion on the pieces of another one; `None` if the motions differ too much.
-    pub(super) fn beside(&self, shape: &Shape, warm: &Warm) -> Result<Option<Warm>, NoMotion> {
-        let Warm {
+    pub(super) fn beside(
+        &self,
+        shape: &Parametrization,
+        warm: &WarmStart,
+    ) -> Result<Option<WarmStart>, NoMotion> {
+        let WarmStart {
             borders,
             found,
             margins,
@@ -70,7 +74,7 @@ impl Asked<'_> {
         } = warm;
         let range = [found.range, found.share];
         let next = self.next(shape, borders, found, margins, FINER, range)?;
-        Ok(next.ok().map(|found| Warm {
+        Ok(next.ok().map(|found| WarmStart {
             found,
             ..warm.clone()
         }))
@@ -79,11 +83,11 @@ impl Asked<'_> {
     /// The motion on other borders, with bends of the torque rounded over a share of the loads, or over a larger share if no motion is found.
     fn narrowed(
         &self,
-        shape: &Shape,
+        shape: &Parametrization,
         borders: &[Border],
-        found: &Found,
+        found: &MeshMotion,
         share: f64,
-    ) -> Result<Option<Found>, NoMotion> {
+    ) -> Result<Option<MeshMotion>, NoMotion> {
         let wider = WIDER.map(|factor| factor * found.share);
         for share in [share].into_iter().chain(wider) {
             let range = self.range(found, share);
@@ -96,7 +100,11 @@ impl Asked<'_> {
     }
 
     /// The first motion. If coarse pieces give no motion, finer ones are tried.
-    fn first_of_all(&self, shape: &Shape, eased: bool) -> Result<(Vec<Border>, Found), NoMotion> {
+    fn first_of_all(
+        &self,
+        shape: &Parametrization,
+        eased: bool,
+    ) -> Result<(Vec<Border>, MeshMotion), NoMotion> {
         let mut borders = self.first_borders(shape);
         let mut first = self.first(shape, borders.clone(), eased);
         for _ in 0..FINER_STARTS {
@@ -112,10 +120,10 @@ impl Asked<'_> {
     /// The motion on pieces that are refined until the time no longer changes.
     pub(super) fn refined(
         &self,
-        shape: &Shape,
-        warm: Option<&Warm>,
+        shape: &Parametrization,
+        warm: Option<&WarmStart>,
         eased: bool,
-    ) -> Result<Warm, NoMotion> {
+    ) -> Result<WarmStart, NoMotion> {
         let started = match warm {
             Some(warm) => {
                 let plain = |border: &Border| Border {
@@ -175,7 +183,7 @@ impl Asked<'_> {
         for (border, changes) in borders.iter_mut().zip(self.changes(&found)) {
             border.is_plain = changes[1];
         }
-        Ok(Warm {
+        Ok(WarmStart {
             margins: vec![Margins::default(); borders.len() - 1],
             borders,
             found,

@@ -3,12 +3,12 @@
 //! There may be two families of motions. In a fast motion the inertia bears most of the load; in a slow one the torque follows the load. A search
 //! finds the best motion of the family in which it starts.
 
-use super::interior::{Point, Stuck, minimise};
-use super::limits::{Margins, Problem};
+use super::interior::{PrimalDual, StuckStation, minimise};
+use super::limits::{Margins, MeshProblem};
 use super::mesh::{Border, Mesh};
 use super::refine::halved;
-use super::{Asked, FEASIBLE, Found, PIECES, RANGES, ROUGH, STARTS};
-use crate::collocation::shape::Shape;
+use super::{FEASIBLE, MeshMotion, MoveRequest, PIECES, RANGES, ROUGH, STARTS};
+use crate::collocation::shape::Parametrization;
 use crate::fastest::NoMotion;
 
 /// Largest factor by which the rate limits are eased at the start, and the multipliers from one search to the next: the first one, and the one too
@@ -28,12 +28,12 @@ const EASED: [f64; 2] = [1e-2, 1e-5];
 const MOST_EASED: usize = 3 * PIECES[0];
 
 /// Share by which a motion from eased limits must be faster to be preferred.
-const CLEARLY: f64 = 1e-3;
+const CLEAR_GAIN: f64 = 1e-3;
 
 /// Most repetitions of the search because the range belonged to loads more than twice those of the motion found.
 const RANGED: u32 = 8;
 
-impl Asked<'_> {
+impl MoveRequest<'_> {
     /// Searches from a point, with bends rounded over a range that suits the loads of the resulting motion.
     fn from(
         &self,
@@ -41,9 +41,9 @@ impl Asked<'_> {
         start: &[f64],
         ease: f64,
         barrier: [f64; 2],
-    ) -> Result<(Point, f64), Stuck> {
+    ) -> Result<(PrimalDual, f64), StuckStation> {
         let margins = vec![Margins::default(); mesh.elements.len()];
-        let ranged = |x: &[f64]| Problem {
+        let ranged = |x: &[f64]| MeshProblem {
             ease,
             ..self.problem(mesh, &margins, 0.0).ranged(x, RANGES[0])
         };
@@ -62,7 +62,7 @@ impl Asked<'_> {
 
     /// Starts with rate limits so eased that they hardly bind, then tightens them step by step to the given limits. So it stays in the family of fast
     /// motions, which slow starts may not find. `None` if the next motion was much slower, so that the family has ended.
-    fn eased(&self, mesh: &Mesh) -> Option<(Point, f64)> {
+    fn eased(&self, mesh: &Mesh) -> Option<(PrimalDual, f64)> {
         let fast = self.unit / self.bound;
         let mut ease = fast.powi(3).min(MOST_EASE);
         if ease <= 1.0 {
@@ -95,10 +95,10 @@ impl Asked<'_> {
     /// The best of the motions from several starts, with the borders of its pieces.
     pub(super) fn first(
         &self,
-        shape: &Shape,
+        shape: &Parametrization,
         borders: Vec<Border>,
         from_eased: bool,
-    ) -> Result<(Vec<Border>, Found), NoMotion> {
+    ) -> Result<(Vec<Border>, MeshMotion), NoMotion> {
         let mesh = self.mesh(shape, &borders)?;
         let mut stuck = None;
         // Fast and slow constant paces, for both families.
@@ -109,7 +109,7 @@ impl Asked<'_> {
             found.map_err(|why| stuck = stuck.or(Some(why))).ok()
         });
         let margins = vec![Margins::default(); mesh.elements.len()];
-        let cost = |(point, range): &(Point, f64)| {
+        let cost = |(point, range): &(PrimalDual, f64)| {
             self.problem(&mesh, &margins, *range).whole_cost(&point.x)
         };
         let best = even.min_by(|a, b| cost(a).total_cmp(&cost(b)));
@@ -124,14 +124,14 @@ impl Asked<'_> {
             let found = self.eased(&mesh);
             eased = found.map(|best| (finer.clone(), self.found(mesh, best, RANGES[0])));
         }
-        let faster = |(_, eased): &(_, Found)| {
+        let faster = |(_, eased): &(_, MeshMotion)| {
             best.as_ref()
-                .is_none_or(|(_, best)| eased.time < (1.0 - CLEARLY) * best.time)
+                .is_none_or(|(_, best)| eased.time < (1.0 - CLEAR_GAIN) * best.time)
         };
         if let Some(best) = eased.filter(faster).or(best) {
             return Ok(best);
         }
-        let stuck = stuck.filter(|stuck: &Stuck| stuck.missed > FEASIBLE);
+        let stuck = stuck.filter(|stuck: &StuckStation| stuck.missed > FEASIBLE);
         let phi = stuck.map_or(self.ends.from, |stuck| {
             mesh.stations[stuck.station].place.phi
         });

@@ -1,7 +1,7 @@
 //! The torque over the acceleration, in straight pieces that meet where the power at a stage changes direction.
 
 use crate::gentlest::solve::Problem;
-use crate::way::Place;
+use crate::path_dynamics::Place;
 
 /// Most straight pieces of a torque.
 const PIECES: usize = 16;
@@ -11,7 +11,7 @@ const MOST_LOOKS: usize = 8 * PIECES;
 
 /// A straight piece of the torque over the acceleration, in units of the problem.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Piece {
+pub(super) struct TorquePiece {
     pub(super) at: f64,
     pub(super) start: f64,
     pub(super) rise: f64,
@@ -21,12 +21,12 @@ pub(super) struct Piece {
 
 /// A few pieces, without heap memory.
 pub(super) struct Pieces {
-    all: [Piece; PIECES],
+    all: [TorquePiece; PIECES],
     count: usize,
 }
 
 impl Pieces {
-    pub(super) fn iter(&self) -> impl Iterator<Item = &Piece> {
+    pub(super) fn iter(&self) -> impl Iterator<Item = &TorquePiece> {
         self.all[..self.count].iter()
     }
 }
@@ -34,8 +34,8 @@ impl Pieces {
 /// The torque over the acceleration at a speed: convex, so two of its lines meet above it or at the bend between them.
 pub(super) fn pieces(problem: &Problem, place: &Place, speed: f64) -> Pieces {
     let line = |a: f64| {
-        let demand = problem.way.demand(place, speed, a);
-        Piece {
+        let demand = problem.dynamics.demand(place, speed, a);
+        TorquePiece {
             at: a,
             start: demand.torque / problem.unit,
             rise: demand.per_acceleration / problem.unit,
@@ -47,7 +47,7 @@ pub(super) fn pieces(problem: &Problem, place: &Place, speed: f64) -> Pieces {
         all: [middle; PIECES],
         count: 1,
     };
-    if !problem.way.bends() {
+    if !problem.dynamics.bends() {
         return pieces;
     }
     // Far enough on both sides to be beyond every bend.
@@ -71,7 +71,7 @@ pub(super) fn pieces(problem: &Problem, place: &Place, speed: f64) -> Pieces {
             / (left.rise - right.rise);
         let there = line(meet);
         let expected = left.start + left.rise * (meet - left.at);
-        let own = |side: Piece| (there.rise - side.rise).abs() <= 1e-9 * side.rise;
+        let own = |side: TorquePiece| (there.rise - side.rise).abs() <= 1e-9 * side.rise;
         if own(left)
             || own(right)
             || (there.start - expected).abs() <= 1e-9 * (1.0 + expected.abs())
@@ -89,7 +89,7 @@ pub(super) fn pieces(problem: &Problem, place: &Place, speed: f64) -> Pieces {
                 / (own.rise - next.rise);
             own.start + own.rise * (meet - own.at)
         });
-        pieces.all[pieces.count] = Piece {
+        pieces.all[pieces.count] = TorquePiece {
             torques: [from, to],
             ..*own
         };

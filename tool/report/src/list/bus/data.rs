@@ -5,14 +5,14 @@ use serde::Serialize;
 
 use crate::answer::schema::Data;
 use jred_file::model::rule::Sense;
-use jred_sizing::bus::answer::Answer as Bus;
-use jred_sizing::bus::axes::{Bounds, Worst};
+use jred_sizing::bus::analysis::BusAnalysis;
+use jred_sizing::bus::axes::{Bounds, WorstPhases};
 use jred_sizing::bus::cure::{Bound, Change, Cure};
 use jred_sizing::bus::curve::PowerCurve;
 use jred_sizing::bus::need::Need;
 use jred_sizing::bus::period::{Common, LOOKED_AT, MOST_CYCLES};
 use jred_sizing::bus::store::BusFigures;
-use jred_sizing::bus::verdict::Judged;
+use jred_sizing::bus::verdict::BusQuantity;
 
 impl Data for BusData<'_> {
     const FORM: &'static str = "jred-bus/1";
@@ -36,7 +36,7 @@ pub(crate) struct BusData<'a> {
     worst: Option<WorstData<'a>>,
     /// The phases that leave most room.
     #[serde(rename = "most room")]
-    calmest: Option<&'a Worst>,
+    calmest: Option<&'a WorstPhases>,
     /// Bounds for any phases.
     bounds: Bounds,
     /// Mean power that one bus saves over a bus for each axis.
@@ -44,7 +44,7 @@ pub(crate) struct BusData<'a> {
     saved: Option<f64>,
     /// The shortage of the brake resistor.
     #[serde(rename = "brake resistor lacks")]
-    lacks: Lacks,
+    lacks: MissingFigures,
     /// The brake resistor that is needed.
     #[serde(rename = "brake resistor needed")]
     need: Option<Need>,
@@ -62,7 +62,7 @@ pub(crate) struct BusData<'a> {
     not_checked: Vec<String>,
     /// Data that are missing.
     #[serde(rename = "not known")]
-    not_known: Vec<Unknown>,
+    not_known: Vec<UnknownFigure>,
     /// Changes, any one of which is sufficient.
     cures: Vec<CureData<'a>>,
     /// Whether every check is satisfied.
@@ -111,20 +111,20 @@ struct CommonData {
 #[derive(Serialize, JsonSchema)]
 struct WorstData<'a> {
     /// Phases with the highest voltage.
-    voltage: &'a Worst,
+    voltage: &'a WorstPhases,
     /// Phases with the highest mean power of the brake resistor.
-    resistor: &'a Worst,
+    resistor: &'a WorstPhases,
     /// Phases with its highest peak power.
-    peak: &'a Worst,
+    peak: &'a WorstPhases,
     /// Phases with its largest pulse.
-    pulse: &'a Worst,
+    pulse: &'a WorstPhases,
     /// Whether no worse phases exist.
     exhaustive: bool,
 }
 
 #[derive(Default, Serialize, JsonSchema)]
 #[serde(default)]
-struct Lacks {
+struct MissingFigures {
     #[serde(rename = "mean [W]", skip_serializing_if = "Option::is_none")]
     mean: Option<f64>,
     #[serde(rename = "peak [W]", skip_serializing_if = "Option::is_none")]
@@ -162,7 +162,7 @@ struct CheckRow {
 }
 
 #[derive(Serialize, JsonSchema)]
-struct Unknown {
+struct UnknownFigure {
     /// The figure.
     figure: &'static str,
     /// Lists of keys of `[supply]`: all keys of any one list give it.
@@ -195,14 +195,14 @@ struct ChangeData {
     unit: &'static str,
 }
 
-pub(super) fn data(bus: &Bus) -> BusData<'_> {
+pub(super) fn data(bus: &BusAnalysis) -> BusData<'_> {
     let open = bus.open();
-    let mut lacks = Lacks::default();
+    let mut lacks = MissingFigures::default();
     for (judged, by) in bus.lacks() {
         let place = match judged {
-            Judged::Mean => &mut lacks.mean,
-            Judged::Peak => &mut lacks.peak,
-            Judged::Pulse => &mut lacks.pulse,
+            BusQuantity::Mean => &mut lacks.mean,
+            BusQuantity::Peak => &mut lacks.peak,
+            BusQuantity::Pulse => &mut lacks.pulse,
             _ => &mut lacks.resistance,
         };
         *place = Some(by);
@@ -235,7 +235,7 @@ pub(super) fn data(bus: &Bus) -> BusData<'_> {
             .map(|o| format!("{}: {}", o.figure, o.words))
             .collect(),
         not_known: (open.iter().filter(|o| !o.keys.is_empty()))
-            .map(|o| Unknown {
+            .map(|o| UnknownFigure {
                 figure: o.figure,
                 keys: o.keys,
             })
@@ -245,7 +245,7 @@ pub(super) fn data(bus: &Bus) -> BusData<'_> {
     }
 }
 
-fn checks(bus: &Bus) -> Vec<CheckRow> {
+fn checks(bus: &BusAnalysis) -> Vec<CheckRow> {
     let all = bus.checks().into_iter();
     all.map(|check| CheckRow {
         check: check.name(),
@@ -258,7 +258,7 @@ fn checks(bus: &Bus) -> Vec<CheckRow> {
     .collect()
 }
 
-fn axes(bus: &Bus) -> Vec<AxisData<'_>> {
+fn axes(bus: &BusAnalysis) -> Vec<AxisData<'_>> {
     let axes = bus.axes.iter().map(|axis| {
         let [drawn, back] = axis.curve.energies();
         let [least, most] = axis.curve.extremes();
@@ -276,7 +276,7 @@ fn axes(bus: &Bus) -> Vec<AxisData<'_>> {
     axes.collect()
 }
 
-fn common(bus: &Bus) -> CommonData {
+fn common(bus: &BusAnalysis) -> CommonData {
     let (kind, period, cycles, most) = match bus.shared.common() {
         Common::Searched { period, cycles } => {
             ("searched", Some(period), Some(cycles), MOST_CYCLES)

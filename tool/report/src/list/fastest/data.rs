@@ -10,12 +10,12 @@ use super::{FastestView, of_fastest};
 use crate::answer::schema::Data;
 use crate::list::kept::{self, KeptPart};
 use jred_motion::fastest::Reserve;
-use jred_motion::fastest::cycle::Made;
-use jred_motion::fastest::joint_force::Reached;
-use jred_motion::fastest::ruled::{Cap, Judged};
+use jred_motion::fastest::cycle::FastestMove;
+use jred_motion::fastest::joint_force::JointForcePeak;
+use jred_motion::fastest::ruled::{Cap, Judgement};
 use jred_sizing::judge::check::Check;
 
-use super::Warmth;
+use super::WindingHeat;
 
 impl Data for FastestData<'_> {
     const FORM: &'static str = "jred-fastest/1";
@@ -125,12 +125,12 @@ struct RulesData<'a> {
     /// Rules that the motion violates.
     not_kept: Vec<&'a Check>,
     /// Limits that were lowered for the rules.
-    lowered: Lowered,
+    lowered: LoweredLimits,
 }
 
 #[derive(Default, Serialize, JsonSchema)]
 #[serde(default)]
-struct Lowered {
+struct LoweredLimits {
     /// Share of the motor torque that the reserve leaves.
     #[serde(skip_serializing_if = "Option::is_none")]
     share_of_motor_torque: Option<f64>,
@@ -233,7 +233,7 @@ impl FastestView<'_> {
             rms,
             ..
         } = self.reserve;
-        let force = |force: &Reached| ForceData {
+        let force = |force: &JointForcePeak| ForceData {
             joint: force.name(self.file),
             force: force.force,
             limit: force.limit,
@@ -274,7 +274,7 @@ impl FastestView<'_> {
         }
     }
 
-    fn one(&self, made: &Made) -> MoveData<'_> {
+    fn one(&self, made: &FastestMove) -> MoveData<'_> {
         let (axis, file) = (self.file.axis(), self.file);
         let phases = made.fastest.phases.iter().map(|phase| PhaseData {
             limit: phase.limit.name_in(file),
@@ -307,7 +307,7 @@ impl FastestView<'_> {
     }
 }
 
-fn winding(warmth: &Warmth) -> WindingData {
+fn winding(warmth: &WindingHeat) -> WindingData {
     let temperatures = &warmth.temperatures;
     WindingData {
         greatest: Some(temperatures.greatest).filter(|t| t.is_finite()),
@@ -323,8 +323,8 @@ fn winding(warmth: &Warmth) -> WindingData {
     }
 }
 
-fn rules(judged: &Judged) -> RulesData<'_> {
-    let mut lowered = Lowered::default();
+fn rules(judged: &Judgement) -> RulesData<'_> {
+    let mut lowered = LoweredLimits::default();
     for (cap, value) in &judged.caps {
         let place = match cap {
             Cap::MotorTorque => &mut lowered.share_of_motor_torque,

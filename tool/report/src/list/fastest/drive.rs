@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use jred_file::number::rounding::{percent, short, shown};
 use jred_file::units::Vocabulary;
-use jred_motion::fastest::joint_force::Reached;
+use jred_motion::fastest::joint_force::JointForcePeak;
 use jred_motion::fastest::winding::Temperatures;
 use jred_motion::fastest::{KeptPart, Reserve};
 
@@ -12,10 +12,10 @@ use super::FastestView;
 use crate::answer::Answer;
 
 /// Relative difference below which two S1 torques are the same.
-const ROUNDED: f64 = 1e-5;
+const TORQUE_TOLERANCE: f64 = 1e-5;
 
 /// Temperatures of the motor winding.
-pub struct Warmth {
+pub struct WindingHeat {
     /// Ambient temperature (°C).
     pub ambient: f64,
     /// Its temperatures.
@@ -33,7 +33,7 @@ impl FastestView<'_> {
         let effort = torque.unit;
         let load = &self.cycle.load;
         // Without a reserve, too, the allowed torque is slightly below S1.
-        let is_less = load.allowed < (1.0 - ROUNDED) * load.continuous;
+        let is_less = load.allowed < (1.0 - TORQUE_TOLERANCE) * load.continuous;
         let continuous = if load.continuous.is_finite() {
             format!(
                 ", S1 {torque} {} {effort} at the mean speed{}",
@@ -121,7 +121,7 @@ impl FastestView<'_> {
     }
 
     /// The largest force in a joint, and where.
-    pub(super) fn force(&self, force: &Reached) -> String {
+    pub(super) fn force(&self, force: &JointForcePeak) -> String {
         format!(
             "{}: {} N at the most, at {} after {} s{}; limit {} N",
             force.name(self.file),
@@ -134,8 +134,8 @@ impl FastestView<'_> {
     }
 
     /// The temperature of the winding, and the cost of its limit.
-    pub(super) fn winding(&self, warmth: &Warmth, answer: &mut Answer) {
-        let Warmth {
+    pub(super) fn winding(&self, warmth: &WindingHeat, answer: &mut Answer) {
+        let WindingHeat {
             ambient,
             temperatures,
             limit,

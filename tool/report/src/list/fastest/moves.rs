@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use crate::table::reading::Reading;
 use jred_file::model::machine::MachineFile;
 use jred_file::number::rounding::{percent, short, shown, told_apart};
-use jred_motion::fastest::cycle::{Cost, MORE, Made};
+use jred_motion::fastest::cycle::{Cost, FastestMove, MORE};
 use jred_motion::fastest::{Binding, Phase};
 use jred_sizing::select::fit::input_kind;
 use jred_sizing::study::cell::Cell;
@@ -14,7 +14,7 @@ use super::FastestView;
 use crate::answer::Answer;
 
 /// Share of the largest speed below which a speed is a rounding error: speeds are roots of energies.
-const STANDS: f64 = 1e-8;
+const REST_SPEED: f64 = 1e-8;
 
 /// Relative drop of the speed within a phase from which it is shown.
 const DIP: f64 = 5e-4;
@@ -23,7 +23,7 @@ const DIP: f64 = 5e-4;
 const LEAST_PHASE: f64 = 1e-9;
 
 impl FastestView<'_> {
-    pub(super) fn one_move(&self, number: usize, made: &Made, answer: &mut Answer) {
+    pub(super) fn one_move(&self, number: usize, made: &FastestMove, answer: &mut Answer) {
         let axis = self.file.axis();
         let unit = axis.coordinate.unit();
         let ends = [made.task.from, made.task.to].map(|phi| axis.shown(phi).abs());
@@ -70,7 +70,7 @@ impl FastestView<'_> {
             let [from, to] = phase.speed;
             let speed = |v: f64| {
                 let speed = axis.rate(v);
-                short(if speed <= STANDS * fastest {
+                short(if speed <= REST_SPEED * fastest {
                     0.0
                 } else {
                     speed
@@ -129,7 +129,7 @@ pub(super) fn eased(cost: &Cost, file: &MachineFile) -> String {
 }
 
 /// The greatest speed (rad/s, or m/s) in a phase.
-pub(super) fn greatest(made: &Made, phase: &Phase) -> f64 {
+pub(super) fn greatest(made: &FastestMove, phase: &Phase) -> f64 {
     let [from, to] = phase.t;
     let nodes = made.fastest.trace.nodes().iter();
     let inside = nodes.filter(|node| node.t > from && node.t < to);
@@ -138,7 +138,7 @@ pub(super) fn greatest(made: &Made, phase: &Phase) -> f64 {
 }
 
 /// The least speed (rad/s, or m/s) in a phase, where it is lower than at both ends.
-fn dip(made: &Made, phase: &Phase) -> Option<f64> {
+fn dip(made: &FastestMove, phase: &Phase) -> Option<f64> {
     let [from, to] = phase.t;
     let nodes = made.fastest.trace.nodes().iter();
     let inside = nodes.filter(|node| node.t > from && node.t < to);
@@ -150,7 +150,7 @@ fn dip(made: &Made, phase: &Phase) -> Option<f64> {
 }
 
 /// Reports the times before the first and after the last phase, in which no limit is active.
-fn unlimited(made: &Made, phases: &[&Phase], answer: &mut Answer) {
+fn unlimited(made: &FastestMove, phases: &[&Phase], answer: &mut Answer) {
     let whole = made.fastest.time;
     for (time, place) in [
         (phases.first().map_or(0.0, |phase| phase.t[0]), "first"),

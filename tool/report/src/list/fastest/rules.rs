@@ -2,7 +2,7 @@
 
 use jred_file::model::rule::Rule;
 use jred_file::number::rounding::{percent, short};
-use jred_motion::fastest::ruled::{Cap, Judged};
+use jred_motion::fastest::ruled::{Cap, Judgement};
 use jred_sizing::judge::check::Check;
 
 use super::FastestView;
@@ -10,7 +10,7 @@ use crate::answer::Answer;
 
 impl FastestView<'_> {
     /// The rules that the motion satisfies, and those that it violates.
-    pub(super) fn rules(&self, judged: &Judged, answer: &mut Answer) {
+    pub(super) fn rules(&self, judged: &Judgement, answer: &mut Answer) {
         let kept: Vec<String> = judged
             .kept()
             .map(|check| {
@@ -57,7 +57,7 @@ impl FastestView<'_> {
 }
 
 /// The cure for a violated rule.
-fn cure(judged: &Judged, check: &Check) -> &'static str {
+fn cure(judged: &Judgement, check: &Check) -> &'static str {
     if judged.sought.contains(&check.id) {
         return "; no slower motion that was tried satisfies it";
     }

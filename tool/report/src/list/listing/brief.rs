@@ -14,7 +14,7 @@ use jred_file::model::rule::Rule;
 use jred_file::model::rules::RuleVerdict;
 use jred_file::number::rounding::short;
 use jred_file::number::words::counted;
-use jred_sizing::judge::Judged;
+use jred_sizing::judge::Assessment;
 use jred_sizing::judge::check::Check;
 use jred_sizing::select::size::{Candidate, Selection};
 
@@ -56,7 +56,7 @@ impl Screen {
 pub(super) fn brief(
     screen: Screen,
     file: &MachineFile,
-    judged: &Judged,
+    judged: &Assessment,
     warnings: &[String],
 ) -> String {
     let mut text = String::new();
@@ -81,7 +81,7 @@ pub(super) fn brief(
 }
 
 /// Motor, gearbox, amplifier, brake and resistor.
-fn parts(screen: Screen, text: &mut String, judged: &Judged) {
+fn parts(screen: Screen, text: &mut String, judged: &Assessment) {
     let drive = &judged.drive;
     let named = |maker: &str, model: &str, key: &str, figures: &[String]| {
         let named = format!("{} {model}", maker.trim());
@@ -155,7 +155,7 @@ fn parts(screen: Screen, text: &mut String, judged: &Judged) {
 }
 
 /// Data that are missing before the drive can be ordered.
-fn missing(file: &MachineFile, judged: &Judged) -> Vec<String> {
+fn missing(file: &MachineFile, judged: &Assessment) -> Vec<String> {
     let drive = &judged.drive;
     let mut missing = Vec::new();
     if file.site.mains_voltage.is_none() && file.site.bus_voltage.is_none() {
@@ -183,7 +183,7 @@ fn missing(file: &MachineFile, judged: &Judged) -> Vec<String> {
 }
 
 /// The rules that use most of their limits, or are violated, and the number of rules by verdict.
-fn limits(screen: Screen, text: &mut String, judged: &Judged) {
+fn limits(screen: Screen, text: &mut String, judged: &Assessment) {
     let is = |verdict: RuleVerdict| move |check: &&Check| check.verdict == verdict;
     let fails = judged.checks.iter().any(|c| c.verdict == RuleVerdict::Fail);
     let mut shown: Vec<&Check> = if fails {

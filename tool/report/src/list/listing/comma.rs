@@ -2,7 +2,7 @@
 
 use super::{Asked, List};
 use jred_file::number::csv;
-use jred_sizing::judge::Judged;
+use jred_sizing::judge::Assessment;
 use jred_sizing::select::size::{Candidate, Certainty, Selection};
 
 /// Columns; a row for every rule of every listed drive.
@@ -51,7 +51,7 @@ pub fn csv<'c>(
     std::iter::once(csv::row(COLUMNS)).chain(drives)
 }
 
-fn rows(rank: &str, certainty: &str, judged: &Judged) -> String {
+fn rows(rank: &str, certainty: &str, judged: &Assessment) -> String {
     let drive = &judged.drive;
     let rows = judged.checks.iter().map(|check| {
         [

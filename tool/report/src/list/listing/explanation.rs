@@ -10,7 +10,7 @@ use jred_analysis::duty::Duty;
 use jred_file::model::machine::MachineFile;
 use jred_file::number::rounding::{percent, short, shown};
 use jred_file::units::Vocabulary;
-use jred_sizing::explain::{Altered, Breakdown, InertiaShare, Remedies, Share};
+use jred_sizing::explain::{Breakdown, DutyModel, InertiaShare, Remedies, Share};
 use jred_sizing::select::size::{Candidate, Selection};
 
 /// The explanation of one drive, and of the refused drives closest to their limits.
@@ -37,7 +37,7 @@ impl Explanation {
         candidate: &Candidate,
         nearest: usize,
     ) -> Result<Self, Error> {
-        let altered = Altered::new(file, duty)?;
+        let altered = DutyModel::new(file, duty)?;
         let change = Remedies::of_candidate(selection, &altered, candidate);
         let nearest = Remedies::of_nearest(selection, &altered, nearest)?;
         Ok(Self {
@@ -60,7 +60,7 @@ impl Explanation {
         selection: &Selection,
         nearest: usize,
     ) -> Result<Self, Error> {
-        let altered = Altered::new(file, duty)?;
+        let altered = DutyModel::new(file, duty)?;
         Ok(Self {
             contributions: None,
             change: None,

@@ -19,7 +19,7 @@ use jred_file::number::figures::Figures;
 use jred_sizing::catalogue::MotorKind;
 use jred_sizing::cycle::form::MotorDuty;
 use jred_sizing::judge::check::Check;
-use jred_sizing::judge::{Judged, cure};
+use jred_sizing::judge::{Assessment, cure};
 use jred_sizing::select::size::{Candidate, Certainty, Selection};
 
 /// Remarks beside the drives.
@@ -392,7 +392,7 @@ fn violated(selection: &Selection, kind: MotorKind) -> Vec<ViolationData> {
 fn drive<'c>(selection: &Selection<'c>, candidate: &Candidate<'c>) -> DriveData<'c> {
     let judged = selection.judged(candidate);
     let (power, price, verdict) = (judged.rated_power(), judged.price(), judged.verdict());
-    let Judged {
+    let Assessment {
         drive,
         duty,
         checks,

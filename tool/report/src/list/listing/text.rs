@@ -19,7 +19,7 @@ use jred_file::number::words::counted;
 use jred_file::units::Vocabulary;
 use jred_sizing::catalogue::Drive;
 use jred_sizing::judge::check::Check;
-use jred_sizing::judge::{Judged, cure};
+use jred_sizing::judge::{Assessment, cure};
 use jred_sizing::select::size::{Candidate, Certainty, Class, Gap, Selection};
 
 /// Number of rules on the first screen if no drive satisfies all.
@@ -96,7 +96,7 @@ pub fn text(
 }
 
 /// The duty at the input, and all data of a drive.
-fn full(file: &MachineFile, duty: &Duty, judged: &Judged) -> String {
+fn full(file: &MachineFile, duty: &Duty, judged: &Assessment) -> String {
     let input_power = |i: &Instant| i.input_torque * i.input_speed;
     let words = judged.drive.motor.kind.vocabulary();
     let input = figures_table(&[
@@ -310,7 +310,7 @@ fn next_smaller(selection: &Selection) -> Option<String> {
 fn ranking(list: List, selection: &Selection, words: &Vocabulary) -> String {
     let shown = list.ranked(selection);
     let judged = shown.iter();
-    let judged: Vec<(usize, Judged)> = judged
+    let judged: Vec<(usize, Assessment)> = judged
         .map(|(rank, candidate)| (*rank, selection.judged(candidate)))
         .collect();
     let resistors = judged.iter().any(|(_, judged)| judged.resistor.is_some());
@@ -382,7 +382,7 @@ fn figures_table(rows: &[(String, Figures, f64)]) -> String {
 }
 
 /// Duty of a drive and the verdict of every rule.
-fn drive_text(judged: &Judged) -> String {
+fn drive_text(judged: &Assessment) -> String {
     let duty = &judged.duty;
     let words = judged.drive.motor.kind.vocabulary();
     let figures = figures_table(&[
@@ -408,7 +408,7 @@ fn drive_text(judged: &Judged) -> String {
 }
 
 /// The checked rules as a table, the others in a line.
-fn rules_table(judged: &Judged) -> String {
+fn rules_table(judged: &Assessment) -> String {
     let mut table = text_table(&[
         "rule", "figure", "limit", "used", "margin", "verdict", "limit is",
     ]);
@@ -463,7 +463,7 @@ pub(crate) fn figure(value: Option<f64>) -> String {
     value.map_or("–".to_owned(), short)
 }
 
-fn rank_row(rank: usize, judged: &Judged) -> [String; 13] {
+fn rank_row(rank: usize, judged: &Assessment) -> [String; 13] {
     let drive = &judged.drive;
     let power = judged.rated_power();
     let [motor, gearbox, amplifier] = marks::drive(drive);

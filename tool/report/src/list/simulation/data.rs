@@ -7,7 +7,7 @@ use super::SimulationView;
 use crate::answer::schema::Data;
 use jred_analysis::simulate::{Impacts, Rest, Stop};
 use jred_file::model::axis::Axis;
-use jred_motion::driven::{Loads, Peak};
+use jred_motion::drive_simulation::{Loads, Peak};
 
 impl Data for SimulationData<'_> {
     const FORM: &'static str = "jred-simulate/1";
@@ -24,19 +24,19 @@ pub(crate) struct SimulationData<'a> {
     /// Impacts on end stops.
     impacts: Option<ImpactData>,
     /// Rest after the motor was switched off.
-    rest: Option<Moved>,
+    rest: Option<TravelData>,
     /// The first standstill after the motor was switched off, if nothing held the machine there.
-    turned_back: Option<Moved>,
+    turned_back: Option<TravelData>,
     /// Stops at instants over a cycle.
     stops_over_the_cycle: Option<Vec<StopData>>,
     /// Rest in which friction holds the machine to the end.
-    held: Option<Moved>,
+    held: Option<TravelData>,
     /// The time and distance to the requested speed.
-    reached: Option<Moved>,
+    reached: Option<TravelData>,
     /// Largest values of the motor until it is switched off.
     motor: Option<MotorData>,
     /// The place where the motor cannot drive the machine on.
-    stops: Option<StuckData>,
+    stops: Option<StandstillData>,
     /// Time at the limit of the motor torque.
     torque_limit: Option<LimitData>,
     /// The largest following error.
@@ -49,7 +49,7 @@ pub(crate) struct SimulationData<'a> {
 
 /// Time (s) and distance (rad, or m) since the start, or since the motor was switched off.
 #[derive(Serialize, JsonSchema)]
-struct Moved {
+struct TravelData {
     /// Time (s).
     time: f64,
     /// Distance (rad, or m).
@@ -75,19 +75,19 @@ struct StopData {
     /// Position at that instant.
     position: f64,
     /// Distance and time to rest; none: still in motion at the end.
-    rest: Option<Moved>,
+    rest: Option<TravelData>,
 }
 
 /// A largest value (SI units).
 #[derive(Serialize, JsonSchema)]
-struct Largest {
+struct PeakData {
     /// The value.
     value: f64,
     /// Its time (s).
     time: f64,
 }
 
-impl From<[f64; 2]> for Largest {
+impl From<[f64; 2]> for PeakData {
     fn from([value, time]: [f64; 2]) -> Self {
         Self { value, time }
     }
@@ -96,17 +96,17 @@ impl From<[f64; 2]> for Largest {
 #[derive(Serialize, JsonSchema)]
 struct MotorData {
     /// Largest torque (N·m), or force (N).
-    torque: Largest,
+    torque: PeakData,
     /// RMS torque (N·m), or force (N).
     rms_torque: f64,
     /// Largest power (W).
-    power: Largest,
+    power: PeakData,
     /// Largest speed (rad/s, or m/s).
-    speed: Largest,
+    speed: PeakData,
 }
 
 #[derive(Serialize, JsonSchema)]
-struct StuckData {
+struct StandstillData {
     /// Time (s).
     time: f64,
     /// Position.
@@ -144,18 +144,18 @@ struct DriveData<'a> {
     /// Name of the drive.
     name: &'a str,
     /// Speed of the motor (rad/s, or m/s), against the largest input speed of the gearbox.
-    motor_speed: Loaded,
+    motor_speed: LoadData,
     /// Torque at the gearbox output (N·m), against its acceleration torque.
-    gearbox_torque: Option<Loaded>,
+    gearbox_torque: Option<LoadData>,
     /// Temperature rise of the winding above the surroundings (K), or as a share of the rated rise.
-    rise: Option<Loaded>,
+    rise: Option<LoadData>,
     /// Whether the rise is a share of the rated rise.
     rise_is_share: bool,
 }
 
 /// A largest value against its limit.
 #[derive(Serialize, JsonSchema)]
-struct Loaded {
+struct LoadData {
     /// The value.
     value: f64,
     /// Its limit.
@@ -171,7 +171,7 @@ impl SimulationView<'_> {
         let found = self.found;
         let axis = &self.machines.first.axis();
         let position = |phi: f64| axis.position(phi);
-        let moved = |rest: Rest| Moved {
+        let moved = |rest: Rest| TravelData {
             time: rest.time,
             way: axis.distance(rest.way),
         };
@@ -200,7 +200,7 @@ impl SimulationView<'_> {
                 power: effort.power.into(),
                 speed: effort.speed.into(),
             }),
-            stops: found.missing.map(|stuck| StuckData {
+            stops: found.missing.map(|stuck| StandstillData {
                 time: stuck.time,
                 position: position(stuck.missing.phi),
                 given: stuck.missing.given,
@@ -224,7 +224,7 @@ impl SimulationView<'_> {
 }
 
 fn drive<'a>(axis: &Axis, name: &'a str, loads: &Loads) -> DriveData<'a> {
-    let loaded = |peak: &Peak| Loaded {
+    let loaded = |peak: &Peak| LoadData {
         value: peak.value,
         allowed: peak.allowed,
         time: peak.time,

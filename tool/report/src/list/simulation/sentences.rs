@@ -6,7 +6,7 @@ use jred_file::model::coordinate::Coordinate;
 use jred_file::model::machine::MachineFile;
 use jred_file::number::rounding::{short, shown};
 use jred_file::units::RPM;
-use jred_motion::driven::{Loads, Peak};
+use jred_motion::drive_simulation::{Loads, Peak};
 
 use super::SimulationView;
 use crate::answer::Answer;

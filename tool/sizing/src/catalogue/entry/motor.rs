@@ -1,8 +1,8 @@
 //! Reads a row of motors and checks it for consistency.
 
-use super::super::column::{Column, EFFORT, For, SPEED};
+use super::super::column::{Column, EFFORT, MotorScope, SPEED};
 use super::super::motor::{Brake, Motor, MotorKind, Thermal, Winding};
-use super::super::row::{Read, Row};
+use super::super::row::{CatalogueRow, RowResult};
 use super::{derating, from_maker, mains_voltage};
 use crate::catalogue::Commutation;
 use jred_file::model::supply::rectified;
@@ -61,7 +61,7 @@ impl Efforts {
 }
 
 /// A motor, and the key of the gearbox that it is built with.
-pub(super) fn motor(row: &mut Row) -> Read<(Motor, Option<String>)> {
+pub(super) fn motor(row: &mut CatalogueRow) -> RowResult<(Motor, Option<String>)> {
     let kind = row.choice(
         Column::MotorKind,
         &[("rotary", MotorKind::Rotary), ("linear", MotorKind::Linear)],
@@ -69,8 +69,8 @@ pub(super) fn motor(row: &mut Row) -> Read<(Motor, Option<String>)> {
     row.checked()?;
     let kind = kind.unwrap_or_default();
     let (own, other, motors) = match kind {
-        MotorKind::Rotary => (TORQUES, FORCES, For::Rotary),
-        MotorKind::Linear => (FORCES, TORQUES, For::Linear),
+        MotorKind::Rotary => (TORQUES, FORCES, MotorScope::Rotary),
+        MotorKind::Linear => (FORCES, TORQUES, MotorScope::Linear),
     };
     row.expect(motors);
     let foreign = other.columns().into_iter();
@@ -148,7 +148,7 @@ pub(super) fn motor(row: &mut Row) -> Read<(Motor, Option<String>)> {
 }
 
 /// Checks the values that every motor needs, and the order of its ratings.
-fn torque_and_speed(row: &Row, motor: &Motor, own: &Efforts) {
+fn torque_and_speed(row: &CatalogueRow, motor: &Motor, own: &Efforts) {
     let continuous = motor.rated_torque.or(motor.standstill_torque);
     if continuous.is_none() && motor.continuous_curve.is_empty() {
         row.missing(own.rated, &[own.standstill, Column::ContinuousCurve]);
@@ -178,7 +178,7 @@ fn torque_and_speed(row: &Row, motor: &Motor, own: &Efforts) {
 }
 
 /// Points of torque over speed; the torque must not increase.
-fn curve(row: &Row, column: Column) -> Vec<[f64; 2]> {
+fn curve(row: &CatalogueRow, column: Column) -> Vec<[f64; 2]> {
     let points = row.points(column, [SPEED, EFFORT]);
     let falls = points.windows(2).all(|two| match two {
         [a, b] => b[1] <= a[1],
@@ -203,7 +203,7 @@ fn curve(row: &Row, column: Column) -> Vec<[f64; 2]> {
     points
 }
 
-fn winding(row: &Row) -> Winding {
+fn winding(row: &CatalogueRow) -> Winding {
     let commutation = row.choice(
         Column::Commutation,
         &[("sine", Commutation::Sine), ("block", Commutation::Block)],
@@ -222,7 +222,7 @@ fn winding(row: &Row) -> Winding {
     }
 }
 
-fn brake(row: &Row, own: &Efforts) -> Option<Brake> {
+fn brake(row: &CatalogueRow, own: &Efforts) -> Option<Brake> {
     let inertia = row.not_negative(own.brake_inertia);
     let dynamic_torque = row.optional(own.brake_dynamic);
     let [closing_time, work, stops_per_hour] = [

@@ -6,8 +6,8 @@ const C: Coefficients = Coefficients([0.7, 0.4, -0.9, 0.03, 1.1]);
 const RATIO: f64 = 2.0;
 
 /// Samples of acceleration, torque and speed, at equal time steps.
-fn samples(states: &[[f64; 3]]) -> Vec<Sample> {
-    let at = |(k, [alpha, output_torque, speed]): (usize, &[f64; 3])| Sample {
+fn samples(states: &[[f64; 3]]) -> Vec<LoadSample> {
+    let at = |(k, [alpha, output_torque, speed]): (usize, &[f64; 3])| LoadSample {
         t: k as f64,
         weight: 1.0,
         alpha: *alpha,
@@ -35,9 +35,9 @@ fn bound<F: Floor>(c: &Coefficients, states: &[[f64; 3]], floor: F, used: f64) -
         smooth: &Smooth::default(),
         largest: &largest,
     };
-    let mut search = Search::new(stretches, c, RATIO, floor);
+    let mut search = PeakSearch::new(stretches, c, RATIO, floor);
     search.best.used = used;
-    let above = |sample: &Sample| {
+    let above = |sample: &LoadSample| {
         let torque = c.torque(&sample.loads());
         torque.abs() - used * floor.limit(torque, sample.speed() * RATIO)
     };
@@ -55,8 +55,8 @@ fn reached([bound, most]: [f64; 2]) {
 }
 
 /// Driving and braking lines that fall with the speed, differently.
-fn straight() -> Straight {
-    Straight {
+fn straight() -> LinearLimit {
+    LinearLimit {
         lines: [[20.0, -0.1], [15.0, -0.05]],
         line: [15.0, -0.15],
         least: 1.0,
@@ -73,9 +73,9 @@ fn every_load_that_strays_counts() {
     for load in 0..LOADS {
         let mut c = Coefficients(adding);
         c.0[load] *= 10.0;
-        reached(bound(&c, &states, Level(10.0), 0.6));
+        reached(bound(&c, &states, ConstantLimit(10.0), 0.6));
         let opposite = Coefficients(c.0.map(|c| -c));
-        reached(bound(&opposite, &states, Level(10.0), 0.6));
+        reached(bound(&opposite, &states, ConstantLimit(10.0), 0.6));
     }
 }
 
@@ -161,7 +161,7 @@ fn in_both_directions_the_lowest_limit_counts() {
         );
     }
     // A motor that brakes better than it drives: braking that begins at rest is bounded by the driving limit there, 10.
-    let brakes_better = Straight {
+    let brakes_better = LinearLimit {
         lines: [[10.0, 0.1], [15.0, -0.01]],
         line: [10.0, 0.0],
         least: 10.0,
@@ -177,8 +177,8 @@ fn in_both_directions_the_lowest_limit_counts() {
 
 /// A limit without data anywhere; its line carries no information.
 #[derive(Clone, Copy)]
-struct Unknown;
-impl Floor for Unknown {
+struct NoLimit;
+impl Floor for NoLimit {
     fn line(&self) -> [f64; 2] {
         [0.0, 0.0]
     }
@@ -197,15 +197,15 @@ impl Floor for Unknown {
 #[test]
 fn the_ends_of_the_range_of_bounds() {
     let states = [[1.0, 8.0, 5.0], [2.0, 8.0, 6.0]];
-    let [before, _] = bound(&C, &states, Level(10.0), f64::NEG_INFINITY);
+    let [before, _] = bound(&C, &states, ConstantLimit(10.0), f64::NEG_INFINITY);
     assert!(before > f64::MAX, "{before}");
-    let [at_zero, most] = bound(&C, &states, Level(10.0), 0.0);
+    let [at_zero, most] = bound(&C, &states, ConstantLimit(10.0), 0.0);
     assert!(
         (at_zero - most).abs() < 1e-12 && at_zero.is_finite(),
         "{at_zero}"
     );
 
-    let [unknown, _] = bound(&C, &states, Unknown, 0.5);
+    let [unknown, _] = bound(&C, &states, NoLimit, 0.5);
     assert!(unknown <= 0.0, "{unknown}");
 }
 
@@ -218,7 +218,7 @@ fn the_lowest_limit_excludes_first() {
     let [found, _] = bound(&c, &states, straight(), 0.8);
     assert!((found - (4.0 - 0.8 * 10.5)).abs() < 1e-12, "{found}");
     // A rising line is smallest at the slower end.
-    let rising = Straight {
+    let rising = LinearLimit {
         lines: [[20.0, 0.1], [15.0, 0.05]],
         line: [15.0, 0.05],
         least: 15.0,

@@ -6,16 +6,16 @@ use crate::cycle::form::Coefficients;
 const C: [f64; LOADS] = [0.5, 0.25, 0.4, 0.02, 1.5];
 
 /// The front of stretches of three states each: acceleration, torque and speed.
-fn front(stretches: &[[[f64; 3]; 3]]) -> (Front, Vec<Sample>) {
+fn front(stretches: &[[[f64; 3]; 3]]) -> (Front, Vec<LoadSample>) {
     let states = stretches.iter().flatten().enumerate();
-    let sample = |(k, [alpha, output_torque, speed]): (usize, &[f64; 3])| Sample {
+    let sample = |(k, [alpha, output_torque, speed]): (usize, &[f64; 3])| LoadSample {
         t: k as f64,
         weight: 1.0,
         alpha: *alpha,
         output_torque: *output_torque,
         speed: *speed,
     };
-    let samples: Vec<Sample> = states.map(sample).collect();
+    let samples: Vec<LoadSample> = states.map(sample).collect();
     // Nodes in sequence, each joined to all before it.
     let mut tree = Tree { nodes: Vec::new() };
     let count = stretches.len();
@@ -35,7 +35,7 @@ fn front(stretches: &[[[f64; 3]; 3]]) -> (Front, Vec<Sample>) {
 }
 
 /// T·sgn n; not positive at rest.
-fn along(sample: &Sample) -> f64 {
+fn along(sample: &LoadSample) -> f64 {
     let speed = sample.speed();
     let direction = if speed == 0.0 { 0.0 } else { speed.signum() };
     Coefficients(C).torque(&sample.loads()) * direction

@@ -1,6 +1,6 @@
 //! Lower bounds of a limit between two speeds, for the search for the peak: see [`Cycle::peak`](crate::cycle::Cycle::peak).
 
-use super::{Curve, Envelope, Limit, Piece, Shape};
+use super::{Curvature, Envelope, Limit, LimitPiece, TorqueCurve};
 
 impl Envelope {
     /// A chord that is not above the short-time torque limit between two speeds (rad/s, not negative, rising): its torques at both (N·m). It is exact
@@ -30,10 +30,10 @@ impl Envelope {
     /// (rad/s).
     pub(crate) fn straight_up_to(&self, speed: f64) -> Option<[[f64; 2]; 2]> {
         let line = |limit: &Limit| match limit.pieces().first()? {
-            Piece {
+            LimitPiece {
                 from: 0.0,
                 to,
-                curve: Curve::Line { start, slope },
+                curve: TorqueCurve::Line { start, slope },
                 ..
             } if speed <= *to && start.is_finite() => Some([*start, *slope]),
             _ => None,
@@ -42,10 +42,10 @@ impl Envelope {
     }
 }
 
-impl Piece {
+impl LimitPiece {
     fn level_up_to(&self, speed: f64) -> Option<f64> {
         match self.curve {
-            Curve::Line { start, slope } if slope == 0.0 && speed <= self.to => Some(start),
+            TorqueCurve::Line { start, slope } if slope == 0.0 && speed <= self.to => Some(start),
             _ => None,
         }
     }
@@ -59,15 +59,15 @@ impl Piece {
 impl Limit {
     fn positive_below(&self) -> f64 {
         // Just below the end, where the last torques may already round to zero.
-        const BELOW: f64 = 1.0 - 1e-9;
+        const JUST_BELOW: f64 = 1.0 - 1e-9;
         for piece in self.pieces() {
             let [from, to] = [piece.torque(piece.from), piece.torque(piece.to)];
             let positive = match piece.shape {
                 _ if from <= 0.0 => piece.from,
                 _ if to > 0.0 => continue,
                 // A chord that is positive up to its end.
-                Shape::Straight | Shape::Concave => piece.to * BELOW,
-                Shape::Monotone => piece.from,
+                Curvature::Straight | Curvature::Concave => piece.to * JUST_BELOW,
+                Curvature::Monotone => piece.from,
             };
             return positive;
         }
@@ -87,8 +87,8 @@ impl Limit {
         if to <= first.to {
             let ends = [first.torque(from), first.torque(to)];
             return match first.shape {
-                Shape::Straight | Shape::Concave => ends,
-                Shape::Monotone => [ends[0].min(ends[1]); 2],
+                Curvature::Straight | Curvature::Concave => ends,
+                Curvature::Monotone => [ends[0].min(ends[1]); 2],
             };
         }
         if to > self.end() {
@@ -106,7 +106,7 @@ impl Limit {
         for piece in covered.iter().take_while(|piece| piece.from < to) {
             let (a, b) = (piece.from.max(from), piece.to.min(to));
             least = least.min(piece.least(a, b));
-            bends_down &= piece.shape != Shape::Monotone
+            bends_down &= piece.shape != Curvature::Monotone
                 && above(piece.torque(a), a)
                 && above(piece.torque(b), b);
         }

@@ -2,7 +2,7 @@
 
 use super::circuit::Circuit;
 use super::continuous::Continuous;
-use super::limit::{Limit, Piece};
+use super::limit::{Limit, LimitPiece};
 use super::{Envelope, voltage};
 use crate::catalogue::Commutation;
 use crate::catalogue::{Amplifier, Motor, VOLTAGE_CLASS};
@@ -329,11 +329,11 @@ fn through(vertices: &[[f64; 2]]) -> Limit {
     let Some(&first) = vertices.first() else {
         return Limit::new([]);
     };
-    let mut pieces = vec![Piece::level(0.0, first[0], first[1])];
+    let mut pieces = vec![LimitPiece::level(0.0, first[0], first[1])];
     let mut last = first;
     for &vertex in vertices.get(1..).unwrap_or_default() {
         if vertex[0] > last[0] {
-            pieces.push(Piece::line(last, vertex));
+            pieces.push(LimitPiece::line(last, vertex));
             last = vertex;
         } else {
             last = [last[0], vertex[1].min(last[1])];

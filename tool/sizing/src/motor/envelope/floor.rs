@@ -1,7 +1,7 @@
 //! Lower bounds of all limits between two speeds, for callers that must never exceed the motor's capability.
 
 use super::continuous::Continuous;
-use super::{Envelope, Limit, Segment};
+use super::{Envelope, Limit, TorqueSegment};
 
 impl Envelope {
     /// A chord that is not above the short-time torque in any quadrant between two speeds (rad/s, not negative, rising): its torques at both (N·m);
@@ -15,11 +15,11 @@ impl Envelope {
     pub(crate) fn continuous_floor(&self, speeds: [f64; 2]) -> [f64; 2] {
         let [from, to] = speeds;
         match self.continuous_segment(speeds) {
-            Some(Segment::Unknown) => [f64::INFINITY; 2],
-            Some(Segment::Line(torques)) => torques,
+            Some(TorqueSegment::Unknown) => [f64::INFINITY; 2],
+            Some(TorqueSegment::Line(torques)) => torques,
             // A hyperbola lies above its tangents, and above its end.
-            Some(Segment::Power(power)) if to > 1.5 * from => [power / to; 2],
-            Some(Segment::Power(power)) => {
+            Some(TorqueSegment::Power(power)) if to > 1.5 * from => [power / to; 2],
+            Some(TorqueSegment::Power(power)) => {
                 let middle = 0.5 * (from + to);
                 speeds.map(|speed| power / middle * (2.0 - speed / middle))
             }

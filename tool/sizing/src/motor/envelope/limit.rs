@@ -5,29 +5,29 @@ use crate::motor::winding::CurrentCurve;
 
 /// A torque limit over the magnitude of the speed, from zero up to the largest speed; zero beyond.
 ///
-/// A short list of [`Piece`]s without gaps, in rising order. While the motor drives, the limit never rises with speed; while it brakes it may,
+/// A short list of [`LimitPiece`]s without gaps, in rising order. While the motor drives, the limit never rises with speed; while it brakes it may,
 /// because the voltage drop of the current then helps. It may jump down from one piece to the next. An infinite value means that there are no data.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Limit {
-    pieces: Box<[Piece]>,
+    pieces: Box<[LimitPiece]>,
 }
 
 /// One piece of a limit.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Piece {
+pub struct LimitPiece {
     /// Start of the piece (rad/s), finite.
     pub from: f64,
     /// End of the piece, included (rad/s); may be infinite in the last piece if it is constant.
     pub to: f64,
     /// Form of the torque.
-    pub curve: Curve,
+    pub curve: TorqueCurve,
     /// Curvature between `from` and `to`.
-    pub shape: Shape,
+    pub shape: Curvature,
 }
 
 /// Torque over speed.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Curve {
+pub enum TorqueCurve {
     /// A straight line: torque at the start of the piece (N·m, may be infinite if the slope is zero) and slope (N·m·s/rad).
     Line {
         /// Torque at the start of the piece (N·m).
@@ -48,7 +48,7 @@ pub enum Curve {
 
 /// Curvature of a curve, which determines its lower bound between two speeds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Shape {
+pub enum Curvature {
     /// Straight: the chord is the curve.
     Straight,
     /// Concave: no point is below the chord.
@@ -57,18 +57,18 @@ pub enum Shape {
     Monotone,
 }
 
-impl Piece {
+impl LimitPiece {
     /// A straight piece through two points \[speed, torque\].
     pub fn line([from, start]: [f64; 2], [to, end]: [f64; 2]) -> Self {
         let slope = (end - start) / (to - from);
         Self {
             from,
             to,
-            curve: Curve::Line {
+            curve: TorqueCurve::Line {
                 start,
                 slope: if slope.is_finite() { slope } else { 0.0 },
             },
-            shape: Shape::Straight,
+            shape: Curvature::Straight,
         }
     }
 
@@ -77,11 +77,11 @@ impl Piece {
         Self {
             from,
             to,
-            curve: Curve::Line {
+            curve: TorqueCurve::Line {
                 start: torque,
                 slope: 0.0,
             },
-            shape: Shape::Straight,
+            shape: Curvature::Straight,
         }
     }
 
@@ -90,10 +90,10 @@ impl Piece {
     pub fn torque(&self, speed: f64) -> f64 {
         match &self.curve {
             // Constant: avoids 0·∞ in an infinite piece.
-            Curve::Line { start, slope } if *slope == 0.0 => *start,
+            TorqueCurve::Line { start, slope } if *slope == 0.0 => *start,
             // A line that ends at zero may become negative by rounding.
-            Curve::Line { start, slope } => (start + slope * (speed - self.from)).max(0.0),
-            Curve::Winding {
+            TorqueCurve::Line { start, slope } => (start + slope * (speed - self.from)).max(0.0),
+            TorqueCurve::Winding {
                 circuit,
                 torques,
                 braking,
@@ -104,16 +104,16 @@ impl Piece {
     /// The same torques at `by` times the speeds.
     fn stretched(&self, by: f64) -> Self {
         let curve = match self.curve {
-            Curve::Line { start, slope } => Curve::Line {
+            TorqueCurve::Line { start, slope } => TorqueCurve::Line {
                 start,
                 slope: slope / by,
             },
             // A winding that needs less voltage at each speed.
-            Curve::Winding {
+            TorqueCurve::Winding {
                 circuit,
                 torques,
                 braking,
-            } => Curve::Winding {
+            } => TorqueCurve::Winding {
                 circuit: Circuit {
                     flux: circuit.flux / by,
                     reactance: circuit.reactance / by,
@@ -135,11 +135,11 @@ impl Piece {
     #[must_use]
     pub fn cut(&self, from: f64, to: f64) -> Self {
         let curve = match self.curve {
-            Curve::Line { slope, .. } => Curve::Line {
+            TorqueCurve::Line { slope, .. } => TorqueCurve::Line {
                 start: self.torque(from),
                 slope,
             },
-            winding @ Curve::Winding { .. } => winding,
+            winding @ TorqueCurve::Winding { .. } => winding,
         };
         Self {
             from,
@@ -152,7 +152,7 @@ impl Piece {
 
 impl Limit {
     /// From pieces in rising order without gaps; pieces without length are dropped. An empty list allows no torque.
-    pub fn new(pieces: impl IntoIterator<Item = Piece>) -> Self {
+    pub fn new(pieces: impl IntoIterator<Item = LimitPiece>) -> Self {
         let pieces = pieces.into_iter().filter(|piece| piece.to > piece.from);
         Self {
             pieces: pieces.collect(),
@@ -161,7 +161,7 @@ impl Limit {
 
     /// A constant torque up to a speed.
     pub fn level(torque: f64, to: f64) -> Self {
-        Self::new([Piece::level(0.0, to, torque)])
+        Self::new([LimitPiece::level(0.0, to, torque)])
     }
 
     /// The same torques at `by` times the speeds.
@@ -171,7 +171,7 @@ impl Limit {
     }
 
     /// The pieces.
-    pub fn pieces(&self) -> &[Piece] {
+    pub fn pieces(&self) -> &[LimitPiece] {
         &self.pieces
     }
 
@@ -215,7 +215,7 @@ impl Limit {
 }
 
 /// The lower of two pieces between two speeds, cut where they cross.
-fn lower(a: &Piece, b: &Piece, from: f64, to: f64, pieces: &mut Vec<Piece>) {
+fn lower(a: &LimitPiece, b: &LimitPiece, from: f64, to: f64, pieces: &mut Vec<LimitPiece>) {
     let difference = |speed: f64| a.torque(speed) - b.torque(speed);
     let mut cuts = vec![from];
     if to.is_finite() {
@@ -238,8 +238,8 @@ fn lower(a: &Piece, b: &Piece, from: f64, to: f64, pieces: &mut Vec<Piece>) {
     }
 }
 
-const fn is_bent(piece: &Piece) -> bool {
-    !matches!(piece.shape, Shape::Straight)
+const fn is_bent(piece: &LimitPiece) -> bool {
+    !matches!(piece.shape, Curvature::Straight)
 }
 
 /// Bisection for a change of sign.

@@ -31,8 +31,8 @@ mod segment;
 mod voltage;
 
 pub use circuit::Circuit;
-pub use limit::{Curve, Limit, Piece, Shape};
-pub(crate) use segment::Segment;
+pub use limit::{Curvature, Limit, LimitPiece, TorqueCurve};
+pub(crate) use segment::TorqueSegment;
 
 use build::Builder;
 use continuous::Continuous;
@@ -142,7 +142,7 @@ impl Envelope {
 
 /// Limits of a motor on one amplifier at its supply, computed once for all drives with this pair.
 #[derive(Clone, Debug)]
-pub struct Prepared {
+pub struct MotorLimits {
     /// Peak and continuous torque over speed.
     pub envelope: Envelope,
     /// Torque with which the motor brakes in an emergency stop (N·m): an amplifier delivers its peak current at any temperature.
@@ -157,7 +157,7 @@ pub struct Prepared {
     amplified: Box<[(String, Self)]>,
 }
 
-impl Prepared {
+impl MotorLimits {
     /// The limits of a motor, with its amplifier if one is chosen.
     pub fn new(motor: &Motor, amplifier: Option<&Amplifier>, site: &Site) -> Self {
         let builder = Builder::new(motor, amplifier, site);
@@ -234,10 +234,10 @@ impl Prepared {
 
 impl Catalogue {
     /// Every motor's limits at the supply of the site, with each of its amplifiers, in the order of the motors.
-    pub fn prepare(&self, site: &Site) -> Vec<Prepared> {
+    pub fn prepare(&self, site: &Site) -> Vec<MotorLimits> {
         let prepare = |(index, motor)| {
             let amplifiers = self.amplifiers_of(index).into_iter();
-            Prepared::new(motor, None, site).with(motor, amplifiers, site)
+            MotorLimits::new(motor, None, site).with(motor, amplifiers, site)
         };
         self.motors.iter().enumerate().map(prepare).collect()
     }

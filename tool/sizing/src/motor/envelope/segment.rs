@@ -1,11 +1,11 @@
 //! The S1 torque between two speeds, where it is a single line or hyperbola.
 
 use super::continuous::Continuous;
-use super::{Envelope, Limit, Shape};
+use super::{Curvature, Envelope, Limit};
 
 /// A torque over speed between two speeds.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Segment {
+pub(crate) enum TorqueSegment {
     /// No data.
     Unknown,
     /// A straight line with these torques at both ends (N·m).
@@ -17,40 +17,40 @@ pub(crate) enum Segment {
 impl Envelope {
     /// The S1 torque between two speeds (rad/s, not negative, not falling). `None` if it is more than one line or hyperbola, or the voltage line of a
     /// winding, or if a simple test does not decide.
-    pub(crate) fn continuous_segment(&self, speeds: [f64; 2]) -> Option<Segment> {
+    pub(crate) fn continuous_segment(&self, speeds: [f64; 2]) -> Option<TorqueSegment> {
         let [from, to] = speeds;
         if from > self.max_speed {
-            return Some(Segment::Line([0.0; 2]));
+            return Some(TorqueSegment::Line([0.0; 2]));
         }
         if to > self.max_speed {
             return None;
         }
         match self.continuous.segment(speeds)? {
             // An unknown torque is not capped: see `Envelope::continuous_torque`.
-            Segment::Unknown => Some(Segment::Unknown),
+            TorqueSegment::Unknown => Some(TorqueSegment::Unknown),
             heat => self.driving.caps(heat, speeds),
         }
     }
 }
 
 impl Continuous {
-    fn segment(&self, speeds: [f64; 2]) -> Option<Segment> {
+    fn segment(&self, speeds: [f64; 2]) -> Option<TorqueSegment> {
         let heat = match &*self.points {
             [] => self.figures_segment(speeds)?,
             points => points_segment(points, speeds)?,
         };
         let power = if self.max_power.is_finite() {
-            Segment::Power(self.max_power)
+            TorqueSegment::Power(self.max_power)
         } else {
-            Segment::Unknown
+            TorqueSegment::Unknown
         };
         lower(heat, power, speeds)
     }
 
-    fn figures_segment(&self, [from, to]: [f64; 2]) -> Option<Segment> {
+    fn figures_segment(&self, [from, to]: [f64; 2]) -> Option<TorqueSegment> {
         let (torque, rated) = (self.rated_torque, self.rated_speed);
         if torque.is_finite() && from > rated {
-            return Some(Segment::Power(torque * rated));
+            return Some(TorqueSegment::Power(torque * rated));
         }
         let straight = torque.is_finite() && self.standstill.is_finite() && rated.is_finite();
         let together = straight || from > 0.0 || to == 0.0;
@@ -60,14 +60,14 @@ impl Continuous {
 }
 
 /// Between points, constant before the first, with constant power beyond the last.
-fn points_segment(points: &[[f64; 2]], speeds: [f64; 2]) -> Option<Segment> {
+fn points_segment(points: &[[f64; 2]], speeds: [f64; 2]) -> Option<TorqueSegment> {
     let [after, same] = speeds.map(|speed| points.partition_point(|p| p[0] < speed));
     if after != same {
         return None;
     }
     match points.last() {
         Some([speed, torque]) if after == points.len() && *speed > 0.0 => {
-            Some(Segment::Power(torque * speed))
+            Some(TorqueSegment::Power(torque * speed))
         }
         _ => Some(level_or_line(
             speeds.map(|speed| super::continuous::between(points, speed)),
@@ -75,24 +75,26 @@ fn points_segment(points: &[[f64; 2]], speeds: [f64; 2]) -> Option<Segment> {
     }
 }
 
-fn level_or_line(torques: [f64; 2]) -> Segment {
+fn level_or_line(torques: [f64; 2]) -> TorqueSegment {
     if torques.iter().all(|torque| torque.is_finite()) {
-        Segment::Line(torques)
+        TorqueSegment::Line(torques)
     } else {
-        Segment::Unknown
+        TorqueSegment::Unknown
     }
 }
 
 /// The lower of two, if one is the lower everywhere.
-fn lower(one: Segment, other: Segment, speeds: [f64; 2]) -> Option<Segment> {
+fn lower(one: TorqueSegment, other: TorqueSegment, speeds: [f64; 2]) -> Option<TorqueSegment> {
     match (one, other) {
-        (Segment::Unknown, known) | (known, Segment::Unknown) => Some(known),
-        (Segment::Line(a), Segment::Line(b)) if below(a, b) => Some(one),
-        (Segment::Line(a), Segment::Line(b)) if below(b, a) => Some(other),
-        (Segment::Line(_), Segment::Line(_)) => None,
-        (Segment::Power(a), Segment::Power(b)) => Some(Segment::Power(a.min(b))),
-        (Segment::Line(line), Segment::Power(power))
-        | (Segment::Power(power), Segment::Line(line)) => lower_of_both(line, power, speeds),
+        (TorqueSegment::Unknown, known) | (known, TorqueSegment::Unknown) => Some(known),
+        (TorqueSegment::Line(a), TorqueSegment::Line(b)) if below(a, b) => Some(one),
+        (TorqueSegment::Line(a), TorqueSegment::Line(b)) if below(b, a) => Some(other),
+        (TorqueSegment::Line(_), TorqueSegment::Line(_)) => None,
+        (TorqueSegment::Power(a), TorqueSegment::Power(b)) => Some(TorqueSegment::Power(a.min(b))),
+        (TorqueSegment::Line(line), TorqueSegment::Power(power))
+        | (TorqueSegment::Power(power), TorqueSegment::Line(line)) => {
+            lower_of_both(line, power, speeds)
+        }
     }
 }
 
@@ -101,39 +103,39 @@ fn below(line: [f64; 2], other: [f64; 2]) -> bool {
     line[0] <= other[0] && line[1] <= other[1]
 }
 
-fn lower_of_both(line: [f64; 2], power: f64, speeds: [f64; 2]) -> Option<Segment> {
+fn lower_of_both(line: [f64; 2], power: f64, speeds: [f64; 2]) -> Option<TorqueSegment> {
     // The hyperbola is convex: below its chord, and above its tangents.
     if speeds[0] > 0.0 && below(speeds.map(|speed| power / speed), line) {
-        return Some(Segment::Power(power));
+        return Some(TorqueSegment::Power(power));
     }
     let middle = 0.5 * (speeds[0] + speeds[1]);
     let tangent = |at: f64| speeds.map(|speed| power / at * (2.0 - speed / at));
     let above = |at: f64| at > 0.0 && below(line, tangent(at));
     let level = [line[0].max(line[1]); 2];
     let least = speeds[1] == 0.0 || below(level, [power / speeds[1]; 2]);
-    (least || above(middle) || above(speeds[1])).then_some(Segment::Line(line))
+    (least || above(middle) || above(speeds[1])).then_some(TorqueSegment::Line(line))
 }
 
 impl Limit {
     /// The lower of this limit and a torque, if it is the same line or hyperbola between two speeds in the range of the limit.
-    fn caps(&self, torque: Segment, speeds: [f64; 2]) -> Option<Segment> {
+    fn caps(&self, torque: TorqueSegment, speeds: [f64; 2]) -> Option<TorqueSegment> {
         let reached = self.pieces().iter().find(|piece| speeds[0] <= piece.to);
         let Some(piece) = reached else {
-            return Some(Segment::Line([0.0; 2]));
+            return Some(TorqueSegment::Line([0.0; 2]));
         };
         if speeds[1] > piece.to {
             return None;
         }
         let ends = speeds.map(|speed| piece.torque(speed));
         match piece.shape {
-            Shape::Straight => lower(torque, level_or_line(ends), speeds),
-            Shape::Concave => under(torque, ends, speeds),
-            Shape::Monotone => under(torque, [ends[0].min(ends[1]); 2], speeds),
+            Curvature::Straight => lower(torque, level_or_line(ends), speeds),
+            Curvature::Concave => under(torque, ends, speeds),
+            Curvature::Monotone => under(torque, [ends[0].min(ends[1]); 2], speeds),
         }
     }
 }
 
 /// A torque that is nowhere above a chord below the limit; `None` otherwise, because the limit itself is not a line.
-fn under(torque: Segment, chord: [f64; 2], speeds: [f64; 2]) -> Option<Segment> {
-    lower(torque, Segment::Line(chord), speeds).filter(|lower| *lower == torque)
+fn under(torque: TorqueSegment, chord: [f64; 2], speeds: [f64; 2]) -> Option<TorqueSegment> {
+    lower(torque, TorqueSegment::Line(chord), speeds).filter(|lower| *lower == torque)
 }

@@ -1,7 +1,7 @@
 //! The voltage limit as pieces: cut where it leaves the current limit, where it is straight, where it is concave.
 
 use super::circuit::Circuit;
-use super::limit::{Curve, Limit, Piece, Shape};
+use super::limit::{Curvature, Limit, LimitPiece, TorqueCurve};
 use crate::motor::winding::CurrentCurve;
 
 /// Steps in which a smooth stretch is evaluated.
@@ -50,7 +50,7 @@ fn straight(circuit: &Circuit, torques: &CurrentCurve, braking: bool, end: f64) 
     let points: Vec<[f64; 2]> = points.collect();
     Limit::new(points.windows(2).filter_map(|pair| {
         let &[from, to] = pair else { return None };
-        Some(Piece::line(from, to))
+        Some(LimitPiece::line(from, to))
     }))
 }
 
@@ -76,7 +76,7 @@ fn bent(circuit: &Circuit, torques: &CurrentCurve, braking: bool, end: f64) -> L
     for pair in cuts.windows(2) {
         let &[from, to] = pair else { continue };
         if limited(0.5 * (from + to)) {
-            pieces.push(Piece::level(from, to, torques.torque(circuit.current)));
+            pieces.push(LimitPiece::level(from, to, torques.torque(circuit.current)));
             continue;
         }
         // The braking limit rises up to its maximum: cut there, so that every piece is monotonic.
@@ -88,10 +88,10 @@ fn bent(circuit: &Circuit, torques: &CurrentCurve, braking: bool, end: f64) -> L
         for pair in tops.windows(2) {
             let &[from, to] = pair else { continue };
             for (from, to, shape) in shapes(&torque, from, to) {
-                pieces.push(Piece {
+                pieces.push(LimitPiece {
                     from,
                     to,
-                    curve: Curve::Winding {
+                    curve: TorqueCurve::Winding {
                         circuit: *circuit,
                         torques: *torques,
                         braking,
@@ -138,14 +138,14 @@ fn changes(yes: &impl Fn(f64) -> bool, from: f64, to: f64) -> Vec<f64> {
 
 /// A smooth stretch, cut into runs that are concave throughout and runs that are not. A run counts as concave only if every second difference, also
 /// half a step beyond its ends, is clearly below zero.
-fn shapes(torque: &impl Fn(f64) -> f64, from: f64, to: f64) -> Vec<(f64, f64, Shape)> {
-    const CLEARLY: f64 = 1e-9;
+fn shapes(torque: &impl Fn(f64) -> f64, from: f64, to: f64) -> Vec<(f64, f64, Curvature)> {
+    const CURVATURE_TOLERANCE: f64 = 1e-9;
     let place = |k: u32| place(from, to, k);
     let values: Vec<f64> = (0..=STEPS).map(|k| torque(place(k))).collect();
     let size = values.iter().fold(0.0f64, |most, v| most.max(v.abs()));
     let bends: Vec<bool> = values
         .windows(3)
-        .map(|w| matches!(w, [a, b, c] if a - 2.0 * b + c < -CLEARLY * size))
+        .map(|w| matches!(w, [a, b, c] if a - 2.0 * b + c < -CURVATURE_TOLERANCE * size))
         .collect();
     let bend = |k: u32| bends.get(k as usize).copied();
     // Step k lies between the differences k − 1 and k.
@@ -154,12 +154,12 @@ fn shapes(torque: &impl Fn(f64) -> f64, from: f64, to: f64) -> Vec<(f64, f64, Sh
         let after = if k + 1 == STEPS { bend(k - 1) } else { bend(k) };
         before == Some(true) && after == Some(true)
     };
-    let mut runs: Vec<(f64, f64, Shape)> = Vec::new();
+    let mut runs: Vec<(f64, f64, Curvature)> = Vec::new();
     for k in 0..STEPS {
         let shape = if concave(k) {
-            Shape::Concave
+            Curvature::Concave
         } else {
-            Shape::Monotone
+            Curvature::Monotone
         };
         match runs.last_mut() {
             Some(last) if last.2 == shape => last.1 = place(k + 1),

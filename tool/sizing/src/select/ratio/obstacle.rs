@@ -87,7 +87,7 @@ impl Obstacle {
 }
 
 /// Result of one rule over the ratios tried.
-struct Course {
+struct RuleByRatio {
     rule: Rule,
     /// For each ratio: whether the rule is satisfied, and the share of its limit.
     points: Vec<(bool, f64)>,
@@ -98,10 +98,10 @@ impl Trial<'_> {
     pub fn obstacle(&self, best: Option<f64>) -> Option<Obstacle> {
         let ratios = tried(best);
         let findings: Vec<Findings> = ratios.iter().map(|ratio| self.findings(*ratio)).collect();
-        let courses: Vec<Course> = Rule::ALL
+        let courses: Vec<RuleByRatio> = Rule::ALL
             .into_iter()
             .filter(|rule| self.rules.limit(*rule).fail.is_some())
-            .map(|rule| Course {
+            .map(|rule| RuleByRatio {
                 rule,
                 points: findings
                     .iter()
@@ -162,7 +162,7 @@ impl Trial<'_> {
     }
 
     /// The smallest and the largest ratio that satisfies a rule.
-    fn bounds(&self, course: &Course, ratios: &[f64]) -> Option<Range> {
+    fn bounds(&self, course: &RuleByRatio, ratios: &[f64]) -> Option<Range> {
         let first = course.points.iter().position(|p| p.0)?;
         let last = course.points.iter().rposition(|p| p.0)?;
         let holds = |ratio: f64| Ok::<_, Infallible>(self.one(course.rule, ratio).0);

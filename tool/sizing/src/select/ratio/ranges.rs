@@ -7,23 +7,23 @@ use crate::catalogue::{Gearbox, Motor};
 use crate::cycle::Cycle;
 use crate::judge::broken;
 use crate::judge::{Context, Findings};
-use crate::motor::envelope::Prepared;
+use crate::motor::envelope::MotorLimits;
 use jred_file::model::rule::Rule;
 use jred_file::model::rules::RuleSet;
 use jred_file::model::site::Site;
 use jred_file::number::numerics::edge;
 
 /// Range of ratios that is searched.
-const LOOKED_AT: Range = [0.01, 10_000.0];
+const SEARCH_RANGE: Range = [0.01, 10_000.0];
 
 /// Number of steps over that range, in equal ratios: neighbours differ by 2.3 %. A narrower suitable range is found only if it contains i*.
-const TRIED: u32 = 600;
+const RATIO_COUNT: u32 = 600;
 
 /// The tried ratios, rising, including `best`.
 pub(super) fn tried(best: Option<f64>) -> Vec<f64> {
-    let [from, to] = LOOKED_AT;
-    let step = |k: u32| from * (to / from).powf(f64::from(k) / f64::from(TRIED));
-    let mut ratios: Vec<f64> = (0..=TRIED).map(step).collect();
+    let [from, to] = SEARCH_RANGE;
+    let step = |k: u32| from * (to / from).powf(f64::from(k) / f64::from(RATIO_COUNT));
+    let mut ratios: Vec<f64> = (0..=RATIO_COUNT).map(step).collect();
     ratios.extend(best.filter(|best| (from..to).contains(best)));
     ratios.sort_by(f64::total_cmp);
     ratios
@@ -31,7 +31,7 @@ pub(super) fn tried(best: Option<f64>) -> Vec<f64> {
 
 /// A range of ratios, and the rules that limit it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Found {
+pub struct RatioRange {
     /// The ratios.
     pub range: Range,
     /// The rule that is violated below; `None`: the range continues.
@@ -52,7 +52,7 @@ pub struct Trial<'a> {
     /// The motor.
     pub motor: &'a Motor,
     /// Its limits.
-    pub prepared: &'a Prepared,
+    pub prepared: &'a MotorLimits,
     /// Data of the gearbox.
     pub gear: Gear,
 }
@@ -78,9 +78,9 @@ impl Trial<'_> {
     }
 
     /// The ranges without a violation; `best` is tried in addition to the grid.
-    pub fn ranges(&self, best: Option<f64>) -> Vec<Found> {
-        let mut found: Vec<Found> = Vec::new();
-        let mut open: Option<Found> = None;
+    pub fn ranges(&self, best: Option<f64>) -> Vec<RatioRange> {
+        let mut found: Vec<RatioRange> = Vec::new();
+        let mut open: Option<RatioRange> = None;
         let mut before: Option<(f64, Option<Rule>)> = None;
         for ratio in tried(best) {
             let broken = self.broken(ratio);
@@ -90,7 +90,7 @@ impl Trial<'_> {
                         Some((last, rule)) => (self.edge(ratio, last), rule),
                         None => (ratio, None),
                     };
-                    open = Some(Found {
+                    open = Some(RatioRange {
                         range: [start, ratio],
                         below,
                         above: None,

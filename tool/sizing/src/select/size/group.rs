@@ -17,29 +17,29 @@ const NEAR: usize = 2 * FIRST;
 pub struct Group<'c> {
     first: Vec<Candidate<'c>>,
     /// Candidates for the first ranks while drives are checked.
-    near: Vec<Unranked<'c>>,
+    near: Vec<RankBound<'c>>,
     /// Lower bound on the rank of every drive in `rest`; `None` if `rest` is empty.
     limit: Option<Order<'c>>,
-    pub(super) rest: Vec<Placed<'c>>,
+    pub(super) rest: Vec<DriveWithId<'c>>,
     /// Counts over all suitable drives; for refused ones nothing is counted.
     survey: Survey<'c>,
 }
 
 /// A drive and its id; small, because this is all that is stored for most drives of a large catalogue.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Placed<'c> {
+pub(super) struct DriveWithId<'c> {
     pub(super) drive: Drive<'c>,
     pub(super) id: DriveId,
 }
 
 /// A drive that is not fully evaluated, and a lower bound on its rank.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Unranked<'c> {
+pub(super) struct RankBound<'c> {
     pub(super) drive: Drive<'c>,
     pub(super) bound: Order<'c>,
 }
 
-impl<'c> Unranked<'c> {
+impl<'c> RankBound<'c> {
     fn of(candidate: &Candidate<'c>) -> Self {
         Self {
             drive: candidate.drive,
@@ -47,8 +47,8 @@ impl<'c> Unranked<'c> {
         }
     }
 
-    pub(super) const fn placed(&self) -> Placed<'c> {
-        Placed {
+    pub(super) const fn placed(&self) -> DriveWithId<'c> {
+        DriveWithId {
             drive: self.drive,
             id: self.bound.id,
         }
@@ -60,7 +60,7 @@ impl<'c> Group<'c> {
     pub(crate) fn of(all: Vec<Candidate<'c>>) -> Self {
         let mut group = Self::none();
         for candidate in &all {
-            group.count(&Unranked::of(candidate), &candidate.outcome);
+            group.count(&RankBound::of(candidate), &candidate.outcome);
         }
         group.first = all;
         group
@@ -78,18 +78,18 @@ impl<'c> Group<'c> {
     }
 
     /// Adds a drive that is not fully evaluated, and its outcome as far as known.
-    pub(super) fn add(&mut self, drive: Unranked<'c>, outcome: &Outcome) {
+    pub(super) fn add(&mut self, drive: RankBound<'c>, outcome: &Outcome) {
         self.count(&drive, outcome);
         self.put(drive);
     }
 
-    fn count(&mut self, drive: &Unranked<'c>, outcome: &Outcome) {
+    fn count(&mut self, drive: &RankBound<'c>, outcome: &Outcome) {
         if !outcome.fails() {
             self.survey.add(drive, outcome);
         }
     }
 
-    fn put(&mut self, drive: Unranked<'c>) {
+    fn put(&mut self, drive: RankBound<'c>) {
         if self.limit.is_some_and(|limit| drive.bound >= limit) {
             self.rest.push(drive.placed());
             return;
@@ -118,8 +118,8 @@ impl<'c> Group<'c> {
     /// necessary.
     pub(super) fn rank(
         &mut self,
-        judge: impl Fn(&Placed<'c>) -> Candidate<'c>,
-        bound: impl Fn(&Placed<'c>) -> Unranked<'c>,
+        judge: impl Fn(&DriveWithId<'c>) -> Candidate<'c>,
+        bound: impl Fn(&DriveWithId<'c>) -> RankBound<'c>,
     ) {
         loop {
             let near = self.near.drain(..).map(|drive| judge(&drive.placed()));
@@ -143,10 +143,11 @@ impl<'c> Group<'c> {
         // Beyond the limit, drives that are not evaluated may rank between those that are.
         if let Some(limit) = self.limit {
             let known = self.first.partition_point(|c| Order::of(c) <= limit);
-            self.rest.extend(self.first.drain(known..).map(|c| Placed {
-                drive: c.drive,
-                id: c.id,
-            }));
+            self.rest
+                .extend(self.first.drain(known..).map(|c| DriveWithId {
+                    drive: c.drive,
+                    id: c.id,
+                }));
         }
     }
 

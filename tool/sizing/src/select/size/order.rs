@@ -51,19 +51,19 @@ pub struct Order<'c> {
     certainty: Option<Certainty>,
     /// For refused drives.
     beyond: u8,
-    share: Figure,
+    share: RoundedFigure,
     /// For suitable drives.
     warns: bool,
-    power: Figure,
+    power: RoundedFigure,
     drive: Drive<'c>,
     pub(super) id: DriveId,
 }
 
 /// A non-negative figure with the precision of a data sheet; its bits have the order of the figures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-struct Figure(u32);
+struct RoundedFigure(u32);
 
-impl Figure {
+impl RoundedFigure {
     const ZERO: Self = Self(0);
 
     const fn of(value: f64) -> Self {
@@ -117,34 +117,34 @@ impl<'c> Order<'c> {
             certainty: (!fails).then(|| Certainty::of(&drive, outcome)),
             beyond: if fails { outcome.beyond_all_limits } else { 0 },
             share: if fails {
-                Figure::of(outcome.worst_use)
+                RoundedFigure::of(outcome.worst_use)
             } else {
-                Figure::ZERO
+                RoundedFigure::ZERO
             },
             warns: !fails && outcome.warnings > 0,
-            power: Figure::known(drive.motor.rated_power()),
+            power: RoundedFigure::known(drive.motor.rated_power()),
             drive,
             id,
         }
     }
 
     /// All criteria after the power of the motor; rarely needed, so not stored.
-    fn rest(&self) -> (Figure, bool, [Figure; 4]) {
+    fn rest(&self) -> (RoundedFigure, bool, [RoundedFigure; 4]) {
         let Drive {
             motor,
             gearbox,
             amplifier,
         } = self.drive;
         let current = amplifier.map(|amplifier| amplifier.rated_current);
-        let gearbox = gearbox.map_or(Figure::ZERO, |g| Figure::known(g.size()));
+        let gearbox = gearbox.map_or(RoundedFigure::ZERO, |g| RoundedFigure::known(g.size()));
         (
-            Figure::known(motor.rated_torque.or(motor.standstill_torque)),
+            RoundedFigure::known(motor.rated_torque.or(motor.standstill_torque)),
             self.warns,
             [
-                Figure::known(current),
+                RoundedFigure::known(current),
                 gearbox,
-                Figure::known(self.drive.mass()),
-                Figure::known(self.drive.price()),
+                RoundedFigure::known(self.drive.mass()),
+                RoundedFigure::known(self.drive.price()),
             ],
         )
     }

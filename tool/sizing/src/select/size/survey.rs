@@ -1,6 +1,6 @@
 //! Counts over all suitable drives: by certainty, and by rules that are not checked.
 
-use super::group::Unranked;
+use super::group::RankBound;
 use super::order::Certainty;
 use crate::judge::Outcome;
 use jred_file::model::rule::Rule;
@@ -18,7 +18,7 @@ pub(super) struct Survey<'c> {
 pub(super) struct Class<'c> {
     pub(super) count: usize,
     /// The first in order: the rank of a suitable drive does not depend on the shares of its limits.
-    pub(super) first: Option<Unranked<'c>>,
+    pub(super) first: Option<RankBound<'c>>,
 }
 
 /// Drives for which a rule is not checked.
@@ -26,7 +26,7 @@ pub(super) struct Class<'c> {
 pub(super) struct Gap<'c> {
     pub(super) count: usize,
     /// One of them, independent of the division of the work.
-    pub(super) example: Option<Unranked<'c>>,
+    pub(super) example: Option<RankBound<'c>>,
 }
 
 impl<'c> Survey<'c> {
@@ -46,7 +46,7 @@ impl<'c> Survey<'c> {
     };
 
     /// Adds a suitable drive.
-    pub(super) fn add(&mut self, drive: &Unranked<'c>, outcome: &Outcome) {
+    pub(super) fn add(&mut self, drive: &RankBound<'c>, outcome: &Outcome) {
         let class = &mut self.classes[Certainty::of(&drive.drive, outcome) as usize];
         class.count += 1;
         class.offer(drive);
@@ -87,7 +87,7 @@ impl<'c> Survey<'c> {
 }
 
 impl<'c> Class<'c> {
-    fn offer(&mut self, drive: &Unranked<'c>) {
+    fn offer(&mut self, drive: &RankBound<'c>) {
         if (self.first.as_ref()).is_none_or(|first| drive.bound < first.bound) {
             self.first = Some(*drive);
         }
@@ -96,7 +96,7 @@ impl<'c> Class<'c> {
 
 impl<'c> Gap<'c> {
     /// The example is the first in the catalogue, regardless of how the work is divided.
-    fn add(&mut self, drive: &Unranked<'c>) {
+    fn add(&mut self, drive: &RankBound<'c>) {
         self.count += 1;
         if self
             .example

@@ -1,6 +1,6 @@
 //! Summary of a Monte Carlo study.
 
-use super::Verdict;
+use super::ToleranceVerdict;
 use crate::study::cell::Cell;
 use jred_file::number::words::Word as _;
 
@@ -87,11 +87,11 @@ impl Summary {
     pub fn add(&mut self, cells: &[Cell]) {
         self.machines += 1;
         let verdict = cells.get(self.verdict).and_then(Cell::text);
-        match verdict.and_then(Verdict::of_word) {
-            Some(Verdict::Holds) => self.hold += 1,
-            Some(Verdict::Broken) => {}
-            Some(Verdict::NotChecked) => self.unchecked += 1,
-            Some(Verdict::Refused) | None => self.refused += 1,
+        match verdict.and_then(ToleranceVerdict::of_word) {
+            Some(ToleranceVerdict::Holds) => self.hold += 1,
+            Some(ToleranceVerdict::Broken) => {}
+            Some(ToleranceVerdict::NotChecked) => self.unchecked += 1,
+            Some(ToleranceVerdict::Refused) | None => self.refused += 1,
         }
         for (shares, cell) in self
             .shares

@@ -3,7 +3,7 @@
 use jred_file::model::supply::{BrakeResistor, Supply};
 use jred_sizing::bus::cure::{Bound, Change, Cure, share};
 use jred_sizing::bus::curve::PowerCurve;
-use jred_sizing::bus::verdict::Judged;
+use jred_sizing::bus::verdict::BusQuantity;
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt as _, SeedableRng as _};
 
@@ -211,7 +211,7 @@ fn cures_by_hand() {
     let burnt = 3000.0 - stored;
     assert_eq!(found.lacks().len(), 1);
     let (what, lacking) = found.lacks()[0];
-    assert_eq!(what, Judged::Mean);
+    assert_eq!(what, BusQuantity::Mean);
     near("lacks", lacking, burnt / 2.0 - 10.0, budget::BUS);
 
     // A resistance below the chopper's least one is too small, whatever its power.
@@ -224,7 +224,7 @@ fn cures_by_hand() {
         ..supply
     };
     let found = answer(&[curve()], &small, true);
-    assert_eq!(found.lacks(), [(Judged::Resistance, 10.0)]);
+    assert_eq!(found.lacks(), [(BusQuantity::Resistance, 10.0)]);
     // A resistor that never switches on: only the resistance is judged, and no capacitance helps.
     let gentle = PowerCurve::new([[0.0, 100.0], [1.0, 100.0], [1.0, -5.0], [2.0, -5.0]], 2.0);
     let found = answer(&[gentle], &small, true);

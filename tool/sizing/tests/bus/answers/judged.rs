@@ -3,7 +3,7 @@
 use jred_file::model::supply::{BrakeResistor, Supply};
 use jred_sizing::bus::conflict::Conflict;
 use jred_sizing::bus::curve::PowerCurve;
-use jred_sizing::bus::verdict::{BusCheck, Judged};
+use jred_sizing::bus::verdict::{BusCheck, BusQuantity};
 use jred_sizing::catalogue::Resistor;
 
 use super::super::near;
@@ -116,13 +116,13 @@ fn checks_hold_on_their_side() {
         limit,
     };
     for what in [
-        Judged::Voltage,
-        Judged::Mean,
-        Judged::Peak,
-        Judged::Pulse,
-        Judged::Resistance,
+        BusQuantity::Voltage,
+        BusQuantity::Mean,
+        BusQuantity::Peak,
+        BusQuantity::Pulse,
+        BusQuantity::Resistance,
     ] {
-        let upper = what != Judged::Resistance;
+        let upper = what != BusQuantity::Resistance;
         for (figure, holds) in [(99.0, upper), (100.0, true), (101.0, !upper)] {
             assert_eq!(
                 check(what, figure, Some(100.0)).holds(),
@@ -134,11 +134,11 @@ fn checks_hold_on_their_side() {
         assert_eq!(check(what, f64::INFINITY, None).holds(), Some(false));
         let (name, unit) = (check(what, 1.0, None).name(), check(what, 1.0, None).unit());
         let expected = match what {
-            Judged::Voltage => ("bus voltage", "V"),
-            Judged::Resistance => ("brake resistance", "Ohm"),
-            Judged::Mean => ("brake resistor mean power", "W"),
-            Judged::Peak => ("brake resistor peak power", "W"),
-            Judged::Pulse => ("brake resistor pulse energy", "J"),
+            BusQuantity::Voltage => ("bus voltage", "V"),
+            BusQuantity::Resistance => ("brake resistance", "Ohm"),
+            BusQuantity::Mean => ("brake resistor mean power", "W"),
+            BusQuantity::Peak => ("brake resistor peak power", "W"),
+            BusQuantity::Pulse => ("brake resistor pulse energy", "J"),
         };
         assert_eq!((name, unit), expected);
     }

@@ -3,10 +3,10 @@
 use super::*;
 use crate::catalogue::Motor;
 
-const LEVEL: Piece = Piece::level(0.0, 10.0, 8.0);
+const LEVEL: LimitPiece = LimitPiece::level(0.0, 10.0, 8.0);
 
 fn limits() -> Vec<Limit> {
-    let line = |a, b| Piece::line(a, b);
+    let line = |a, b| LimitPiece::line(a, b);
     vec![
         Limit::level(5.0, 100.0),
         Limit::new([LEVEL, line([10.0, 8.0], [40.0, 2.0])]),
@@ -20,9 +20,9 @@ fn limits() -> Vec<Limit> {
         Limit::new([
             LEVEL,
             line([10.0, 8.0], [20.0, 0.0]),
-            Piece::level(20.0, 30.0, 0.0),
+            LimitPiece::level(20.0, 30.0, 0.0),
         ]),
-        Limit::new([LEVEL, Piece::level(10.0, 30.0, 3.0)]),
+        Limit::new([LEVEL, LimitPiece::level(10.0, 30.0, 3.0)]),
         Limit::new([
             line([0.0, 2.0], [20.0, 6.0]),
             line([20.0, 6.0], [50.0, 1.0]),

@@ -7,7 +7,7 @@ use jred::duty::MAX_POINTS;
 const EVEN: u32 = 32;
 
 /// … that is, by more than this share of the largest torque …
-const LOOSE: f64 = 2e-4;
+const COARSE_SHORTFALL: f64 = 2e-4;
 
 /// … up to this number of speeds.
 const MOST_SPEEDS: usize = 192;
@@ -19,7 +19,7 @@ const PARTS: u32 = 16;
 const STEPS: usize = 4;
 
 /// Shortfall, as a share of the largest torque, that needs no further point.
-const ENOUGH: f64 = 1e-3;
+const SUFFICIENT_SHORTFALL: f64 = 1e-3;
 
 /// The least requested shortfall (rounding).
 const ROUNDING: f64 = 1e-7;
@@ -29,7 +29,7 @@ const MARGIN: f64 = 1e-6;
 
 /// A curve of straight lines that never rises and never exceeds a limit.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Below {
+pub struct LowerCurve {
     /// Speed (rad/s) and torque (N·m) of its points, for [`jred::duty::Curve::new`].
     pub points: Vec<[f32; 2]>,
     /// Largest distance below the limit, as a share of the limit's largest torque.
@@ -45,7 +45,7 @@ struct Interval {
 }
 
 /// Fewest points up to a speed and step (as indices), and the speed and step before.
-type Reached = (usize, Option<(usize, usize)>);
+type Predecessor = (usize, Option<(usize, usize)>);
 
 /// The limit at the speeds where points may lie.
 struct Tunnel {
@@ -61,10 +61,14 @@ struct Tunnel {
 ///
 /// It has at most as many points as a shortfall of 0.1 % needs. With that number it has the least shortfall for points at the evaluated speeds (at
 /// most 192 and the corners), at the limit or in four steps below it.
-pub fn below(end: f64, corners: &[f64], floor: impl Fn([f64; 2]) -> [f64; 2]) -> Option<Below> {
+pub fn below(
+    end: f64,
+    corners: &[f64],
+    floor: impl Fn([f64; 2]) -> [f64; 2],
+) -> Option<LowerCurve> {
     let tunnel = Tunnel::new(speeds(end, corners), &floor)?;
     let largest = tunnel.most.first().copied().unwrap_or(0.0);
-    let fewest = tunnel.path(ENOUGH).map(|path| path.len());
+    let fewest = tunnel.path(SUFFICIENT_SHORTFALL).map(|path| path.len());
     let count = fewest.map_or(MAX_POINTS, |n| n.min(MAX_POINTS));
     let fits = |shortfall: f64| tunnel.path(shortfall).filter(|path| path.len() <= count);
     // A shortfall of 1 allows a level curve, which needs one point.
@@ -85,7 +89,7 @@ pub fn below(end: f64, corners: &[f64], floor: impl Fn([f64; 2]) -> [f64; 2]) ->
         .map(|&[speed, torque]| [speed as f32, (torque * (1.0 - MARGIN)) as f32])
         .collect();
     let missed = tunnel.missed(&points, &floor);
-    Some(Below {
+    Some(LowerCurve {
         points,
         shortfall: if largest > 0.0 { missed / largest } else { 0.0 },
     })
@@ -197,7 +201,7 @@ impl Tunnel {
             let (most, least) = (self.most[place], self.least(place, shortfall));
             most - (most - least) * (step as f64 / STEPS as f64)
         };
-        let unreached: Reached = (usize::MAX, None);
+        let unreached: Predecessor = (usize::MAX, None);
         let mut best = vec![[unreached; STEPS + 1]; count];
         let floor = self.least(0, shortfall);
         for place in 0..count {
@@ -268,7 +272,7 @@ fn closer(speeds: &[f32], between: &[Interval]) -> Option<Vec<f32>> {
     let mut loose: Vec<(f64, f32)> = between
         .iter()
         .zip(speeds.windows(2))
-        .filter(|(interval, _)| interval.loose > LOOSE * largest)
+        .filter(|(interval, _)| interval.loose > COARSE_SHORTFALL * largest)
         .map(|(interval, pair)| (interval.loose, f32::midpoint(pair[0], pair[1]), pair))
         .filter(|(_, middle, pair)| pair[0] < *middle && *middle < pair[1])
         .map(|(loose, middle, _)| (loose, middle))

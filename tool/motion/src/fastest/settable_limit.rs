@@ -1,14 +1,14 @@
 //! The given limit that denies the machine the kinetic energy to pass its load.
 
 use super::NoMotion;
-use super::field::{Binding, Field, Limits};
+use super::field::{Binding, Field, MoveLimits};
 use super::sweep::{self, Obstacle};
 use super::tool_speed::ToolSpeeds;
 use super::track::{Ends, Survey, Track};
 
 /// A limit that an option sets.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Slowing {
+pub enum SettableLimit {
     /// Speed of the drive link.
     Speed,
     /// Speed of the tool.
@@ -17,7 +17,7 @@ pub enum Slowing {
     Acceleration,
 }
 
-impl Slowing {
+impl SettableLimit {
     /// Its name.
     pub const fn name(self) -> &'static str {
         match self {
@@ -42,32 +42,36 @@ impl Slowing {
 ///
 /// # Errors
 /// The mechanism cannot be placed somewhere.
-pub(super) fn by(field: &Field, ends: &Ends, count: usize) -> Result<Option<Slowing>, NoMotion> {
+pub(super) fn by(
+    field: &Field,
+    ends: &Ends,
+    count: usize,
+) -> Result<Option<SettableLimit>, NoMotion> {
     let limits = field.limits;
     let none = ToolSpeeds::default();
     let asked = [
-        (Slowing::Speed, limits.speed.is_some()),
-        (Slowing::ToolSpeed, limits.tool != none),
-        (Slowing::Acceleration, limits.acceleration.is_some()),
+        (SettableLimit::Speed, limits.speed.is_some()),
+        (SettableLimit::ToolSpeed, limits.tool != none),
+        (SettableLimit::Acceleration, limits.acceleration.is_some()),
     ];
-    let asked: Vec<Slowing> = asked
+    let asked: Vec<SettableLimit> = asked
         .into_iter()
         .filter_map(|(limit, is_asked)| is_asked.then_some(limit))
         .collect();
-    let passes = |without: &[Slowing]| {
-        let is_kept = |limit: Slowing| !without.contains(&limit);
+    let passes = |without: &[SettableLimit]| {
+        let is_kept = |limit: SettableLimit| !without.contains(&limit);
         let field = Field {
-            way: field.way,
-            limits: Limits {
-                speed: limits.speed.filter(|_| is_kept(Slowing::Speed)),
-                tool: if is_kept(Slowing::ToolSpeed) {
+            dynamics: field.dynamics,
+            limits: MoveLimits {
+                speed: limits.speed.filter(|_| is_kept(SettableLimit::Speed)),
+                tool: if is_kept(SettableLimit::ToolSpeed) {
                     limits.tool
                 } else {
                     none
                 },
                 acceleration: limits
                     .acceleration
-                    .filter(|_| is_kept(Slowing::Acceleration)),
+                    .filter(|_| is_kept(SettableLimit::Acceleration)),
                 ..limits
             },
         };

@@ -7,20 +7,20 @@ use jred_file::model::machine::MachineFile;
 use jred_file::model::motion::Motion;
 use jred_sizing::catalogue::{Catalogue, Drive, DriveId};
 use jred_sizing::cycle::Cycle;
-use jred_sizing::motor::envelope::{Envelope, Prepared};
+use jred_sizing::motor::envelope::{Envelope, MotorLimits};
 use jred_sizing::select::size::{Candidate, Order, Selection};
 use jred_sizing::threads;
 
 use crate::gentlest::without_drive;
 use crate::moves::{self, Chain};
+use crate::path_dynamics::Actuator;
 use crate::retime::{self, Figures, Goal, Obstacle, Request};
-use crate::way::Actuator;
 
 /// Number of suitable and of refused drives, under the file's motion and under the machine's own gentlest one, that get their own motion.
-const TRIED: usize = 8;
+const MOST_CANDIDATES: usize = 8;
 
 /// Data for judging drives.
-pub struct Judging<'a> {
+pub struct CoDesignInput<'a> {
     /// The machine.
     pub file: &'a MachineFile,
     /// Its motion.
@@ -28,7 +28,7 @@ pub struct Judging<'a> {
     /// The drives.
     pub catalogue: &'a Catalogue,
     /// Limits of their motors.
-    pub motors: &'a [Prepared],
+    pub motors: &'a [MotorLimits],
     /// How finely the duty is sampled.
     pub sampling: Sampling,
     /// Removes drives that were not requested from a selection.
@@ -37,7 +37,7 @@ pub struct Judging<'a> {
 
 /// A drive with its gentlest motion.
 #[derive(Clone, Debug)]
-pub struct Tried<'c> {
+pub struct DriveWithMotion<'c> {
     /// The drive.
     pub drive: Drive<'c>,
     /// Its figures with the motion of the file.
@@ -52,9 +52,9 @@ pub struct Tried<'c> {
 
 /// The best drive with its own motion, and accompanying results.
 #[derive(Clone, Debug)]
-pub struct Suited<'c> {
+pub struct CoDesign<'c> {
     /// The tried drives, in order of rank; those that violate a rule last.
-    pub tried: Vec<Tried<'c>>,
+    pub tried: Vec<DriveWithMotion<'c>>,
     /// The first drive with the motion of the file, and its rank.
     pub before: Option<(Drive<'c>, Order<'c>)>,
     /// The parts of the file's motion.
@@ -63,16 +63,16 @@ pub struct Suited<'c> {
     pub ahead: Option<Drive<'c>>,
 }
 
-impl<'c> Suited<'c> {
+impl<'c> CoDesign<'c> {
     /// The best drive; `None` if no drive satisfies the rules with its own motion.
-    pub fn best(&self) -> Option<&Tried<'c>> {
+    pub fn best(&self) -> Option<&DriveWithMotion<'c>> {
         self.tried.first().filter(|tried| tried.order.is_some())
     }
 
     /// The same, if it is as good as the first drive with the motion of the file; `None` if the motion of the file stays. The motion of least RMS
     /// torque distributes speed and torque differently, which may exceed the limits of a small drive.
-    pub fn better(&self) -> Option<&Tried<'c>> {
-        let as_good = |tried: &&Tried| match (&self.before, &tried.order) {
+    pub fn better(&self) -> Option<&DriveWithMotion<'c>> {
+        let as_good = |tried: &&DriveWithMotion| match (&self.before, &tried.order) {
             (Some((_, before)), Some(order)) => order.is_as_good_as(before),
             _ => true,
         };
@@ -86,23 +86,23 @@ impl<'c> Suited<'c> {
 }
 
 /// The first drives of a motion: those that fit, and borderline ones.
-struct First<'a> {
+struct Shortlist<'a> {
     fit: Vec<(DriveId, Drive<'a>, Order<'a>)>,
     tried: BTreeMap<DriveId, Drive<'a>>,
 }
 
-impl<'a> Judging<'a> {
+impl<'a> CoDesignInput<'a> {
     /// Each of the first drives with its motion of least RMS torque.
     ///
     /// # Errors
     /// As [`retime::retime`].
-    pub fn best(&self) -> Result<Suited<'a>, Obstacle> {
+    pub fn best(&self) -> Result<CoDesign<'a>, Obstacle> {
         let own = self.cycle(self.own)?;
         let before = self.first(&own);
         let free = self.gentlest(&self.request(None))?;
         let free = self.first(&self.cycle(&free)?);
         let mut known = BTreeSet::new();
-        let mut suited = Suited {
+        let mut suited = CoDesign {
             tried: Vec::new(),
             before: before.fit.first().map(|(_, drive, order)| (*drive, *order)),
             chain: moves::chain(self.own, &self.file.process()).map_err(Obstacle::NoMoves)?,
@@ -114,7 +114,7 @@ impl<'a> Judging<'a> {
         suited.tried = tried.into_iter().collect::<Result<_, _>>()?;
         suited.sort();
         // With the motion of the best drive, an untried drive may rank first.
-        for _ in 0..TRIED {
+        for _ in 0..MOST_CANDIDATES {
             let Some(best) = suited.best() else { break };
             let listed = self.first(&best.cycle);
             let ahead = listed.fit.first();
@@ -132,11 +132,16 @@ impl<'a> Judging<'a> {
     }
 
     /// A drive with its own motion; `own` is the cycle of the file's motion.
-    fn with_own(&self, id: DriveId, drive: Drive<'a>, own: &Cycle) -> Result<Tried<'a>, Obstacle> {
+    fn with_own(
+        &self,
+        id: DriveId,
+        drive: Drive<'a>,
+        own: &Cycle,
+    ) -> Result<DriveWithMotion<'a>, Obstacle> {
         let request = self.request(Some(&drive));
         let motion = self.gentlest(&request)?;
         let cycle = self.cycle(&motion)?;
-        Ok(Tried {
+        Ok(DriveWithMotion {
             drive,
             order: self.order(id, drive, &cycle),
             own: request.figures(own),
@@ -169,15 +174,15 @@ impl<'a> Judging<'a> {
         Ok(Cycle::new(&Duty::new(self.file, motion, self.sampling)?))
     }
 
-    fn first(&self, cycle: &Cycle) -> First<'a> {
+    fn first(&self, cycle: &Cycle) -> Shortlist<'a> {
         let Self { file, motors, .. } = self;
         let mut selection =
             Selection::parallel(self.catalogue, motors, cycle, &file.site, &file.rules);
         (self.narrow)(&mut selection);
-        let fit = selection.first_fit(TRIED);
+        let fit = selection.first_fit(MOST_CANDIDATES);
         // The smaller motor that is refused by least is the one that another motion may make suitable.
         let smaller = selection.next_smaller();
-        let refused = selection.first_refused(TRIED);
+        let refused = selection.first_refused(MOST_CANDIDATES);
         // Drives of the catalogue outlive the selection.
         let all = fit.iter().chain(&refused).chain(&smaller);
         let wanted: BTreeSet<DriveId> = all.map(Candidate::id).collect();
@@ -188,7 +193,7 @@ impl<'a> Judging<'a> {
             let drive = tried.get(&candidate.id())?;
             Some((candidate.id(), *drive, Order::of(candidate).on(*drive)))
         });
-        First {
+        Shortlist {
             fit: with_order.collect(),
             tried,
         }
@@ -209,9 +214,9 @@ impl<'a> Judging<'a> {
     }
 }
 
-impl<'c> Suited<'c> {
+impl<'c> CoDesign<'c> {
     fn sort(&mut self) {
-        let key = |tried: &Tried<'c>| (tried.order.is_none(), tried.order);
+        let key = |tried: &DriveWithMotion<'c>| (tried.order.is_none(), tried.order);
         self.tried.sort_by_key(key);
     }
 }

@@ -1,6 +1,6 @@
 //! Whether the peak of a cycle stays within a share of an envelope, as far as bounds can decide it without searching for the peak.
 
-use super::Sample;
+use super::LoadSample;
 use super::extremes::Stretches;
 use crate::cycle::form::Coefficients;
 use crate::motor::envelope::Envelope;
@@ -8,7 +8,7 @@ use jred_analysis::duty::MOST_RAISED;
 
 /// The peak of a cycle relative to two shares of an envelope.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Against {
+pub(crate) enum PeakCheck {
     /// Within the lower share at every instant.
     Below,
     /// Above the upper share: an instant uses at least this much.
@@ -21,26 +21,26 @@ pub(crate) enum Against {
 }
 
 /// Allowance for rounding of a share.
-const NEAR: f64 = 1e-9;
+const SHARE_ROUNDING: f64 = 1e-9;
 
 impl Stretches<'_> {
-    /// See [`Against`]; `low` is not above `high`.
+    /// See [`PeakCheck`]; `low` is not above `high`.
     pub(super) fn against(
         self,
         c: &Coefficients,
         ratio: f64,
         envelope: &Envelope,
         [low, high]: [f64; 2],
-    ) -> Against {
+    ) -> PeakCheck {
         let Some(line) = self.floor_line(ratio, envelope) else {
-            return Against::Open;
+            return PeakCheck::Open;
         };
         let front = self.front;
         let [start, slope] = line;
         // The bounds apply to samples; the peak between them may be higher.
-        let least = low * (1.0 - NEAR) / (1.0 + MOST_RAISED);
+        let least = low * (1.0 - SHARE_ROUNDING) / (1.0 + MOST_RAISED);
         if front.most_above(&c.0, [least * start, least * slope]) + self.slack(c) <= 0.0 {
-            return Against::Below;
+            return PeakCheck::Below;
         }
         let bounds = front.bounds(&c.0);
         let floors = front.floors(line);
@@ -52,18 +52,19 @@ impl Stretches<'_> {
             }
         }
         let node = &self.tree.nodes[front.nodes[worst] as usize];
-        let used =
-            |sample: &Sample| envelope.peak_used(c.torque(&sample.loads()), sample.speed() * ratio);
+        let used = |sample: &LoadSample| {
+            envelope.peak_used(c.torque(&sample.loads()), sample.speed() * ratio)
+        };
         let used = [node.first, node.last]
             .map(|end| used(&self.samples[end as usize]))
             .into_iter()
             .fold(0.0, f64::max);
-        if used > high * (1.0 + 4.0 * NEAR) && used.is_finite() {
-            Against::Beyond {
-                used: used * (1.0 - NEAR),
+        if used > high * (1.0 + 4.0 * SHARE_ROUNDING) && used.is_finite() {
+            PeakCheck::Beyond {
+                used: used * (1.0 - SHARE_ROUNDING),
             }
         } else {
-            Against::Open
+            PeakCheck::Open
         }
     }
 

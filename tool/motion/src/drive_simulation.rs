@@ -18,19 +18,19 @@ use jred_file::model::simulation::{Shaft, Simulation};
 use jred_file::number::columns::{Column, ColumnQuantity};
 use jred_file::units::RPM;
 use jred_sizing::catalogue::{Drive, MotorKind};
-use jred_sizing::motor::envelope::{Limit, Prepared};
-use jred_sizing::thermal::course::Course;
+use jred_sizing::motor::envelope::{Limit, MotorLimits};
+use jred_sizing::thermal::loss_curve::LossCurve;
 use jred_sizing::thermal::network::{Network, Rise};
 use jred_sizing::thermal::{Model, allowed_rise};
 
-use crate::way::Actuator;
+use crate::path_dynamics::Actuator;
 
 /// Share of the speed over which the torque falls where the envelope drops.
 pub const EASE: f64 = 1e-3;
 
 /// Why a drive cannot be simulated.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Unfit {
+pub enum UnfitDrive {
     /// Its peak torque is missing.
     NoPeak,
     /// Its gearbox locks itself.
@@ -42,7 +42,7 @@ pub enum Unfit {
 
 /// A motion under a drive.
 #[derive(Debug)]
-pub struct Driven {
+pub struct DriveSimulation {
     /// The motion.
     pub simulated: SimulationResult,
     /// Loads on the drive.
@@ -181,14 +181,14 @@ impl Motor for DriveMotor<'_> {
 /// Observes the loads on the drive.
 struct LoadObserver<'a> {
     drive: Drive<'a>,
-    prepared: &'a Prepared,
+    prepared: &'a MotorLimits,
     loads: Loads,
-    warming: Option<Warming>,
+    warming: Option<MotorHeating>,
     ambient: f64,
 }
 
 /// A motor that heats up.
-struct Warming {
+struct MotorHeating {
     model: Model,
     network: Network,
     rise: Rise,
@@ -198,7 +198,7 @@ struct Warming {
 }
 
 impl<'a> LoadObserver<'a> {
-    fn new(drive: Drive<'a>, prepared: &'a Prepared, file: &MachineFile, duration: f64) -> Self {
+    fn new(drive: Drive<'a>, prepared: &'a MotorLimits, file: &MachineFile, duration: f64) -> Self {
         let surroundings = &file.site.surroundings;
         let model = Model::of(drive.motor, prepared, surroundings, duration).ok();
         let warming = model.and_then(|model| {
@@ -209,7 +209,7 @@ impl<'a> LoadObserver<'a> {
                 } => (false, follows_housing && network.has_housing()),
                 Model::Steady { .. } | Model::Relative { .. } => (true, false),
             };
-            Some(Warming {
+            Some(MotorHeating {
                 model,
                 network,
                 rise: [0.0; 2],
@@ -295,7 +295,7 @@ impl Observer for LoadObserver<'_> {
             let state = [working.torque, working.speed];
             (warming.model).point(self.drive.motor, self.prepared, t, state)
         };
-        let course = Course::new(&[point(0.0, &from), point(length, &to)], length);
+        let course = LossCurve::new(&[point(0.0, &from), point(length, &to)], length);
         let (hottest, now) = course.follow(&warming.network, warming.rise, length);
         warming.rise = now;
         if let Some(heat) = &mut self.loads.heat {
@@ -340,9 +340,9 @@ pub fn driven(
     machines: &CoupledMachines,
     simulation: &Simulation,
     drive: Drive<'_>,
-) -> Result<Result<Driven, SimulationError>, Unfit> {
+) -> Result<Result<DriveSimulation, SimulationError>, UnfitDrive> {
     let file = machines.first;
-    let prepared = Prepared::new(drive.motor, drive.amplifier, &file.site);
+    let prepared = MotorLimits::new(drive.motor, drive.amplifier, &file.site);
     let actuator = Actuator::new(&drive, prepared.envelope.clone());
     let limits = [true, false].map(|braking| actuator.envelope.limit(braking));
     let known = |limit: &&Limit| {
@@ -353,13 +353,13 @@ pub fn driven(
                 .all(|piece| piece.torque(piece.from).is_finite())
     };
     if !limits.iter().all(known) {
-        return Err(Unfit::NoPeak);
+        return Err(UnfitDrive::NoPeak);
     }
     if let Some(gearbox) = drive
         .gearbox
         .filter(|gearbox| gearbox.back_efficiency < 0.0)
     {
-        return Err(Unfit::SelfLocking {
+        return Err(UnfitDrive::SelfLocking {
             gearbox: gearbox.key.clone(),
         });
     }
@@ -373,7 +373,7 @@ pub fn driven(
     };
     let mut observer = LoadObserver::new(drive, &prepared, file, simulation.duration);
     let simulated = simulate_under(machines, &at_motor, &motor, &mut observer);
-    Ok(simulated.map(|simulated| Driven {
+    Ok(simulated.map(|simulated| DriveSimulation {
         simulated,
         loads: observer.loads,
     }))

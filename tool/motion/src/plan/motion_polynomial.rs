@@ -15,13 +15,13 @@ const FACTOR: f64 = 1.0 / 16_777_216.0;
 
 /// Position, speed and acceleration as polynomials in a share of a time.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Course {
+pub(super) struct MotionPolynomial {
     pub(super) position: [f64; 6],
     pub(super) speed: [f64; 5],
     pub(super) acceleration: [f64; 4],
 }
 
-impl Course {
+impl MotionPolynomial {
     /// A position over a time (s), with its derivatives.
     fn of(position: [f64; 6], length: f64) -> Self {
         let speed: [f64; 5] = slope(&position).map(|c: f64| c / length);
@@ -90,7 +90,7 @@ impl Course {
     }
 }
 
-impl Course {
+impl MotionPolynomial {
     /// Largest difference of position, speed and acceleration from another course over the same time, and about where, if it exceeds `known`.
     pub(super) fn beside(&self, other: &Self, known: [f64; 3]) -> [Option<[f64; 2]>; 3] {
         [
@@ -109,14 +109,14 @@ impl Course {
 }
 
 /// A row of an image.
-pub(super) struct Row {
+pub(super) struct PlanRow {
     /// Start and end time (s).
     pub(super) t: [f64; 2],
     /// Start position (rad, or m).
     pub(super) position: f64,
     /// Its window (s); the course is over a share of it.
     pub(super) window: f64,
-    pub(super) course: Course,
+    pub(super) course: MotionPolynomial,
     /// Additional errors of firmware: the time in the row is rounded, and sums are rounded down (tests `a_plan_keeps_the_proven_bounds`).
     pub(super) rounding: [f64; 3],
 }
@@ -127,7 +127,7 @@ pub(super) fn greatest(words: &[u32]) -> [f32; 2] {
 }
 
 /// The rows of a written image, by docs/table-image.md.
-pub(super) fn rows(words: &[u32], domain: Domain) -> Vec<Row> {
+pub(super) fn rows(words: &[u32], domain: Domain) -> Vec<PlanRow> {
     let [_, p, x, y] = words.get(3).map_or([0; 4], |word| word.to_le_bytes());
     let units = [i32::from(p), x.cast_signed().into(), y.cast_signed().into()];
     let begin = match domain {
@@ -150,7 +150,7 @@ fn row(
     [p, x, y]: [i32; 3],
     most: [f64; 2],
     [unit, begin]: [f64; 2],
-) -> Row {
+) -> PlanRow {
     let [start, low, upper, speed, coefficients @ ..] = *own;
     let (finer, turns) = ((upper & 0xff).cast_signed(), upper.cast_signed() >> 8);
     let exponent = 32 - (next[0].wrapping_sub(start)).leading_zeros().cast_signed() - p;
@@ -180,11 +180,11 @@ fn row(
         sum([2.0, 6.0, 12.0, 20.0]),
         window * sum([2.0, 3.0, 4.0, 5.0]),
     ];
-    Row {
+    PlanRow {
         t: [start, next[0]].map(|t| f64::from(t) * power(-p)),
         position,
         window,
-        course: Course::of(powers, window),
+        course: MotionPolynomial::of(powers, window),
         rounding: [
             even * speed.abs() + odd * gained + 10.0 * square * fine + 2.0 * unit,
             odd * raised + 8.0 * window * fine + unit * power(x) + FACTOR * most[0],

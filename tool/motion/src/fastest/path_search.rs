@@ -2,15 +2,16 @@
 
 use std::cell::Cell;
 
+use crate::path_dynamics::PathDynamics;
 use crate::trace::{Node, Trace};
-use crate::way::Way;
 
 use super::field::{Field, speed};
 use super::leg::Step;
-use super::sweep::{self, Obstacle, Piece};
+use super::sweep::{self, Obstacle, SweepPiece};
 use super::track::{Ends, Survey, Track};
 use super::{
-    Fastest, NoMotion, Task, between, corners, joint_force, least_cells, phases, slivers, slowed,
+    Fastest, NoMotion, Task, between, corners, joint_force, least_cells, phases, settable_limit,
+    tiny_steps,
 };
 
 /// First and largest number of cells.
@@ -39,7 +40,7 @@ const MOST_CHANGE: f64 = 1e-6;
 const ENOUGH: usize = 4096;
 
 /// A path with its limits, for motions with different end speeds.
-pub(super) struct Course<'f, 'w, 'a> {
+pub(super) struct PathSearch<'f, 'w, 'a> {
     survey: Survey<'f, 'w, 'a>,
     from: f64,
     length: f64,
@@ -48,7 +49,7 @@ pub(super) struct Course<'f, 'w, 'a> {
     first: Cell<usize>,
 }
 
-impl<'f, 'w, 'a> Course<'f, 'w, 'a> {
+impl<'f, 'w, 'a> PathSearch<'f, 'w, 'a> {
     /// The path of a task.
     ///
     /// # Errors
@@ -68,7 +69,7 @@ impl<'f, 'w, 'a> Course<'f, 'w, 'a> {
     /// Doubles the number of cells until the time has converged, then refines the cells in which limits are exceeded by more than `within`.
     pub(super) fn fastest(&self, speeds: [f64; 2], within: f64) -> Result<Fastest, NoMotion> {
         let field = self.survey.field;
-        let (way, limits, file) = (field.way, &field.limits, field.way.file);
+        let (dynamics, limits, file) = (field.dynamics, &field.limits, field.dynamics.file);
         let [_, most] = CELLS;
         let mut count = self.first.get();
         let ends = Ends {
@@ -105,7 +106,7 @@ impl<'f, 'w, 'a> Course<'f, 'w, 'a> {
                 }
                 Err(obstacle) => {
                     let eased = match obstacle {
-                        Obstacle::Stops(..) => slowed::by(field, &ends, count)?,
+                        Obstacle::Stops(..) => settable_limit::by(field, &ends, count)?,
                         _ => None,
                     };
                     return Err(NoMotion::at(field, &track, obstacle, eased));
@@ -135,8 +136,8 @@ impl<'f, 'w, 'a> Course<'f, 'w, 'a> {
                 settled = change;
                 self.first.set(self.first.get().max(count / 2));
             }
-            let (pieces, times) = slivers::without(&track, pieces, &times);
-            let trace = trace(way, &ends, &track, &pieces, &times);
+            let (pieces, times) = tiny_steps::without(&track, pieces, &times);
+            let trace = trace(dynamics, &ends, &track, &pieces, &times);
             let ((excess, phi), places) =
                 between::largest_excess(&self.survey, &ends, (&track, &pieces), &trace, within)?;
             let idle = best.take(Round {
@@ -161,7 +162,7 @@ impl<'f, 'w, 'a> Course<'f, 'w, 'a> {
 /// The motion of a round.
 struct Round {
     track: Track,
-    pieces: Vec<Piece>,
+    pieces: Vec<SweepPiece>,
     times: Vec<f64>,
     trace: Trace,
     time: f64,
@@ -207,7 +208,7 @@ impl Round {
                 phi: self.phi,
                 change,
                 endless: false,
-                axis: field.way.file.axis(),
+                axis: field.dynamics.file.axis(),
             });
         }
         Ok(Fastest {
@@ -223,13 +224,19 @@ impl Round {
 }
 
 /// The motion over time.
-fn trace(way: &Way, ends: &Ends, track: &Track, pieces: &[Piece], times: &[f64]) -> Trace {
+fn trace(
+    dynamics: &PathDynamics,
+    ends: &Ends,
+    track: &Track,
+    pieces: &[SweepPiece],
+    times: &[f64],
+) -> Trace {
     let mut nodes: Vec<Node> = Vec::with_capacity(pieces.len() + 1);
     let mut t = 0.0;
-    let mut push = |t: f64, step: f64, piece: &Piece, end: usize| {
+    let mut push = |t: f64, step: f64, piece: &SweepPiece, end: usize| {
         let Step { u, z, a, .. } = &piece.step;
         let cell = &track.cells[piece.cell];
-        let alpha = a[end] * way.direction;
+        let alpha = a[end] * dynamics.direction;
         if let Some(node) = nodes.last_mut().filter(|_| end == 0) {
             node.alpha[1] = alpha;
             return;
@@ -237,8 +244,8 @@ fn trace(way: &Way, ends: &Ends, track: &Track, pieces: &[Piece], times: &[f64])
         nodes.push(Node {
             t,
             step,
-            phi: ends.from + way.direction * (cell.x + u[end] * cell.length),
-            omega: speed(z[end]) * way.direction,
+            phi: ends.from + dynamics.direction * (cell.x + u[end] * cell.length),
+            omega: speed(z[end]) * dynamics.direction,
             alpha: [if t == 0.0 { 0.0 } else { alpha }, alpha],
         });
     };
@@ -249,7 +256,7 @@ fn trace(way: &Way, ends: &Ends, track: &Track, pieces: &[Piece], times: &[f64])
     }
     if let Some(last) = nodes.last_mut() {
         last.alpha[1] = 0.0;
-        last.phi = ends.from + way.direction * ends.length;
+        last.phi = ends.from + dynamics.direction * ends.length;
     }
-    Trace::new(way.coordinate(), nodes)
+    Trace::new(dynamics.coordinate(), nodes)
 }

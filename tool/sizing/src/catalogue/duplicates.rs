@@ -12,20 +12,20 @@ use super::motor::Motor;
 use super::{Amplifier, Resistor};
 
 /// A figure with its column.
-type Figure = (Column, Option<f64>);
+type ColumnValue = (Column, Option<f64>);
 
 /// The rows read so far, by kind and designation.
 #[derive(Debug, Default)]
-pub(super) struct Twins {
-    seen: HashMap<(Kind, String), Seen>,
+pub(super) struct Duplicates {
+    seen: HashMap<(Kind, String), FirstRow>,
 }
 
 /// The first row of a part.
 #[derive(Debug)]
-struct Seen {
+struct FirstRow {
     key: String,
     place: String,
-    figures: Vec<Figure>,
+    figures: Vec<ColumnValue>,
 }
 
 /// A designation in small letters and digits: a comma or a p between digits is a decimal point, other punctuation is dropped.
@@ -47,7 +47,7 @@ fn plain(name: &str) -> String {
     plain.collect()
 }
 
-impl Twins {
+impl Duplicates {
     pub(super) fn motor(&mut self, remarks: &mut Remarks, place: &dyn Fn() -> String, m: &Motor) {
         let figures = vec![
             (Column::RatedTorque, m.rated_torque),
@@ -147,11 +147,11 @@ impl Twins {
         place: &dyn Fn() -> String,
         kind: Kind,
         (key, [maker, model], ratio): (&str, [&str; 2], &str),
-        figures: Vec<Figure>,
+        figures: Vec<ColumnValue>,
     ) {
         let name = format!("{}|{}|{ratio}", plain(maker), plain(model));
         let Some(first) = self.seen.get(&(kind, name.clone())) else {
-            let seen = Seen {
+            let seen = FirstRow {
                 key: key.to_owned(),
                 place: place(),
                 figures,

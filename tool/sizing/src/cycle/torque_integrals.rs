@@ -8,17 +8,17 @@ use crate::cycle::form::Coefficients;
 use jred_analysis::duty::Panel;
 
 /// Allowed error of the integral over a panel, as a share of it, and as a share of the reference value.
-const SHARE: f64 = 1e-10;
-const OF_WHOLE: f64 = 1e-10;
+const PANEL_TOLERANCE: f64 = 1e-10;
+const TOTAL_TOLERANCE: f64 = 1e-10;
 
 /// A torque over the samples of a cycle.
-pub(crate) struct Bent<'c> {
+pub(crate) struct TorqueIntegrals<'c> {
     stretches: Stretches<'c>,
     c: &'c Coefficients,
     ratio: f64,
 }
 
-impl<'c> Bent<'c> {
+impl<'c> TorqueIntegrals<'c> {
     pub(super) const fn new(stretches: Stretches<'c>, c: &'c Coefficients, ratio: f64) -> Self {
         Self {
             stretches,
@@ -115,8 +115,8 @@ impl<'c> Bent<'c> {
         });
         let found = panel.rule().estimate(values.known());
         let half = panel.half();
-        let least = OF_WHOLE * whole;
-        let is_enough = half * found.error <= (SHARE * half * found.size).max(least);
+        let least = TOTAL_TOLERANCE * whole;
+        let is_enough = half * found.error <= (PANEL_TOLERANCE * half * found.size).max(least);
         if is_enough || !found.error.is_finite() {
             return half * found.integral;
         }
@@ -126,7 +126,7 @@ impl<'c> Bent<'c> {
         let between = |x: f64| f(if still { 0.0 } else { torques.at(x) }, speeds.at(x));
         let sum = panel
             .rule()
-            .adaptive([-1.0, 1.0], (SHARE, least / half), &between);
+            .adaptive([-1.0, 1.0], (PANEL_TOLERANCE, least / half), &between);
         // Between the samples there may be a torque that no current gives.
         half * if sum.is_finite() { sum } else { found.integral }
     }

@@ -9,7 +9,7 @@ use jred_file::model::rules::{RuleSet, RuleVerdict};
 
 /// A drive with the verdict of every rule.
 #[derive(Clone, Debug)]
-pub struct Judged<'c> {
+pub struct Assessment<'c> {
     /// The drive.
     pub drive: Drive<'c>,
     /// The brake resistor chosen for it from the catalogue.
@@ -24,7 +24,7 @@ pub struct Judged<'c> {
     pub assumptions: Vec<String>,
 }
 
-impl<'c> Judged<'c> {
+impl<'c> Assessment<'c> {
     /// Checks a drive against every rule, with messages for reports.
     pub fn new(context: &Context<'c>, rules: &RuleSet) -> Self {
         Self {

@@ -9,16 +9,16 @@ use jred_file::number::quadrature::GAUSS_3;
 use jred_sizing::cycle::Cycle;
 
 use super::even::constant_energy;
-use super::{Figures, Goal, LAWS, Obstacle, Request, Row, law};
-use crate::gentlest::{Fault, Gentle, Objective, Travel};
-use crate::moves::{Chain, Kept, Move, Part, Passing};
-use crate::way::{BothWays, Way};
+use super::{ComparisonRow, Figures, Goal, LAWS, Obstacle, Request, law};
+use crate::gentlest::{Fault, LeastEffortMove, Objective, Travel};
+use crate::moves::{Chain, EndStates, KeptMotion, Move, Part};
+use crate::path_dynamics::{BothDirections, PathDynamics};
 
 /// The rotation at constant kinetic energy.
 const EVEN_ENERGY: &str = "constant kinetic energy";
 
 /// The machine with the request.
-pub(super) struct Asked<'a> {
+pub(super) struct Comparison<'a> {
     file: &'a MachineFile,
     request: &'a Request,
     cyclic: bool,
@@ -27,9 +27,9 @@ pub(super) struct Asked<'a> {
 }
 
 /// The search for a gentlest move.
-type Search = fn(&Way, &Travel, Objective) -> Result<Gentle, Fault>;
+type MoveSolver = fn(&PathDynamics, &Travel, Objective) -> Result<LeastEffortMove, Fault>;
 
-impl<'a> Asked<'a> {
+impl<'a> Comparison<'a> {
     /// The request for a motion with these parts.
     pub(super) fn new(
         file: &'a MachineFile,
@@ -47,7 +47,7 @@ impl<'a> Asked<'a> {
     }
 
     /// The gentlest motion of each move.
-    pub(super) fn gentlest(&self, search: Search) -> Result<Vec<Gentle>, Obstacle> {
+    pub(super) fn gentlest(&self, search: MoveSolver) -> Result<Vec<LeastEffortMove>, Obstacle> {
         let Request {
             goal, copper, ramp, ..
         } = *self.request;
@@ -68,7 +68,7 @@ impl<'a> Asked<'a> {
                 ramp,
                 ring: self.endless,
             };
-            let found = search(&self.way(&step), &travel, objective);
+            let found = search(&self.dynamics(&step), &travel, objective);
             let number = moves.len() + 1;
             moves.push(found.map_err(|fault| Obstacle::Move(number, step, fault))?);
         }
@@ -76,7 +76,7 @@ impl<'a> Asked<'a> {
     }
 
     /// The parts with these moves.
-    pub(super) fn made_of(&self, moves: &[Gentle]) -> Result<Motion, Error> {
+    pub(super) fn made_of(&self, moves: &[LeastEffortMove]) -> Result<Motion, Error> {
         let mut moves = moves.iter();
         self.motion(|step, _| {
             let phases = moves.next().map(|gentle| gentle.phases.clone());
@@ -86,12 +86,12 @@ impl<'a> Asked<'a> {
 
     /// Cost of the pauses and the kept parts, in the unit of the moves' costs; zero for the peak.
     pub(super) fn held(&self) -> Result<f64, Error> {
-        let way = Way::new(self.file, self.request.actuator.clone(), 1.0);
+        let dynamics = PathDynamics::new(self.file, self.request.actuator.clone(), 1.0);
         let mut cost = 0.0;
         for part in self.parts {
             cost += match part {
                 Part::Dwell { at, duration } => {
-                    let torque = way.holding(&way.place_at_rest(*at)?);
+                    let torque = dynamics.holding(&dynamics.place_at_rest(*at)?);
                     self.heat() * torque * torque * duration
                 }
                 Part::Kept(kept) => self.of_kept(kept)?[0],
@@ -110,8 +110,8 @@ impl<'a> Asked<'a> {
     }
 
     /// Cost of a kept part, and its peak torque.
-    fn of_kept(&self, kept: &Kept) -> Result<[f64; 2], Error> {
-        let ways = BothWays::new(self.file, &self.request.actuator);
+    fn of_kept(&self, kept: &KeptMotion) -> Result<[f64; 2], Error> {
+        let ways = BothDirections::new(self.file, &self.request.actuator);
         let [mut cost, mut peak] = [0.0_f64; 2];
         for pair in kept.nodes().windows(2) {
             let [a, b] = [&pair[0], &pair[1]];
@@ -140,18 +140,18 @@ impl<'a> Asked<'a> {
         Ok(peak)
     }
 
-    pub(super) fn way(&self, step: &Move) -> Way<'_> {
+    pub(super) fn dynamics(&self, step: &Move) -> PathDynamics<'_> {
         let direction = (step.to - step.from).signum();
-        Way::new(self.file, self.request.actuator.clone(), direction)
+        PathDynamics::new(self.file, self.request.actuator.clone(), direction)
     }
 
     /// The same parts with other moves.
     pub(super) fn motion(
         &self,
-        mut with: impl FnMut(&Move, &Passing) -> MotionSegment,
+        mut with: impl FnMut(&Move, &EndStates) -> MotionSegment,
     ) -> Result<Motion, Error> {
         let segment = |part: &Part| match part {
-            Part::Move(step) => with(step, &Passing::default()),
+            Part::Move(step) => with(step, &EndStates::default()),
             Part::Passing(step, ends) => with(step, ends),
             Part::Kept(kept) => MotionSegment::phases(kept.to - kept.from, kept.phases()),
             Part::Dwell { duration, .. } => MotionSegment::dwell(*duration),
@@ -168,7 +168,7 @@ impl<'a> Asked<'a> {
     }
 
     /// The motion of the list with the lowest peak, if that is below the given peak and it has the requested form at its ends.
-    pub(super) fn better_law(&self, laws: &[Row], peak: f64) -> Option<&'static str> {
+    pub(super) fn better_law(&self, laws: &[ComparisonRow], peak: f64) -> Option<&'static str> {
         // No law begins or ends with a speed.
         if self.passes() {
             return None;
@@ -190,7 +190,7 @@ impl<'a> Asked<'a> {
             return Ok(law::phases(*law, distance, step.duration));
         }
         if name == EVEN_ENERGY {
-            return constant_energy(&self.way(step), step);
+            return constant_energy(&self.dynamics(step), step);
         }
         Ok(vec![Phase {
             duration: step.duration,
@@ -205,20 +205,20 @@ impl<'a> Asked<'a> {
     }
 
     /// The laws; for a rotation without rest the classical motions. Between nonzero speeds no law exists; there it is the polynomial of fifth degree.
-    pub(super) fn beside(&self) -> Result<Vec<Row>, duty::DutyError> {
+    pub(super) fn beside(&self) -> Result<Vec<ComparisonRow>, duty::DutyError> {
         if self.endless {
             return self.classical();
         }
         let row = |name: &'static str, law: Law| {
             let motion = self.motion(|step, ends| {
-                if *ends == Passing::default() {
+                if *ends == EndStates::default() {
                     MotionSegment::law(step.to - step.from, step.duration, law)
                 } else {
                     between(step, ends)
                 }
             })?;
             let figures = self.figures(&motion)?;
-            Ok(Row {
+            Ok(ComparisonRow {
                 name,
                 figures,
                 motion,
@@ -231,7 +231,7 @@ impl<'a> Asked<'a> {
     }
 
     /// Constant speed, and constant kinetic energy: ω ∝ 1/√J.
-    fn classical(&self) -> Result<Vec<Row>, duty::DutyError> {
+    fn classical(&self) -> Result<Vec<ComparisonRow>, duty::DutyError> {
         let mut rows = Vec::new();
         for name in ["constant speed", EVEN_ENERGY] {
             let mut phases = Vec::new();
@@ -240,7 +240,7 @@ impl<'a> Asked<'a> {
             }
             let motion =
                 self.motion(|step, _| MotionSegment::phases(step.to - step.from, phases.clone()))?;
-            rows.push(Row {
+            rows.push(ComparisonRow {
                 name,
                 figures: self.figures(&motion)?,
                 motion,
@@ -251,7 +251,7 @@ impl<'a> Asked<'a> {
 }
 
 /// The polynomial of fifth degree from one speed to another, with the accelerations of the kept parts.
-fn between(step: &Move, ends: &Passing) -> MotionSegment {
+fn between(step: &Move, ends: &EndStates) -> MotionSegment {
     let distance = step.to - step.from;
     let direction = distance.signum();
     let end = |k: usize| {

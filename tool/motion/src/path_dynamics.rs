@@ -64,7 +64,7 @@ pub fn without_drive() -> Actuator {
 
 /// The machine with its drive, in one direction.
 #[derive(Clone, Debug)]
-pub struct Way<'a> {
+pub struct PathDynamics<'a> {
     /// The machine.
     pub file: &'a MachineFile,
     /// The drive.
@@ -118,7 +118,7 @@ impl Place {
     }
 }
 
-impl<'a> Way<'a> {
+impl<'a> PathDynamics<'a> {
     /// The path dynamics of a machine under a drive; `direction` is +1 or −1.
     pub fn new(file: &'a MachineFile, actuator: Actuator, direction: f64) -> Self {
         let train = &file.drive_train;
@@ -249,16 +249,16 @@ impl<'a> Way<'a> {
 
 /// The machine with its drive in both directions, for a motion that turns back.
 #[derive(Clone, Debug)]
-pub struct BothWays<'a>([Way<'a>; 2]);
+pub struct BothDirections<'a>([PathDynamics<'a>; 2]);
 
-impl<'a> BothWays<'a> {
+impl<'a> BothDirections<'a> {
     /// The machine under a drive.
     pub fn new(file: &'a MachineFile, actuator: &Actuator) -> Self {
-        Self([1.0, -1.0].map(|direction| Way::new(file, actuator.clone(), direction)))
+        Self([1.0, -1.0].map(|direction| PathDynamics::new(file, actuator.clone(), direction)))
     }
 
     /// The direction in which φ grows.
-    pub const fn forwards(&self) -> &Way<'a> {
+    pub const fn forwards(&self) -> &PathDynamics<'a> {
         &self.0[0]
     }
 
@@ -270,12 +270,12 @@ impl<'a> BothWays<'a> {
     pub fn torque(&self, state: &State<f64>, heading: f64) -> Result<f64, Error> {
         let State { phi, omega, alpha } = *state;
         let back = if omega == 0.0 { heading } else { omega } < 0.0;
-        let way = &self.0[usize::from(back)];
+        let dynamics = &self.0[usize::from(back)];
         if omega == 0.0 && alpha == 0.0 {
-            return Ok(way.holding(&way.place_at_rest(phi)?));
+            return Ok(dynamics.holding(&dynamics.place_at_rest(phi)?));
         }
-        let place = way.place(phi)?;
-        let demand = way.demand(&place, omega.abs(), alpha * way.direction);
-        Ok(demand.torque * way.direction)
+        let place = dynamics.place(phi)?;
+        let demand = dynamics.demand(&place, omega.abs(), alpha * dynamics.direction);
+        Ok(demand.torque * dynamics.direction)
     }
 }

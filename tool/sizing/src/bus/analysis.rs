@@ -3,7 +3,7 @@
 use jred_file::problem;
 use jred_file::text::problem::Result;
 
-use super::axes::{Axes, Bounds, Worst};
+use super::axes::{Axes, Bounds, WorstPhases};
 use super::cure::{Cure, share};
 use super::curve::PowerCurve;
 use super::store::BusFigures;
@@ -14,7 +14,7 @@ use jred_file::model::supply::Supply;
 
 /// One axis: its drive and its power.
 #[derive(Debug)]
-pub struct Axis {
+pub struct BusAxis {
     /// Title of its machine file.
     pub title: String,
     /// Name of its drive.
@@ -29,11 +29,11 @@ pub struct Axis {
 
 /// The result for the axes on their bus.
 #[derive(Debug)]
-pub struct Answer {
+pub struct BusAnalysis {
     /// Whether all axes start their cycles together, and only that is judged.
     pub only_in_step: bool,
     /// The axes.
-    pub axes: Vec<Axis>,
+    pub axes: Vec<BusAxis>,
     /// Data of the bus.
     pub data: BusData,
     /// All axes on the bus.
@@ -42,10 +42,10 @@ pub struct Answer {
     pub in_step: Option<BusFigures>,
     /// Power drawn with all axes in step.
     pub power: Option<PowerCurve>,
-    /// Worst phases, in the order of [`Goal::ALL`](super::axes::Goal::ALL).
-    pub worst: Option<[Worst; 4]>,
+    /// Worst phases, in the order of [`WorstCase::ALL`](super::axes::WorstCase::ALL).
+    pub worst: Option<[WorstPhases; 4]>,
     /// Phases with the smallest use of the limits.
-    pub calmest: Option<Worst>,
+    pub calmest: Option<WorstPhases>,
     /// Bounds for any phases.
     pub bounds: Bounds,
     /// Requirements for a brake resistor if the machine files give none or it is not suitable.
@@ -60,13 +60,13 @@ pub struct Answer {
     pub cures: Vec<Cure>,
 }
 
-impl Answer {
+impl BusAnalysis {
     /// Computes the result; `only_in_step`: only with all axes in step.
     ///
     /// # Errors
     /// Data of the DC bus are missing.
     pub fn new(
-        axes: Vec<Axis>,
+        axes: Vec<BusAxis>,
         only_in_step: bool,
         supply: &Supply,
         catalogue: &Catalogue,
@@ -106,7 +106,12 @@ impl Answer {
     }
 
     /// The axes on a bus with these data, and their worst phases.
-    fn on(axes: Vec<Axis>, data: BusData, only_in_step: bool, watch: &dyn Watch) -> Result<Self> {
+    fn on(
+        axes: Vec<BusAxis>,
+        data: BusData,
+        only_in_step: bool,
+        watch: &dyn Watch,
+    ) -> Result<Self> {
         let bus = data.bus().map_err(|missing| {
             problem!(
                 help = "add a [supply] to one of the machine files, for example mains_voltage = \"400 V\", capacitance = \"470 uF\", \

@@ -1,11 +1,11 @@
 //! The losses over a cycle, and the resulting temperatures.
 
-use super::network::{Change, Losses, Network, Rise};
+use super::network::{Losses, Network, Rise, Transition};
 use jred_file::model::operation::Operation;
 
 /// The losses at an instant.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Point {
+pub struct LossSample {
     /// Time (s).
     pub t: f64,
     /// Root of the copper loss (√W) with the winding at ambient temperature, with the sign of the torque. It is proportional to the current, and
@@ -17,14 +17,14 @@ pub struct Point {
 
 /// The losses over one cycle.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Course {
-    pieces: Vec<Piece>,
+pub struct LossCurve {
+    pieces: Vec<LossPiece>,
     duration: f64,
 }
 
 /// The losses over a piece of the cycle: parabolas c₀ + c₁·x + c₂·x² over the time as a share of the piece, −½ ≤ x ≤ ½.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Piece {
+pub struct LossPiece {
     /// Its length (s).
     pub time: f64,
     /// Copper loss (W) with the winding at ambient temperature.
@@ -33,7 +33,7 @@ pub struct Piece {
     pub other: [f64; 3],
 }
 
-impl Piece {
+impl LossPiece {
     /// A piece from these moments ∫xᵏ·P dx of the copper loss and of the others, k = 0, 1, 2: its mean, slope and curvature are those of the losses.
     pub fn of_moments(time: f64, copper: [f64; 3], other: [f64; 3]) -> Self {
         let parabola = |[mean, first, second]: [f64; 3]| {
@@ -48,7 +48,7 @@ impl Piece {
     }
 
     /// The piece from one point to another.
-    fn straight(a: Point, b: Point) -> Self {
+    fn straight(a: LossSample, b: LossSample) -> Self {
         let [middle, step] = [0.5 * (a.root + b.root), b.root - a.root];
         Self {
             time: b.t - a.t,
@@ -90,7 +90,7 @@ impl Piece {
     /// Change of the rises by the piece. It uses constant losses over each half, whose means differ by two thirds of the slope. For varying losses
     /// the method is of fourth order in time (E. Celledoni, A. Marthinsen, B. Owren, Commutator-free Lie group methods, Future Generation Computer
     /// Systems 19 (2003) 341).
-    fn change(&self, network: &Network) -> Change {
+    fn change(&self, network: &Network) -> Transition {
         let mean = self.mean();
         if !self.varies() {
             return network.change(mean, self.time);
@@ -106,7 +106,7 @@ impl Piece {
 
 /// The hottest rises above the surroundings (K).
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Hottest {
+pub enum PeakRise {
     /// Of winding and housing; for a single body only the first.
     Rise(Rise),
     /// Unbounded: the copper loss grows faster with the temperature than the heat flow to the surroundings.
@@ -120,21 +120,21 @@ pub(super) const PART: f64 = 0.02;
 pub(super) const MOST_PARTS: f64 = 4096.0;
 
 /// Multiple of the slowest time constant after which a rise has vanished.
-const COLD: f64 = 50.0;
+const DECAY_TIMES: f64 = 50.0;
 
-impl Course {
+impl LossCurve {
     /// Losses at the instants of a cycle of `duration` (s), in order of time. Before the first and after the last instant the losses are constant.
-    pub fn new(points: &[Point], duration: f64) -> Self {
+    pub fn new(points: &[LossSample], duration: f64) -> Self {
         let mut pieces = Vec::with_capacity(points.len() + 1);
         if let Some((first, last)) = points.first().zip(points.last()) {
-            let end = Point {
+            let end = LossSample {
                 t: duration,
                 ..*last
             };
-            let mut before = Point { t: 0.0, ..*first };
+            let mut before = LossSample { t: 0.0, ..*first };
             for point in points.iter().chain([&end]) {
                 if point.t > before.t {
-                    pieces.push(Piece::straight(before, *point));
+                    pieces.push(LossPiece::straight(before, *point));
                 }
                 before = *point;
             }
@@ -143,7 +143,7 @@ impl Course {
     }
 
     /// A course of successive pieces.
-    pub const fn of_pieces(pieces: Vec<Piece>, duration: f64) -> Self {
+    pub const fn of_pieces(pieces: Vec<LossPiece>, duration: f64) -> Self {
         Self { pieces, duration }
     }
 
@@ -151,7 +151,7 @@ impl Course {
     #[must_use]
     pub fn scaled(&self, proportion: f64) -> Self {
         let square = proportion * proportion;
-        let piece = |piece: &Piece| Piece {
+        let piece = |piece: &LossPiece| LossPiece {
             copper: piece.copper.map(|c| square * c),
             ..*piece
         };
@@ -176,7 +176,7 @@ impl Course {
     }
 
     /// The pieces of the cycle up to `until` (s).
-    fn up_to(&self, until: f64, mut take: impl FnMut(Piece)) {
+    fn up_to(&self, until: f64, mut take: impl FnMut(LossPiece)) {
         let mut t = 0.0;
         let last = self.pieces.len().saturating_sub(1);
         for (k, piece) in self.pieces.iter().enumerate() {
@@ -195,7 +195,7 @@ impl Course {
     }
 
     /// Parts short enough for the method.
-    fn parts(&self, network: &Network, until: f64, mut take: impl FnMut(Piece)) {
+    fn parts(&self, network: &Network, until: f64, mut take: impl FnMut(LossPiece)) {
         let longest = PART * network.fastest();
         self.up_to(until, |piece| {
             let parts = if piece.varies() {
@@ -216,8 +216,8 @@ impl Course {
     }
 
     /// Change of the rises by the cycle up to `until` (s).
-    pub fn change(&self, network: &Network, until: f64) -> Change {
-        let mut change = Change::default();
+    pub fn change(&self, network: &Network, until: f64) -> Transition {
+        let mut change = Transition::default();
         self.parts(network, until, |piece| {
             change = change.then(&piece.change(network));
         });
@@ -250,7 +250,7 @@ impl Course {
     }
 
     /// The hottest rises in an operation.
-    pub fn hottest(&self, network: &Network, operation: &Operation, rest: Losses) -> Hottest {
+    pub fn hottest(&self, network: &Network, operation: &Operation, rest: Losses) -> PeakRise {
         let hottest = match *operation {
             Operation::Continuous => {
                 let start = self.change(network, self.duration).periodic();
@@ -259,7 +259,7 @@ impl Course {
             Operation::Short { operating } => {
                 let (hottest, end) = self.operating(network, [0.0; 2], operating);
                 // While everything cools down, the housing may still warm up.
-                let cold = COLD * network.slowest();
+                let cold = DECAY_TIMES * network.slowest();
                 Some(after(network, Losses::default(), cold, end, hottest))
             }
             Operation::Intermittent {
@@ -281,8 +281,8 @@ impl Course {
             }
         };
         match hottest.filter(|rise| rise.iter().all(|x| x.is_finite())) {
-            Some(rise) => Hottest::Rise(rise),
-            None => Hottest::Runaway,
+            Some(rise) => PeakRise::Rise(rise),
+            None => PeakRise::Runaway,
         }
     }
 

@@ -43,7 +43,7 @@ impl Default for Alteration {
 
 /// A machine's duty, prepared for alterations.
 #[derive(Clone, Debug)]
-pub struct Altered<'a> {
+pub struct DutyModel<'a> {
     file: &'a MachineFile,
     duty: &'a Duty,
     /// U′ of the weight at every instant (N·m).
@@ -56,7 +56,7 @@ pub struct Altered<'a> {
     range: Vec<[f64; 2]>,
 }
 
-impl<'a> Altered<'a> {
+impl<'a> DutyModel<'a> {
     /// Prepares a duty.
     ///
     /// # Errors
