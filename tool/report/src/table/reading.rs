@@ -5,6 +5,7 @@ use comfy_table::{CellAlignment, ColumnConstraint, ContentArrangement};
 use super::rows::csv_line;
 use super::screen::Screen;
 use crate::table::output::text_table;
+use jred_file::model::rules::Verdict;
 use jred_file::number::rounding::significant;
 use jred_sizing::study::cell::Cell;
 
@@ -49,11 +50,37 @@ impl Reading {
         })
     }
 
-    /// Whether the cells of each column are numbers.
+    /// The class and the length (%) of the bar of a cell in a column of shares or used limits.
+    pub(crate) fn bar(&self, column: usize, cell: &str) -> Option<(&'static str, f64)> {
+        let name = self.columns.get(column)?;
+        if !(name.ends_with("used") || name.starts_with("share")) {
+            return None;
+        }
+        let percent: f64 = cell
+            .strip_suffix(" %")?
+            .trim_start_matches("> ")
+            .parse()
+            .ok()?;
+        let class = if percent < 0.0 { "less" } else { "more" };
+        Some((class, percent.abs().min(100.0).round()))
+    }
+
+    /// The class of a verdict in a page, after a blank.
+    pub(crate) fn colour(&self, cell: &str) -> &'static str {
+        let is = |verdict: Verdict| cell == verdict.word();
+        match cell {
+            _ if is(Verdict::Pass) => " ok",
+            _ if is(Verdict::Warn) => " warn",
+            _ if is(Verdict::Fail) => " bad",
+            _ => "",
+        }
+    }
+
+    /// Whether the cells of each column are numbers, with or without a unit.
     pub(crate) fn are_numbers(&self) -> Vec<bool> {
         let is_number = |cell: &Cell| match cell {
             Cell::Empty | Cell::Number(_) => true,
-            Cell::Text(text) => text.is_empty() || text == "–" || text.parse::<f64>().is_ok(),
+            Cell::Text(text) => text.is_empty() || text == "–" || is_quantity(text),
         };
         let column = |k: usize| {
             let cells = || self.rows.iter().filter_map(|row| row.get(k));
@@ -91,4 +118,12 @@ impl Reading {
             .collect();
         lines.concat()
     }
+}
+
+/// Whether a text is a number with or without a unit: "42 %", "> 1000 %".
+fn is_quantity(text: &str) -> bool {
+    let text = text.trim_start_matches("> ").trim_start_matches("< ");
+    let (number, unit) = text.split_once(' ').unwrap_or((text, ""));
+    let is_number = number.trim_end_matches('…').parse::<f64>().is_ok();
+    is_number && unit.split(' ').count() <= 2
 }
