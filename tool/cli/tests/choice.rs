@@ -186,7 +186,7 @@ fn the_first_answer_fits_on_a_screen() {
             "resistor",
             "order",
         ] {
-            let starts = |line: &str| line.starts_with(&format!(" {word} "));
+            let starts = |line: &str| line.starts_with(&format!("  {word} "));
             assert!(text.lines().any(starts), "{name}: no {word}\n{text}");
         }
         // Only a terminal has colours.

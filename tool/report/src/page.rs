@@ -124,7 +124,10 @@ pub fn page(name: &str, shown: Listing) -> Result<Option<String>, Error> {
     });
     sections.push(Section::read("Rules and their sources", |answer| {
         let rules = selection.rules;
-        answer.sentence(format!("Set {}: {}", rules.name, rules.title));
+        answer.sentence(format!(
+            "Set {}: {}. A limit is a share of the rating.",
+            rules.name, rules.title
+        ));
         list::rule_list::limits(answer, rules, words);
     }));
     sections.push(Section::read(

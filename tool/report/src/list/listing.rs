@@ -98,6 +98,7 @@ impl<'a> Listing<'a> {
         if list.full {
             answer.heading(full::supply(&self.file.site));
             self.duty(answer, judged);
+            answer.heading("Rules");
             rules(answer, judged);
         }
         let is_whole = list.full && self.asked.is_none() && fits;
@@ -115,6 +116,7 @@ impl<'a> Listing<'a> {
             explanation.blocks(answer, self.duty.duration);
         }
         if list.refused || list.all {
+            answer.heading("Refused");
             self.refused(answer);
         }
         if self.count() > 1 {

@@ -243,7 +243,12 @@ impl Listing<'_> {
         answer.table(Reading {
             columns: columns.into_iter().map(str::to_owned).collect(),
             rows: each.iter().map(row).collect(),
-            whole: 2,
+            // Keys are for copying.
+            whole: if in_full {
+                0
+            } else {
+                13 + usize::from(resistors)
+            },
         });
         if self.count() > 1 {
             let words = judged.drive.motor.kind.vocabulary();
@@ -269,9 +274,10 @@ impl Listing<'_> {
 
     /// The refused drives with the rules that they violate.
     pub(crate) fn refused(&self, answer: &mut Answer) {
-        let refused = self.list.refused(self.selection).into_iter();
-        let row = |c: Candidate| [c.drive.name(), self.selection.judged(&c).reasons()];
-        answer.table(table(["refused", "rules violated"], refused.map(row), 1));
+        for refused in self.list.refused(self.selection) {
+            let reasons = self.selection.judged(&refused).reasons();
+            answer.sentence(format!("{}: {reasons}", refused.drive.name()));
+        }
     }
 }
 
