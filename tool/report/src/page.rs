@@ -77,17 +77,13 @@ pub fn page(name: &str, shown: Listing) -> Result<Option<String>, Error> {
     shown.first(&mut answer, judged);
     shown.others(&mut answer, usize::MAX);
     shown.certainties(&mut answer);
-    let plane = format!(
-        "{} and speed of the motor over the cycle in all four quadrants; where their signs differ, it brakes. Dashed: limits by the rules.",
-        words.torque.capital()
-    );
     let mut sections = vec![
         Section::read(format!("Rules, for {}", judged.drive.name()), |answer| {
             listing::rules(answer, judged);
         }),
         Section::new(
             "Operating points and limits of the motor",
-            vec![Figure::live(&subject.plane(), plane)],
+            vec![plane(&subject)],
         ),
         Section::new("Over the cycle", over_time(&subject, words)),
     ];
@@ -149,6 +145,15 @@ pub fn page(name: &str, shown: Listing) -> Result<Option<String>, Error> {
         words.inertia
     );
     Ok(Some(page.html(about)))
+}
+
+/// The torque-speed plane.
+fn plane(subject: &Subject) -> Figure {
+    let caption = format!(
+        "{} and speed of the motor over the cycle in all four quadrants; where their signs differ, it brakes. Dashed: limits by the rules.",
+        subject.words().torque.capital()
+    );
+    Figure::live(&subject.plane(), caption)
 }
 
 /// Torque and inertia, part by part.

@@ -10,6 +10,7 @@ use crate::answer::Block;
 use crate::drawing;
 use crate::list::inspection;
 use crate::plot::Axis;
+use crate::table::reading::Reading;
 use jred_analysis::inspect::Findings;
 use jred_analysis::reduce::{Over, Request, Sets, reduce};
 use jred_file::model::coordinate::Coordinate;
@@ -135,7 +136,7 @@ fn sections(source: &Source) -> Result<Vec<Section>, Error> {
             ),
             Figure::new(
                 figures::reduced_torque(source.file, speed)?.svg,
-                &format!(
+                format!(
                     "Parts of the reduced {}: weight and springs, process loads, and the magnitudes of viscous and motion-opposing loads.{}",
                     source.coordinate.vocabulary().torque,
                     figures::not_contained(source.file)

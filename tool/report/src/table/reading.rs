@@ -72,7 +72,7 @@ impl Reading {
     }
 
     /// The class of a verdict in a page, after a blank.
-    pub(crate) fn colour(&self, cell: &str) -> &'static str {
+    pub(crate) fn colour(cell: &str) -> &'static str {
         let is = |verdict: Verdict| cell == verdict.word();
         match cell {
             _ if is(Verdict::Pass) => " ok",
