@@ -25,7 +25,7 @@ use crate::busy;
 use crate::commands::core_error::core_report;
 use crate::options;
 use crate::options::catalogue::CatalogueFiles;
-use crate::output;
+use crate::terminal;
 use jred_analysis::checked;
 use jred_analysis::contact::OneWay;
 use jred_analysis::inspect::Findings;
@@ -131,24 +131,24 @@ fn run_check(options: &options::Check) -> Result<Completion> {
 
 /// Prints to stdout.
 pub(crate) fn print(text: &str) -> Result<Completion> {
-    output::print(text).map(|()| Completion::Holds)
+    terminal::print(text).map(|()| Completion::Holds)
 }
 
 /// Prints an answer.
 fn print_answer(answer: &Answer, format: Format) -> Result<Completion> {
-    print_parts(answer.write(format, output::screen()))
+    print_parts(answer.write(format, terminal::screen()))
 }
 
 /// Prints a text in parts.
 fn print_parts(parts: impl IntoIterator<Item = String>) -> Result<Completion> {
-    output::print_parts(parts)?;
+    terminal::print_parts(parts)?;
     Ok(Completion::Holds)
 }
 
 /// Warns on standard error if a contact separates at this speed and acceleration; the result is computed anyway.
 fn warn(file: &MachineFile, state: [f64; 2]) -> Result<()> {
     if let Some(words) = OneWay::warning(&file.machine, state).map_err(core_report)? {
-        output::say(&words);
+        terminal::say(&words);
     }
     Ok(())
 }
@@ -180,7 +180,7 @@ fn envelope(drive: &Drive, file: &MachineFile) -> Envelope {
     warn_of_supply(drive, file);
     let envelope = Envelope::at(drive.motor, drive.amplifier, &file.site);
     for assumption in envelope.assumptions() {
-        output::warn(&assumption.clone());
+        terminal::warn(&assumption.clone());
     }
     envelope
 }
@@ -189,7 +189,7 @@ fn envelope(drive: &Drive, file: &MachineFile) -> Envelope {
 fn warn_of_supply(drive: &Drive, file: &MachineFile) {
     let limits = MotorLimits::new(drive.motor, drive.amplifier, &file.site);
     if let Some(unfit) = limits.unfit(&file.rules) {
-        output::warn(&unfit.clone());
+        terminal::warn(&unfit.clone());
     }
 }
 
@@ -232,7 +232,7 @@ fn profile_written(file: &MachineFile, path: &Path) -> String {
 /// Warns of noise and wrong rows of a recorded motion, and of implausible speeds.
 fn warn_of_motion(file: &MachineFile) {
     for warning in of_motion(file) {
-        output::warn(&warning);
+        terminal::warn(&warning);
     }
 }
 

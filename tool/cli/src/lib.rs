@@ -6,3 +6,4 @@ pub mod commands;
 pub mod options;
 pub mod output;
 pub mod rows;
+pub mod terminal;

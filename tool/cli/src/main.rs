@@ -5,7 +5,7 @@ use std::process::ExitCode;
 
 use jred_cli::commands::{Completion, run};
 use jred_cli::options::Cli;
-use jred_cli::output;
+use jred_cli::terminal;
 use jred_file::plain;
 
 fn main() -> ExitCode {
@@ -18,7 +18,7 @@ fn main() -> ExitCode {
         Err(error)
             if error.use_stderr() && (plainly || !words.iter().all(|w| plain::is_short(w))) =>
         {
-            output::say(cut(error.render().to_string(), &words).trim_end());
+            terminal::say(cut(error.render().to_string(), &words).trim_end());
             return ExitCode::from(2);
         }
         // Exits with 2 on a wrong command line, with 0 after a help text.
@@ -30,7 +30,7 @@ fn main() -> ExitCode {
         // The shell convention for a program ended by Ctrl-C.
         Ok(Completion::Stopped) => ExitCode::from(130),
         Err(report) => {
-            output::complain(&report, plainly);
+            terminal::complain(&report, plainly);
             ExitCode::from(2)
         }
     }

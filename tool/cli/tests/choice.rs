@@ -76,8 +76,10 @@ fn every_output_names_what_is_chosen() {
     with_catalogue("size", "lift.toml", &["--report", page.to_str().unwrap()]).ends(0);
     let page = std::fs::read_to_string(page).unwrap();
     for words in [
-        "Brake resistor: Widerstand R100-100 (r100-100), the smallest of the catalogue that fits.",
-        "<td>Regler A-03</td><td>Widerstand R100-100</td>",
+        "Widerstand R100-100 (r100-100)",
+        "brake resistor: the smallest of the catalogue that fits",
+        ">Regler A-03 †</td>",
+        ">Widerstand R100-100</td>",
         "<td class=\"n\">17.3</td><td class=\"n\">2140</td>",
     ] {
         assert!(page.contains(words), "{words}");
@@ -186,7 +188,7 @@ fn the_first_answer_fits_on_a_screen() {
             "resistor",
             "order",
         ] {
-            let starts = |line: &str| line.starts_with(&format!(" {word} "));
+            let starts = |line: &str| line.starts_with(&format!("  {word} "));
             assert!(text.lines().any(starts), "{name}: no {word}\n{text}");
         }
         // Only a terminal has colours.

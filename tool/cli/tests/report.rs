@@ -193,10 +193,10 @@ fn the_report_of_the_press() {
     let best = &answer["fit"][0];
     assert!(text.contains(best["motor"].as_str().unwrap()));
     for word in [
-        "violates no rule and is the first of the ",
-        "Not checked, data missing: ",
+        "drives violate no rule",
+        "not checked: ",
         "Source of",
-        "Warning: ",
+        "warning: ",
         "Servo press, 60 mm stroke, 10 kN",
     ] {
         assert!(text.contains(word), "{word}");
@@ -204,12 +204,12 @@ fn the_report_of_the_press() {
     // The closest refused drives, and every rule that they violate.
     let refused = answer["refused"].as_array().unwrap();
     assert!(text.contains(&format!("{} drives, closest first", refused.len())));
-    let rows: Vec<&str> = page.split("<tr>").collect();
+    let rows: Vec<&str> = page.split("<p>").collect();
     for drive in &refused[..50] {
         let motor = drive["motor"].as_str().unwrap();
         let name = match drive["gearbox"].as_str() {
-            Some(gearbox) => format!("<td>{motor} + {gearbox}</td>"),
-            None => format!("<td>{motor}, direct</td>"),
+            Some(gearbox) => format!("{motor} + {gearbox}: "),
+            None => format!("{motor}, direct: "),
         };
         let row = rows
             .iter()
@@ -225,9 +225,9 @@ fn the_report_of_the_press() {
     for check in best["checks"].as_array().unwrap() {
         let rule = check["rule"].as_str().unwrap();
         let row = if check["verdict"] == "not-checked" {
-            format!("<span class=\"warn\">{rule}</span> (")
+            format!("{rule} (no data: ")
         } else {
-            format!("<tr><td>{rule}</td>")
+            format!("<td class=\"\">{rule}</td>")
         };
         assert!(page.contains(&row), "{row}");
     }
@@ -235,7 +235,7 @@ fn the_report_of_the_press() {
         "Contributions to the torque",
         "How far each quantity may change",
         "Closest refused drives",
-        "cycle time 0.5 s: may be ",
+        "<b>cycle time 0.5 s</b><span>may be ",
         "Rules and their sources",
         "uPlot",
     ] {
@@ -331,9 +331,9 @@ fn a_report_where_no_drive_holds() {
     let text = plain(&page);
     for word in [
         "What would have to change",
-        "drives satisfies every rule.",
+        "drives satisfies every rule; ",
         "Violated:",
-        "comes closest: ",
+        "this is the closest one",
         "Drives that violate no rule (0 of ",
     ] {
         assert!(text.contains(word), "{word}");

@@ -8,9 +8,12 @@ pub mod sheet;
 mod text;
 
 use std::borrow::Cow;
+use std::fmt::{Debug, Formatter, Result as FmtResult};
+use std::rc::Rc;
 
 use serde_json::{Map, Value};
 
+use crate::table::json::{array_parts, split_at_entry};
 use crate::table::output::{self, Format};
 use crate::table::reading::Reading;
 use crate::table::screen::Screen;
@@ -41,10 +44,39 @@ pub struct Answer<'a> {
     pub(crate) blocks: Vec<Block>,
     data: Map<String, Value>,
     course: Option<Cow<'a, Columns>>,
-    csv: Option<String>,
+    csv: Option<Made<'a, String>>,
+    arrays: Vec<(&'static str, Made<'a, Value>)>,
+    /// Columns of a line in a pipe or a file; `None`: lines are not wrapped there.
+    narrow: Option<usize>,
+}
+
+/// Parts that are made while they are written.
+#[derive(Clone)]
+struct Made<'a, T>(Rc<dyn Fn() -> Parts<'a, T> + 'a>);
+
+/// Parts, one by one.
+pub type Parts<'a, T> = Box<dyn Iterator<Item = T> + 'a>;
+
+impl<T> Debug for Made<'_, T> {
+    fn fmt(&self, f: &mut Formatter) -> FmtResult {
+        f.write_str("Made")
+    }
 }
 
 impl<'a> Answer<'a> {
+    /// An answer for reading only.
+    pub(crate) fn words(title: impl Into<String>) -> Self {
+        Self {
+            title: title.into(),
+            blocks: Vec::new(),
+            data: Map::new(),
+            course: None,
+            csv: None,
+            arrays: Vec::new(),
+            narrow: None,
+        }
+    }
+
     /// An answer with its data and no blocks.
     pub(crate) fn new<D: Data>(title: impl Into<String>, data: &D) -> Self {
         // Serialisation fails only for a map whose keys are not text.
@@ -56,10 +88,7 @@ impl<'a> Answer<'a> {
     pub(crate) fn of_map(form: &str, title: String, data: Value) -> Self {
         Self {
             data: schema::headed(form, &title, data),
-            title,
-            blocks: Vec::new(),
-            course: None,
-            csv: None,
+            ..Self::words(title)
         }
     }
 
@@ -76,7 +105,22 @@ impl<'a> Answer<'a> {
 
     /// Sets the CSV if it is neither the course nor the first table.
     pub(crate) fn csv(&mut self, csv: String) {
-        self.csv = Some(csv);
+        self.csv_parts(move || once(csv.clone()));
+    }
+
+    /// Sets the CSV, made part by part.
+    pub(crate) fn csv_parts(&mut self, parts: impl Fn() -> Parts<'a, String> + 'a) {
+        self.csv = Some(Made(Rc::new(parts)));
+    }
+
+    /// Sets the items of an array of the data, made one by one, where the data have null.
+    pub(crate) fn array(&mut self, key: &'static str, items: impl Fn() -> Parts<'a, Value> + 'a) {
+        self.arrays.push((key, Made(Rc::new(items))));
+    }
+
+    /// Wraps lines to this width in a pipe or a file, too.
+    pub(crate) fn narrow(&mut self, width: usize) {
+        self.narrow = Some(width);
     }
 
     pub(crate) fn heading(&mut self, heading: impl Into<String>) {
@@ -105,12 +149,23 @@ impl<'a> Answer<'a> {
     }
 
     /// Renders the answer in one of the formats, part by part.
-    pub fn write(&self, format: Format, screen: Screen) -> Box<dyn Iterator<Item = String> + '_> {
+    pub fn write(&self, format: Format, screen: Screen) -> Parts<'_, String> {
+        let width = screen.width.or(self.narrow);
+        let screen = Screen { width };
         match (&self.course, format) {
             (Some(course), Format::Json) => {
                 Box::new(output::json_parts(course, self.data.clone(), Map::new()))
             }
-            (None, Format::Json) => once(format!("{:#}\n", Value::Object(self.data.clone()))),
+            (None, Format::Json) => {
+                let mut rest = format!("{:#}\n", Value::Object(self.data.clone()));
+                let mut parts = Vec::new();
+                for (key, items) in &self.arrays {
+                    let (before, after) = split_at_entry(&rest, key);
+                    parts.extend([once(before), Box::new(array_parts(items.0()))]);
+                    rest = after;
+                }
+                Box::new(parts.into_iter().flatten().chain(once(rest)))
+            }
             (Some(course), Format::Table) => {
                 let gap = if self.blocks.is_empty() { "" } else { "\n" };
                 let text = self.text(screen);
@@ -118,7 +173,7 @@ impl<'a> Answer<'a> {
             }
             (None, Format::Table) => once(self.text(screen)),
             (course, Format::Csv) => match (&self.csv, course) {
-                (Some(csv), _) => once(csv.clone()),
+                (Some(csv), _) => csv.0(),
                 (None, Some(course)) => output::parts(course, format, ""),
                 (None, None) => once(self.tables_as_csv()),
             },
@@ -135,6 +190,6 @@ impl<'a> Answer<'a> {
     }
 }
 
-fn once<'p>(text: String) -> Box<dyn Iterator<Item = String> + 'p> {
+fn once<'p>(text: String) -> Parts<'p, String> {
     Box::new(std::iter::once(text))
 }

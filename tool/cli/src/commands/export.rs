@@ -7,6 +7,7 @@ use crate::commands::core_error::{core_report, duty_report};
 use crate::commands::{Completion, print_answer, quantity, read_warned, warn};
 use crate::options;
 use crate::output;
+use crate::terminal;
 use jred::machine::Reducible as _;
 use jred_analysis::duty::Duty;
 use jred_export::{
@@ -153,7 +154,7 @@ pub(super) fn run(options: &options::Export) -> Result<Completion> {
     let export = match found {
         Ok(export) => export,
         Err(Failure::NotReached(why)) => {
-            output::say(&why);
+            terminal::say(&why);
             return Ok(Completion::Violated);
         }
         Err(Failure::Impossible { message, help }) => {
@@ -209,7 +210,7 @@ fn proof_holds(export: &Export) -> bool {
         ),
         _ => return true,
     };
-    output::say(&format!("{words}; {cure}"));
+    terminal::say(&format!("{words}; {cure}"));
     false
 }
 

@@ -4,7 +4,8 @@ use miette::{Result, miette};
 
 use crate::commands::core_error::core_report;
 use crate::options::plan::{PlanFile, PlanFormat};
-use crate::output::{self, Files};
+use crate::output::Files;
+use crate::terminal;
 use jred::machine::Reducible as _;
 use jred_export::{plan_c_source, plan_source};
 use jred_file::model::machine::MachineFile;
@@ -34,7 +35,7 @@ pub(super) fn write(
         .and_then(|plan| plan.with_ramp(ramp))
         .map_err(|error| miette!(help = format!("{}", error.cure()), "{error}"))?;
     if let Some(warning) = list::plan::warning(&plan, trace) {
-        output::say(&format!("warning: {warning}"));
+        terminal::say(&format!("warning: {warning}"));
     }
     let says = list::plan::text(&plan, trace);
     let title = format!("{}: {says}", file.title);

@@ -6,6 +6,7 @@ use crate::commands::core_error::core_report;
 use crate::commands::{Completion, print_answer, quantity, warn};
 use crate::options;
 use crate::output;
+use crate::terminal;
 use jred::machine::Reducible as _;
 use jred_analysis::checked;
 use jred_analysis::reduce;
@@ -83,7 +84,7 @@ pub(super) fn run(options: &options::Reduce) -> Result<Completion> {
         None => reduce::not_contained(&file, &request),
     };
     if !missing.is_empty() && !matches!(options.format, Format::Table) {
-        output::say(&format!("warning: {}", not_contained(&missing)));
+        terminal::say(&format!("warning: {}", not_contained(&missing)));
     }
     // At a change point the joint forces are missing; time, position and speed are not.
     let cells = if sets.reactions { 3 } else { usize::MAX };

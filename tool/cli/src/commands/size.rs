@@ -10,6 +10,7 @@ use crate::commands::vary::catalogue;
 use crate::commands::{Completion, print, print_answer};
 use crate::options::{MotionChoice, Size};
 use crate::output;
+use crate::terminal;
 use jred_analysis::checked;
 use jred_analysis::duty::Duty;
 use jred_analysis::warnings::warnings;
@@ -84,16 +85,10 @@ pub fn size(options: &Size) -> Result<Completion> {
         return Err(none_left(options, catalogue.count(), &gaps));
     }
     for gap in gaps {
-        output::say(&format!("warning: {gap}"));
+        terminal::say(&format!("warning: {gap}"));
     }
     if !objectives.is_empty() {
         return pareto(options, objectives, &file, &selection);
-    }
-    if let Some(path) = &options.report {
-        let name = plain::path(&options.file);
-        let page = page::page(&name, &file, &duty, &selection, &warnings).map_err(core_report)?;
-        let page = page.ok_or_else(|| none_left(options, catalogue.count(), &[]))?;
-        output::write(path, page.as_bytes())?;
     }
     let asked = options.why.as_deref();
     let asked = asked.map(|name| asked_for(name, options, &selection));
@@ -104,21 +99,30 @@ pub fn size(options: &Size) -> Result<Completion> {
         None => false,
     };
     let explanation = explanation(options, asked, &file, &duty, &selection)?;
-    let explanation = explanation.as_ref();
-    let answer = Answer {
-        options,
+    let shown = listing::Listing {
         file: &file,
         duty: &duty,
         selection: &selection,
-        notes: listing::Notes {
-            warnings: &warnings,
-            motion: made.as_ref(),
-        },
+        warnings: &warnings,
+        motion: made.as_ref(),
         asked,
-        explanation,
-        meter,
+        explanation: explanation.as_ref(),
+        list: extent(options, explanation.is_some()),
     };
-    answer.print()?;
+    if let Some(path) = &options.report {
+        let page = page::page(&plain::path(&options.file), shown).map_err(core_report)?;
+        let page = page.ok_or_else(|| none_left(options, catalogue.count(), &[]))?;
+        output::write(path, page.as_bytes())?;
+    }
+    let mut answer = shown.answer(options.format);
+    if let Some(path) = &options.report {
+        answer.sentence(format!("report written to {}", plain::path(path)));
+    }
+    if let Some(path) = options.meter.as_ref().filter(|_| meter) {
+        let path = plain::path(path);
+        answer.sentence(format!("limits for the duty meter written to {path}"));
+    }
+    print_answer(&answer, options.format)?;
     Ok(if selection.fit.is_empty() {
         Completion::Violated
     } else {
@@ -126,74 +130,20 @@ pub fn size(options: &Size) -> Result<Completion> {
     })
 }
 
-/// The results of the command.
-struct Answer<'a, 'c> {
-    options: &'a Size,
-    file: &'a MachineFile,
-    duty: &'a Duty,
-    selection: &'a Selection<'c>,
-    notes: listing::Notes<'a>,
-    asked: Option<&'a listing::Asked<'c>>,
-    explanation: Option<&'a listing::Explanation>,
-    /// Whether limits for the duty meter were written.
-    meter: bool,
-}
-
-impl Answer<'_, '_> {
-    fn print(&self) -> Result<()> {
-        let options = self.options;
-        let list = listing::List {
-            top: options.top.unwrap_or(TOP),
-            nearest: options.nearest,
-            refused: options.refused,
-            all: options.all,
-            all_gearboxes: options.all_gearboxes,
-            full: options.full || options.why.is_some(),
-            is_ranked: options.top.is_some()
-                || options.all
-                || options.all_gearboxes
-                || options.search.rank.is_some(),
-            explained: self.explanation.is_some(),
-            screen: output::screen(),
-        };
-        match options.format {
-            Format::Table => {
-                print(&listing::text(
-                    list,
-                    self.file,
-                    self.duty,
-                    self.selection,
-                    self.notes.warnings,
-                    self.asked,
-                    self.explanation,
-                ))?;
-                if let Some(path) = &options.report {
-                    print(&format!("report written to {}\n", plain::path(path)))?;
-                }
-                if let Some(path) = options.meter.as_ref().filter(|_| self.meter) {
-                    print(&format!(
-                        "limits for the duty meter written to {}\n",
-                        plain::path(path)
-                    ))?;
-                }
-            }
-            Format::Csv => {
-                output::print_parts(listing::csv(list, self.selection, self.asked))?;
-            }
-            Format::Json => {
-                let parts = listing::json(
-                    list,
-                    self.file,
-                    self.duty,
-                    self.selection,
-                    &self.notes,
-                    self.asked,
-                    self.explanation,
-                );
-                output::print_parts(parts)?;
-            }
-        }
-        Ok(())
+/// Extent of the listing.
+fn extent(options: &Size, explained: bool) -> listing::List {
+    listing::List {
+        top: options.top.unwrap_or(TOP),
+        nearest: options.nearest,
+        refused: options.refused,
+        all: options.all,
+        all_gearboxes: options.all_gearboxes,
+        full: options.full || options.why.is_some(),
+        is_ranked: options.top.is_some()
+            || options.all
+            || options.all_gearboxes
+            || options.search.rank.is_some(),
+        explained,
     }
 }
 
@@ -210,7 +160,7 @@ fn suited(
         let table = list::suited::table(&suited);
         print(&format!("{says}\n\n{table}\n"))?;
     } else {
-        output::say(&says);
+        terminal::say(&says);
     }
     let data = list::suited::data(judging.file, &suited);
     Ok((suited.motion().cloned(), data))
@@ -294,7 +244,7 @@ fn write_meter(
 ) -> Result<bool> {
     let best = || selection.first_fit(1).first().copied();
     let Some(candidate) = asked.map(|asked| asked.candidate).or_else(best) else {
-        output::say(&format!(
+        terminal::say(&format!(
             "no drive satisfies every rule: {} is not written (--why DRIVE writes the limits of a drive that does not)",
             plain::path(path)
         ));
@@ -307,7 +257,7 @@ fn write_meter(
     output::write(path, limits.source(&machine).as_bytes())?;
     let broken = limits.broken();
     if !broken.is_empty() {
-        output::say(&format!(
+        terminal::say(&format!(
             "warning: {} violates rules ({}): staying within the limits in {} does not make it acceptable",
             candidate.drive.name(),
             broken.join("; "),

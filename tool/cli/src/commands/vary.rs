@@ -9,6 +9,7 @@ use crate::options::search::{Merge, RowOptions, SizingOptions, Vary};
 use crate::output;
 use crate::rows::merge::merge;
 use crate::rows::run::{Plan, RunEnd, run};
+use crate::terminal;
 use jred_analysis::duty::Sampling;
 use jred_file::number::words::{Word as _, counted};
 use jred_file::plain;
@@ -169,7 +170,7 @@ pub fn stopped(ended: RunEnd, plan: &Plan) -> Result<Completion> {
         ),
         None => "use --out FILE to make a run resumable".to_owned(),
     };
-    output::say(&format!(
+    terminal::say(&format!(
         "stopped after {} of {} rows; {cure}",
         ended.rows, ended.of
     ));

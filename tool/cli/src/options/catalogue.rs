@@ -50,7 +50,7 @@ impl CatalogueFiles {
             skip_broken_rows: self.skip_broken_rows,
         })?;
         for warning in &catalogue.warnings {
-            crate::output::warn(&warning.clone());
+            crate::terminal::warn(&warning.clone());
         }
         Ok(catalogue)
     }

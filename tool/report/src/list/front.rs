@@ -84,7 +84,7 @@ pub fn answer(front: &Front, title: &str) -> Answer<'static> {
     };
     let read = |point: &ParetoPoint| -> Vec<Cell> {
         let drive = &point.candidate.drive;
-        let [motor, gearbox, amplifier] = marks::drive(drive);
+        let [motor, gearbox, amplifier] = marks::drive(drive, false);
         let row = [motor, marks::made_for(drive), gearbox, amplifier].into_iter();
         let known = |figure: Option<f64>| figure.map_or("–".to_owned(), rounded);
         let figures = figures(point).into_iter().map(known);

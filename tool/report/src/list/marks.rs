@@ -2,13 +2,15 @@
 
 use jred_sizing::catalogue::Drive;
 
-/// Motor, gearbox and amplifier of a drive, marked.
-pub(crate) fn drive(drive: &Drive) -> [String; 3] {
-    let motor = key(&drive.motor.key, drive.motor.from_maker);
-    let gearbox = drive.gearbox.map(|g| key(&g.key, g.from_maker));
+/// Motor, gearbox and amplifier of a drive, marked: their keys, or maker and model.
+pub(crate) fn drive(drive: &Drive, in_full: bool) -> [String; 3] {
+    let m = drive.motor;
+    let motor = part([&m.maker, &m.model, &m.key], m.from_maker, in_full);
+    let gearbox = drive.gearbox;
+    let gearbox = gearbox.map(|g| part([&g.maker, &g.model, &g.key], g.from_maker, in_full));
     let amplifier = drive.amplifier.map(|a| {
         let mark = if drive.is_paired() { "" } else { " †" };
-        key(&a.key, a.from_maker) + mark
+        part([&a.maker, &a.model, &a.key], a.from_maker, in_full) + mark
     });
     [
         motor,
@@ -21,6 +23,15 @@ pub(crate) fn drive(drive: &Drive) -> [String; 3] {
 pub(crate) fn made_for(drive: &Drive) -> String {
     let made = drive.motor.made_for();
     made.map_or("–".to_owned(), |made| made.words())
+}
+
+/// A part by maker and model or by its key, marked.
+pub(crate) fn part([maker, model, own]: [&String; 3], from_maker: bool, in_full: bool) -> String {
+    if in_full {
+        key(&format!("{maker} {model}"), from_maker)
+    } else {
+        key(own, from_maker)
+    }
 }
 
 /// A key of the catalogue, marked if its figures are not from the maker's own document.

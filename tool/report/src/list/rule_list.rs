@@ -11,6 +11,8 @@ use jred_file::model::rules::{Choices, Moves, RuleSet, shown};
 use jred_file::number::csv;
 use jred_file::number::rounding::figure;
 use jred_file::read;
+use jred_file::units::Vocabulary;
+use jred_sizing::catalogue::MotorKind;
 use jred_sizing::study::cell::Cell;
 
 /// All built-in sets, one line each.
@@ -33,12 +35,20 @@ pub fn all() -> Answer<'static> {
 pub fn answer(set: &RuleSet) -> Answer<'static> {
     let mut answer = Answer::new(format!("{}: {}", set.name, set.title), &set_data(set));
     answer.csv(csv(set));
-    let rows = lines(set).into_iter().map(|line| line.cells());
+    limits(&mut answer, set, MotorKind::Rotary.vocabulary());
+    answer
+}
+
+/// The limits with their sources, and the choices.
+pub(crate) fn limits(answer: &mut Answer, set: &RuleSet, words: &Vocabulary) {
+    let rows = lines(set).into_iter().map(|line| {
+        let [name, key] = [line.rule.named(words), line.rule.key()].map(str::to_owned);
+        [name, key, line.limit, line.warning, line.source]
+    });
     answer.table(table(&["rule", "key", "limit", "warning", "source"], rows));
     for choice in choice_words(set) {
         answer.sentence(choice);
     }
-    answer
 }
 
 fn table<const N: usize>(header: &[&str; N], rows: impl Iterator<Item = [String; N]>) -> Reading {
@@ -104,19 +114,6 @@ pub struct RuleLine {
     pub warning: String,
     /// Source of the limit.
     pub source: String,
-}
-
-impl RuleLine {
-    fn cells(&self) -> [String; 5] {
-        let [name, key] = [self.rule.name(), self.rule.key()].map(str::to_owned);
-        [
-            name,
-            key,
-            self.limit.clone(),
-            self.warning.clone(),
-            self.source.clone(),
-        ]
-    }
 }
 
 /// The rules that are checked or switched off, as text.

@@ -3,24 +3,20 @@
 use jred::error::Error;
 
 use super::mechanism::{POINTS, Source};
+use super::section::Section;
+use crate::table::reading::Reading;
 use jred_analysis::reduce::{Request, Sets, largest};
 use jred_file::number::columns::{Column, ColumnQuantity, Columns};
 use jred_file::number::rounding::{rounded, short};
+use jred_sizing::study::cell::Cell;
 
 /// Rows of each table.
 const ROWS: usize = 13;
 
-/// A table of the page.
-pub(super) struct ExtractTable {
-    pub(super) heading: &'static str,
-    pub(super) names: Vec<String>,
-    pub(super) rows: Vec<Vec<String>>,
-}
-
-/// Name, value and place of the largest forces.
-pub(super) fn largest_forces(source: &Source) -> Result<Vec<[String; 3]>, Error> {
+/// Name, value and place of the largest forces; `None` without a motion.
+pub(super) fn largest_forces(source: &Source) -> Result<Option<Section>, Error> {
     if !source.moves() {
-        return Ok(Vec::new());
+        return Ok(None);
     }
     let request = Request {
         over: source.over,
@@ -29,18 +25,34 @@ pub(super) fn largest_forces(source: &Source) -> Result<Vec<[String; 3]>, Error>
         state: source.state,
     };
     let rows = largest(source.file, &request)?;
-    Ok(rows
-        .iter()
-        .map(|row| {
-            let value = format!("{} {}", short(row.value), row.quantity.unit);
-            let at = format!("{} = {} {}", row.over.name, short(row.at), row.over.unit);
-            [row.quantity.name.clone(), value, at]
-        })
-        .collect())
+    let rows = rows.iter().map(|row| {
+        let value = format!("{} {}", short(row.value), row.quantity.unit);
+        let at = format!("{} = {} {}", row.over.name, short(row.at), row.over.unit);
+        [row.quantity.name.clone(), value, at]
+            .map(Cell::Text)
+            .to_vec()
+    });
+    let rows: Vec<Vec<Cell>> = rows.collect();
+    if rows.is_empty() {
+        return Ok(None);
+    }
+    let columns = ["force", "value", "at"].map(str::to_owned).to_vec();
+    Ok(Some(section("Largest forces", columns, rows)))
+}
+
+fn section(heading: &str, columns: Vec<String>, rows: Vec<Vec<Cell>>) -> Section {
+    let whole = 1;
+    Section::read(heading, |answer| {
+        answer.table(Reading {
+            columns,
+            rows,
+            whole,
+        });
+    })
 }
 
 /// Extracts of tables; the command line prints the whole ones.
-pub(super) fn tables(source: &Source) -> Result<Vec<ExtractTable>, Error> {
+pub(super) fn tables(source: &Source) -> Result<Vec<Section>, Error> {
     let table = |heading, columns: &Columns, wanted: &dyn Fn(&Column) -> bool| {
         let along = [
             ColumnQuantity::Time,
@@ -51,18 +63,14 @@ pub(super) fn tables(source: &Source) -> Result<Vec<ExtractTable>, Error> {
         let kept: Vec<(usize, &Column)> = heads
             .filter(|(k, head)| *k < 2 && along.contains(&head.quantity) || wanted(head))
             .collect();
-        ExtractTable {
-            heading,
-            names: kept.iter().map(|(_, head)| head.title()).collect(),
-            rows: columns
-                .rows()
+        let row = |row: &Vec<Option<f64>>| {
+            let cells = kept
                 .iter()
-                .map(|row| {
-                    let cells = kept.iter().map(|(k, _)| row[*k]);
-                    cells.map(|x| x.map_or(String::new(), rounded)).collect()
-                })
-                .collect(),
-        }
+                .map(|(k, _)| row[*k].map_or(Cell::Empty, |x| rounded(x).into()));
+            cells.collect()
+        };
+        let names = kept.iter().map(|(_, head)| head.title()).collect();
+        section(heading, names, columns.rows().iter().map(row).collect())
     };
     let curves = Sets {
         curves: true,

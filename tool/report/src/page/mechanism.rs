@@ -3,13 +3,14 @@
 use askama::Template;
 use jred::error::Error;
 
-use super::extract::{ExtractTable, largest_forces, tables};
+use super::extract::{largest_forces, tables};
 use super::figures;
 use super::section::{Figure, Section};
 use crate::answer::Block;
 use crate::drawing;
 use crate::list::inspection;
 use crate::plot::Axis;
+use crate::table::reading::Reading;
 use jred_analysis::inspect::Findings;
 use jred_analysis::reduce::{Over, Request, Sets, reduce};
 use jred_file::model::coordinate::Coordinate;
@@ -34,9 +35,6 @@ struct Page<'a> {
     unit: &'static str,
     blocks: &'a [Block],
     sections: Vec<Section>,
-    largest: Vec<[String; 3]>,
-    tables: Vec<ExtractTable>,
-    notes: Vec<String>,
 }
 
 /// The columns of motions and forces, over the time or the position.
@@ -96,6 +94,14 @@ pub fn mechanism_page(
     let moving = drawing::moving(mechanism)?;
     let findings = Findings::of(file)?;
     let check = inspection::answer(&findings);
+    let mut sections = sections(&source)?;
+    sections.extend(largest_forces(&source)?);
+    sections.extend(tables(&source)?);
+    sections.push(Section::read("Notes", |answer| {
+        for note in notes(&source) {
+            answer.sentence(note);
+        }
+    }));
     let page = Page {
         title: &file.title,
         version: env!("CARGO_PKG_VERSION"),
@@ -107,20 +113,13 @@ pub fn mechanism_page(
         symbol: source.coordinate.symbol(),
         unit: source.coordinate.unit(),
         blocks: &check.blocks,
-        sections: sections(&source)?,
-        largest: largest_forces(&source)?,
-        tables: tables(&source)?,
-        notes: notes(&source),
+        sections,
     };
     // Rendering into a string fails only for a wrong template, which the tests show.
     Ok(page.render().unwrap_or_default())
 }
 
 fn sections(source: &Source) -> Result<Vec<Section>, Error> {
-    let figure = |svg: String, caption: &str| Figure {
-        svg,
-        caption: caption.to_owned(),
-    };
     let speed = match (source.state, &source.file.motion) {
         (Some([omega, _]), _) => omega.abs(),
         (None, Some(motion)) => {
@@ -131,13 +130,13 @@ fn sections(source: &Source) -> Result<Vec<Section>, Error> {
     let mut sections = vec![Section::new(
         "The machine, reduced to its drive link",
         vec![
-            figure(
+            Figure::new(
                 figures::reduced_inertia(source.file)?.svg,
                 "Reduced inertia with flywheel and drive train, and its derivative with respect to the position of the drive link.",
             ),
-            figure(
+            Figure::new(
                 figures::reduced_torque(source.file, speed)?.svg,
-                &format!(
+                format!(
                     "Parts of the reduced {}: weight and springs, process loads, and the magnitudes of viscous and motion-opposing loads.{}",
                     source.coordinate.vocabulary().torque,
                     figures::not_contained(source.file)

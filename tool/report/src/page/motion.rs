@@ -18,7 +18,7 @@ use jred_motion::trace::Trace;
 use jred_sizing::select::fit::input_kind;
 
 use super::figures::{dashed, line};
-use super::section::{Figure, MotionPage, Section, plot};
+use super::section::{Figure, Page, Section, plot};
 use crate::list;
 use crate::plot::{Axes, Axis, Series, lines};
 use crate::table::output::Format;
@@ -286,7 +286,7 @@ pub fn fastest_page(view: &list::fastest::FastestView) -> Result<String, Error> 
         over_time(file, &[course], &limits),
     ];
     sections.extend(view.warmth.and_then(winding));
-    Ok(MotionPage::page(
+    Ok(Page::page(
         file,
         "fastest motion",
         format!(
@@ -325,7 +325,7 @@ pub fn retime_page(shown: &list::retime::RetimeView, own: &Motion) -> Result<Str
             &law.motion,
         )?);
     }
-    Ok(MotionPage::page(
+    Ok(Page::page(
         file,
         "gentlest motion",
         format!(
@@ -370,7 +370,7 @@ pub fn steady_page(machines: &CoupledMachines, steady: &Steady) -> String {
         Section::of(&heading, plot(&[("", *course)], along, energies))
     });
     sections.extend(energies);
-    MotionPage::page(
+    Page::page(
         file,
         "steady cycle",
         format!(

@@ -1,76 +1,8 @@
-//! Texts of the report: result, self-check, assumptions, sources.
+//! Notes of the report: self-check, method, sources.
 
 use jred_analysis::duty::Duty;
-use jred_file::model::rules::RuleVerdict;
 use jred_file::number::rounding::{cleared, rounded, shown};
 use jred_sizing::judge::Assessment;
-use jred_sizing::select::size::Selection;
-
-use crate::list::listing::violations;
-
-/// The answer in HTML, the one part of the page built by hand.
-pub(super) fn answer(best: &Assessment, selection: &Selection) -> String {
-    let all = selection.fit.len() + selection.refused.len();
-    let motor = best.drive.motor;
-    let gearbox = best
-        .drive
-        .gearbox
-        .map_or("directly coupled".to_owned(), |g| {
-            format!("with {} {} (i = {})", g.maker, g.model, rounded(g.ratio))
-        });
-    let amplifier = best.drive.amplifier;
-    let amplifier = amplifier.map_or(String::new(), |a| format!(" on {} {}", a.maker, a.model));
-    let drive = format!("{} {} {gearbox}{amplifier}", motor.maker, motor.model);
-    let drive = escape(&drive);
-    let resistor = best.resistor.map_or_else(String::new, |r| {
-        format!(
-            "<br>Brake resistor: {}, the smallest of the catalogue that fits.",
-            escape(&format!("{} {} ({})", r.maker, r.model, r.key))
-        )
-    });
-    let found = !selection.fit.is_empty();
-    if found {
-        let named = |verdict: RuleVerdict| {
-            let checks = best.checks.iter().filter(|c| c.verdict == verdict);
-            let names: Vec<&str> = checks.map(|c| c.rule).collect();
-            names.join(", ")
-        };
-        let mut answer = match all {
-            1 => format!("<b>{drive}</b><br>violates no rule.{resistor}"),
-            _ => format!(
-                "<b>{drive}</b><br>violates no rule and is the first of the {all} drives that were compared.{resistor}"
-            ),
-        };
-        for (what, names) in [
-            ("Warning", named(RuleVerdict::Warn)),
-            ("Not checked, data missing", named(RuleVerdict::NotChecked)),
-        ] {
-            if !names.is_empty() {
-                answer = format!("{answer}<br>{what}: {names}.");
-            }
-        }
-        answer
-    } else {
-        let reasons = escape(&best.reasons());
-        if all == 1 {
-            return format!("<b>{drive}</b><br>violates a rule: {reasons}.");
-        }
-        let lines = violations(selection);
-        let lines = lines
-            .iter()
-            .map(|line| format!("<br>{}", escape(line.trim())));
-        format!(
-            "<b>None of the {all} drives satisfies every rule.</b><br>{drive} comes closest: {reasons}.<br>Violated:{}",
-            lines.collect::<String>()
-        )
-    }
-}
-
-fn escape(text: &str) -> String {
-    text.replace('&', "&amp;")
-        .replace('<', "&lt;")
-        .replace('>', "&gt;")
-}
 
 /// Self-check, method, sources.
 pub(super) fn notes(best: &Assessment, duty: &Duty) -> Vec<String> {
@@ -118,6 +50,5 @@ pub(super) fn notes(best: &Assessment, duty: &Duty) -> Vec<String> {
     if let Some(amplifier) = drive.amplifier {
         source(&amplifier.model, &amplifier.source);
     }
-    notes.extend(best.warnings().map(|said| format!("Warning: {said}.")));
     notes
 }

@@ -1,61 +1,110 @@
-//! Pages of sections with pictures, without a script.
+//! Pages of sections with blocks and pictures.
 
 use askama::Template;
 
 use crate::answer::{Answer, Block};
 use crate::plot::{Axes, Axis, lines};
+use crate::table::reading::Reading;
 use jred_file::model::machine::MachineFile;
 use jred_file::number::columns::{Column, ColumnQuantity, Columns};
 
+use super::chart::Chart;
 use super::figures::line;
 
 /// A heading with its content.
+#[derive(Default)]
 pub(super) struct Section {
     pub(super) heading: String,
+    /// Summary under which the blocks are folded; empty: they are not.
+    pub(super) folded: String,
+    pub(super) blocks: Vec<Block>,
     pub(super) figures: Vec<Figure>,
 }
 
 /// A picture.
 pub(super) struct Figure {
     pub(super) svg: String,
+    /// Data for the page's script; empty without.
+    pub(super) data: String,
     pub(super) caption: String,
 }
 
 impl Section {
     pub(super) fn new(heading: impl Into<String>, figures: Vec<Figure>) -> Self {
-        let heading = heading.into();
-        Self { heading, figures }
+        Self {
+            heading: heading.into(),
+            figures,
+            ..Self::default()
+        }
     }
 
     /// A section with one picture and no text.
     pub(super) fn of(heading: &str, svg: String) -> Self {
-        let caption = String::new();
-        Self::new(heading, vec![Figure { svg, caption }])
+        Self::new(heading, vec![Figure::new(svg, "")])
+    }
+
+    /// A section of blocks.
+    pub(super) fn read(heading: impl Into<String>, write: impl FnOnce(&mut Answer)) -> Self {
+        let mut answer = Answer::words("");
+        write(&mut answer);
+        Self {
+            blocks: answer.blocks,
+            ..Self::new(heading, Vec::new())
+        }
     }
 }
 
 impl Figure {
     pub(super) fn new(svg: String, caption: impl Into<String>) -> Self {
-        let caption = caption.into();
-        Self { svg, caption }
+        let (caption, data) = (caption.into(), String::new());
+        Self { svg, data, caption }
+    }
+
+    /// A chart that the page's script draws once more.
+    pub(super) fn live(chart: &Chart, caption: impl Into<String>) -> Self {
+        Self {
+            data: chart.json(),
+            ..Self::new(chart.svg.clone(), caption)
+        }
     }
 }
 
-/// A page about a motion.
+/// A page of blocks and pictures.
 #[derive(Template)]
-#[template(path = "motion.html")]
-pub(super) struct MotionPage<'a> {
-    title: &'a str,
+#[template(path = "page.html")]
+pub(super) struct Page<'a> {
+    pub(super) title: &'a str,
     /// Kind of page, for the window title.
-    subject: &'static str,
-    about: String,
-    version: &'static str,
-    file: &'a str,
-    blocks: &'a [Block],
-    sections: Vec<Section>,
+    pub(super) subject: &'static str,
+    pub(super) about: String,
+    pub(super) version: &'static str,
+    pub(super) file: &'a str,
+    /// Class of the first blocks; empty: they have none.
+    pub(super) class: &'static str,
+    pub(super) blocks: &'a [Block],
+    pub(super) sections: Vec<Section>,
 }
 
-impl<'a> MotionPage<'a> {
+impl<'a> Page<'a> {
+    pub(super) fn new(
+        file: &'a MachineFile,
+        subject: &'static str,
+        answer: &'a Answer,
+        sections: Vec<Section>,
+    ) -> Self {
+        Self {
+            title: &file.title,
+            subject,
+            about: String::new(),
+            version: env!("CARGO_PKG_VERSION"),
+            file: &file.name,
+            class: "",
+            blocks: &answer.blocks,
+            sections,
+        }
+    }
+
+    /// The page of an answer, with a line on its subject.
     pub(super) fn page(
         file: &'a MachineFile,
         subject: &'static str,
@@ -63,17 +112,20 @@ impl<'a> MotionPage<'a> {
         answer: &'a Answer,
         sections: Vec<Section>,
     ) -> String {
-        let page = Self {
-            title: &file.title,
-            subject,
-            about: capital(about.into()),
-            version: env!("CARGO_PKG_VERSION"),
-            file: &file.name,
-            blocks: &answer.blocks,
-            sections,
-        };
+        Self::new(file, subject, answer, sections).html(about)
+    }
+
+    /// The page, with a line on its subject.
+    pub(super) fn html(self, about: impl Into<String>) -> String {
+        let about = capital(about.into());
         // Rendering into a string fails only for a wrong template, which the tests show.
-        page.render().unwrap_or_default()
+        Self { about, ..self }.render().unwrap_or_default()
+    }
+
+    /// Whether it has charts for the script.
+    fn is_live(&self) -> bool {
+        let mut figures = self.sections.iter().flat_map(|section| &section.figures);
+        figures.any(|figure| !figure.data.is_empty())
     }
 }
 

@@ -156,12 +156,20 @@ impl Check {
         Some(self.with_unit(&text))
     }
 
+    /// Figure and limit: "4219 rpm, limit 4500 rpm".
+    pub fn against(&self) -> String {
+        let bound = self.bound();
+        let limit = bound.map_or_else(String::new, |limit| format!(", limit {limit}"));
+        format!("{}{limit}", self.figure())
+    }
+
     /// Figure, limit and the limit's description, as one sentence.
     pub fn sentence(&self) -> String {
-        let value = self.figure();
-        match self.bound() {
-            Some(limit) => format!("{} {value}, limit {limit} ({})", self.rule, self.note),
-            None => format!("{} {value}: {}", self.rule, self.note),
+        let against = format!("{} {}", self.rule, self.against());
+        if self.limit.is_some() {
+            format!("{against} ({})", self.note)
+        } else {
+            format!("{against}: {}", self.note)
         }
     }
 }

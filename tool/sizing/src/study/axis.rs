@@ -8,10 +8,10 @@
 
 use jred_file::plain;
 use jred_file::problem;
-use jred_file::text::problem::Result;
+use jred_file::text::problem::{Problem, Result};
 
 use super::edit::Document;
-use jred_file::units::literal;
+use jred_file::units::literal::{self, Literal};
 
 /// Most values of one axis.
 const MOST_STEPS: u32 = 1_000_000;
@@ -39,38 +39,24 @@ impl Variation {
     /// # Errors
     /// The quantity does not exist, the unit is of another kind, or the range has no values.
     pub fn parse(document: &Document, text: &str) -> Result<Self> {
-        let wrong = |why: String| {
-            problem!(
-                help = SHAPE,
-                "--vary {} cannot be used: {why}",
-                plain::quoted(text)
-            )
+        let wrong = |why: Problem| {
+            let shown = plain::quoted(text);
+            problem!(help = SHAPE, "--vary {shown} cannot be used: {why}")
         };
         let (path, range) = text
             .split_once('=')
-            .ok_or_else(|| wrong("it has no \"=\"".to_owned()))?;
+            .ok_or_else(|| wrong(problem!("it has no \"=\"")))?;
         let quantity = document.find(path.trim())?;
         let own = document
             .quantities()
             .get(quantity)
-            .ok_or_else(|| wrong("no such quantity".to_owned()))?;
-        let (values, unit, unit_like) = if let Some((from, rest)) = range.split_once("..") {
-            let (to, steps) = rest.split_once(':').ok_or_else(|| {
-                wrong("the number of values is missing: add for example \":8\"".to_owned())
-            })?;
-            let to = literal::read(to)
-                .map_err(|why| wrong(format!("the end {} {why}", plain::quoted(to))))?;
-            let from = start(from, &to).map_err(wrong)?;
-            (
-                spread(from, to.number, steps).map_err(wrong)?,
-                to.unit.clone(),
-                to,
-            )
-        } else {
-            let (values, last) = list(range).map_err(wrong)?;
-            (values, last.unit.clone(), last)
-        };
-        if !unit_like.is_like(&own.literal) {
+            .ok_or_else(|| wrong(problem!("no such quantity")))?;
+        let (values, last) = match range.split_once("..") {
+            Some((from, rest)) => between(from, rest),
+            None => list(range),
+        }
+        .map_err(wrong)?;
+        if !last.is_like(&own.literal) {
             return Err(problem!(
                 help = format!(
                     "the machine file says {}: write a unit of the same kind",
@@ -78,14 +64,14 @@ impl Variation {
                 ),
                 "--vary {} cannot be used: \"{}\" is not a unit of {}",
                 plain::quoted(text),
-                unit,
+                last.unit,
                 own.path
             ));
         }
         Ok(Self {
             quantity,
             path: own.path.clone(),
-            unit,
+            unit: last.unit,
             values,
         })
     }
@@ -100,50 +86,62 @@ impl Variation {
     }
 }
 
+/// The values of a range from `from` to the end and number of values in `rest`, and its end.
+fn between(from: &str, rest: &str) -> Result<(Vec<f64>, Literal)> {
+    let Some((to, steps)) = rest.split_once(':') else {
+        return Err(problem!(
+            "the number of values is missing: add for example \":8\""
+        ));
+    };
+    let end = literal::read(to).map_err(|why| problem!("the end {} {why}", plain::quoted(to)))?;
+    let values = spread(start(from, &end)?, end.number, steps)?;
+    Ok((values, end))
+}
+
 /// The start of a range: a number, with the unit of the end or without one.
-fn start(text: &str, end: &literal::Literal) -> Result<f64, String> {
+fn start(text: &str, end: &Literal) -> Result<f64> {
     let from =
-        literal::read(text).map_err(|why| format!("the start {} {why}", plain::quoted(text)))?;
+        literal::read(text).map_err(|why| problem!("the start {} {why}", plain::quoted(text)))?;
     if from.unit.is_empty() || from.unit == end.unit {
-        Ok(from.number)
-    } else {
-        Err(format!(
-            "its ends are in \"{}\" and \"{}\"; use one unit",
-            from.unit, end.unit
-        ))
+        return Ok(from.number);
     }
+    Err(problem!(
+        "its ends are in \"{}\" and \"{}\"; use one unit",
+        from.unit,
+        end.unit
+    ))
 }
 
 /// The values from `from` to `to`.
-fn spread(from: f64, to: f64, steps: &str) -> Result<Vec<f64>, String> {
+fn spread(from: f64, to: f64, steps: &str) -> Result<Vec<f64>> {
     let (steps, log) = match steps.split_once(':') {
         None => (steps, false),
         Some((steps, "log")) => (steps, true),
         Some((_, other)) => {
-            return Err(format!(
+            return Err(problem!(
                 "{} is not valid after the number of values; only \"log\" is",
                 plain::quoted(other)
             ));
         }
     };
-    let steps: u32 = steps
-        .trim()
-        .parse()
-        .map_err(|_| format!("{} is not a number of values", plain::quoted(steps)))?;
+    let steps: u32 = (steps.trim().parse())
+        .map_err(|_| problem!("{} is not a number of values", plain::quoted(steps)))?;
     if !(1..=MOST_STEPS).contains(&steps) {
-        return Err(format!("{steps} values, but it must be 1 to {MOST_STEPS}"));
+        return Err(problem!("{steps} values, but it must be 1 to {MOST_STEPS}"));
     }
     let empty = from.total_cmp(&to).is_eq();
     if empty && steps > 1 {
-        return Err(format!(
+        return Err(problem!(
             "its range from {from} to {to} is empty, but {steps} values are requested"
         ));
     }
     if !empty && steps == 1 {
-        return Err("for one value, write the value instead of a range".to_owned());
+        return Err(problem!(
+            "for one value, write the value instead of a range"
+        ));
     }
     if log && !(from > 0.0 && to > 0.0) {
-        return Err("equal ratios require ends greater than zero".to_owned());
+        return Err(problem!("equal ratios require ends greater than zero"));
     }
     let last = f64::from(steps - 1).max(1.0);
     let at = |k: u32| {
@@ -164,13 +162,13 @@ fn tidy(x: f64) -> f64 {
 }
 
 /// A list of values; those before the last may omit the unit.
-fn list(text: &str) -> Result<(Vec<f64>, literal::Literal), String> {
+fn list(text: &str) -> Result<(Vec<f64>, Literal)> {
     let (front, last) = text.rsplit_once(',').unwrap_or(("", text));
-    let end = literal::read(last).map_err(|why| format!("{} {why}", plain::quoted(last)))?;
+    let end = literal::read(last).map_err(|why| problem!("{} {why}", plain::quoted(last)))?;
     let front = front.split(',').filter(|_| !front.is_empty());
     let mut values = front
         .map(|text| start(text, &end))
-        .collect::<Result<Vec<f64>, _>>()?;
+        .collect::<Result<Vec<f64>>>()?;
     values.push(end.number);
     Ok((values, end))
 }

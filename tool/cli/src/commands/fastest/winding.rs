@@ -4,7 +4,7 @@ use miette::{Result, miette};
 
 use super::DriveInput;
 use crate::options::fastest::Fastest as Options;
-use crate::output;
+use crate::terminal;
 use jred_file::argument;
 use jred_file::number::rounding::short;
 use jred_file::plain;
@@ -51,7 +51,7 @@ pub(super) fn limit<'a>(
         )
     })?;
     if let Some(maximum) = winding.maximum().filter(|maximum| limit > *maximum) {
-        output::say(&format!(
+        terminal::say(&format!(
             "warning: {given} is above the {} °C that the winding of {} withstands (max_winding_temperature of the catalogue)",
             short(maximum),
             chosen.name

@@ -1,11 +1,10 @@
 //! The drive requested by name, and the reason for its rank.
 
-use std::fmt::Write as _;
-
 use jred_file::text::problem::Result;
 
 use super::explained;
-use super::text::kilowatts;
+use super::full::kilowatts;
+use crate::answer::Answer;
 use jred_file::model::rules::RuleVerdict;
 use jred_file::number::rounding::short;
 use jred_file::number::words::counted;
@@ -43,45 +42,55 @@ impl<'c> Asked<'c> {
         }
     }
 
-    /// The reason for its rank: the rules it violates, or a comparison with the drives ranked above it.
-    pub fn place(&self, selection: &Selection) -> String {
+    /// Its name, the reason for its rank, and the best drive.
+    pub(super) fn blocks(&self, answer: &mut Answer, selection: &Selection) {
+        answer.sentence(format!("Requested drive: {}", self.candidate.drive.name()));
+        match self.rank {
+            None => answer.sentence(self.violated(selection)),
+            Some(rank) => self.ranked(answer, rank, selection),
+        }
+        match selection.fit.first() {
+            Some(best) if self.rank != Some(1) => {
+                answer.sentence(format!("The best drive is {}", best.drive.name()));
+            }
+            Some(_) => {}
+            None => answer.sentence("No drive satisfies every rule"),
+        }
+    }
+
+    /// The rules that it violates.
+    fn violated(&self, selection: &Selection) -> String {
+        let judged = selection.judged(&self.candidate);
+        let broken = (judged.checks.iter()).filter(|check| check.verdict == RuleVerdict::Fail);
+        // The values are in the table of the drive's rules.
+        let broken = broken.map(|check| match check.used() {
+            used if used.is_empty() => format!("{} {}", check.rule, check.against()),
+            used => format!("{} {used}", check.rule),
+        });
+        format!(
+            "refused; use of the limits that it violates: {}",
+            broken.collect::<Vec<_>>().join(", ")
+        )
+    }
+
+    /// A comparison with the drives ranked above it.
+    fn ranked(&self, answer: &mut Answer, rank: usize, selection: &Selection) {
         let all = selection.fit.len() + selection.refused.len();
-        let kind = self.candidate.drive.motor.kind;
-        let Some(rank) = self.rank else {
-            // The values are in the table of the drive's rules.
-            let judged = selection.judged(&self.candidate);
-            let broken = judged
-                .checks
-                .iter()
-                .filter(|check| check.verdict == RuleVerdict::Fail);
-            let broken = broken.map(|check| match (check.used(), check.bound()) {
-                (used, _) if !used.is_empty() => format!("{} {used}", check.rule),
-                (_, Some(limit)) => format!("{} {} of {limit}", check.rule, check.figure()),
-                (_, None) => check.rule.to_owned(),
-            });
-            return format!(
-                "refused; use of the limits that it violates: {}",
-                broken.collect::<Vec<_>>().join(", ")
-            );
-        };
-        let mut words = format!(
+        let words = self.candidate.drive.motor.kind.vocabulary();
+        answer.sentence(format!(
             "violates no rule: rank {rank} of {} ({all} in total); ranked: {}",
             counted(selection.fit.len(), "suitable drive", "suitable drives"),
-            selection.ranking(kind.vocabulary())
-        );
+            selection.ranking(words)
+        ));
         // Only the default ranking uses values that every drive has.
         if rank > 1 && selection.ranking.is_none() {
             let before = selection.first_fit(rank - 1);
-            let others = before
-                .first()
-                .into_iter()
-                .chain(before.get(1..).and_then(<[_]>::last));
-            for (other, place) in others.zip([1, rank - 1]) {
-                let _ = write!(words, "\nrank {place}: {}", figures(other));
+            let last = before.get(1..).and_then(<[_]>::last);
+            for (other, place) in before.first().into_iter().chain(last).zip([1, rank - 1]) {
+                answer.sentence(format!("rank {place}: {}", figures(other)));
             }
-            let _ = write!(words, "\nrank {rank}: {}", figures(&self.candidate));
+            answer.sentence(format!("rank {rank}: {}", figures(&self.candidate)));
         }
-        words
     }
 }
 

@@ -1,14 +1,9 @@
 //! The first screen: the drive, whether it can be ordered as it is, the limits that it uses most, and the next choices.
 
-use std::fmt::Write as _;
-
-use comfy_table::{CellAlignment, ContentArrangement};
-
-use super::List;
-use super::text::{doubt, kilowatts};
+use super::full::{doubt, kilowatts};
+use super::{Listing, table};
+use crate::answer::Answer;
 use crate::list::marks;
-use crate::table::output::text_table;
-use crate::table::screen::Screen;
 use jred_file::model::machine::MachineFile;
 use jred_file::model::rule::Rule;
 use jred_file::model::rules::RuleVerdict;
@@ -27,42 +22,9 @@ const SHOWN_VIOLATED: usize = 6;
 /// Factor between the rated powers of a drive and the next larger or smaller choice.
 const STEP: f64 = 1.03;
 
-/// Width of the name at the start of a line.
-const NAME: usize = 11;
-
-/// Width of the first screen in a pipe or a file.
-const WIDTH: usize = 80;
-
-impl Screen {
-    fn narrow(self) -> Self {
-        let width = self.width.or(Some(WIDTH));
-        Self { width }
-    }
-
-    /// A name and its text.
-    fn entry(self, text: &mut String, name: &str, says: &str) {
-        let rest = " ".repeat(NAME + 1);
-        self.narrow()
-            .fill(text, &format!(" {name:<NAME$}"), &rest, says);
-    }
-
-    /// A sentence without a name.
-    pub(super) fn says(self, text: &mut String, says: &str) {
-        self.narrow().fill(text, "", "    ", says);
-    }
-}
-
-/// The first screen of a drive: the best one, a requested one, or the closest one if none is suitable.
-pub(super) fn brief(
-    screen: Screen,
-    file: &MachineFile,
-    judged: &Assessment,
-    warnings: &[String],
-) -> String {
-    let mut text = String::new();
-    screen.says(&mut text, &file.title);
-    text.push('\n');
-    parts(screen, &mut text, judged);
+/// The parts of a drive, and whether it can be ordered.
+pub(super) fn drive(answer: &mut Answer, file: &MachineFile, judged: &Assessment) {
+    parts(answer, judged);
     let missing = missing(file, judged);
     let order = if !judged.holds() {
         "no: it violates the limits below".to_owned()
@@ -71,17 +33,11 @@ pub(super) fn brief(
     } else {
         format!("not yet: {}", missing.join("; "))
     };
-    screen.entry(&mut text, "order", &order);
-    text.push('\n');
-    limits(screen, &mut text, judged);
-    for warning in warnings {
-        screen.says(&mut text, &format!("warning: {warning}"));
-    }
-    text
+    answer.fact("order", order);
 }
 
 /// Motor, gearbox, amplifier, brake and resistor.
-fn parts(screen: Screen, text: &mut String, judged: &Assessment) {
+fn parts(answer: &mut Answer, judged: &Assessment) {
     let drive = &judged.drive;
     let named = |maker: &str, model: &str, key: &str, figures: &[String]| {
         let named = format!("{} {model}", maker.trim());
@@ -90,12 +46,12 @@ fn parts(screen: Screen, text: &mut String, judged: &Assessment) {
             .collect();
         format!("{} ({key})", all.join(", "))
     };
-    let [motor_key, gearbox_key, amplifier_key] = marks::drive(drive);
+    let [motor_key, gearbox_key, amplifier_key] = marks::drive(drive, false);
     let mut figures = Vec::new();
     figures.extend(judged.rated_power().map(kilowatts));
     figures.extend(drive.motor.made_for().map(|made| made.words()));
     let motor = named(&drive.motor.maker, &drive.motor.model, &motor_key, &figures);
-    screen.entry(text, "motor", &motor);
+    answer.fact("motor", motor);
     let gearbox = drive
         .gearbox
         .map_or("none, directly coupled".to_owned(), |g| {
@@ -103,7 +59,7 @@ fn parts(screen: Screen, text: &mut String, judged: &Assessment) {
             let ratio = (!g.model.contains("i=")).then(|| format!("i = {}", short(g.ratio)));
             named(&g.maker, &g.model, &gearbox_key, ratio.as_slice())
         });
-    screen.entry(text, "gearbox", &gearbox);
+    answer.fact("gearbox", gearbox);
     let amplifier = drive.amplifier.map_or(
         "not chosen: the catalogue has none for this motor".to_owned(),
         |a| {
@@ -111,7 +67,7 @@ fn parts(screen: Screen, text: &mut String, judged: &Assessment) {
             named(&a.maker, &a.model, &amplifier_key, &[current])
         },
     );
-    screen.entry(text, "amplifier", &amplifier);
+    answer.fact("amplifier", amplifier);
     let of = |rule: Rule| judged.checks.iter().find(|check| check.id == rule);
     let brake = match of(Rule::BrakeTorque) {
         None => "not needed".to_owned(),
@@ -131,7 +87,7 @@ fn parts(screen: Screen, text: &mut String, judged: &Assessment) {
             None => "of the motor".to_owned(),
         },
     };
-    screen.entry(text, "brake", &brake);
+    answer.fact("brake", brake);
     let resistor = match (
         judged.resistor,
         of(Rule::ResistorPower),
@@ -151,7 +107,7 @@ fn parts(screen: Screen, text: &mut String, judged: &Assessment) {
         }
         _ => "not needed".to_owned(),
     };
-    screen.entry(text, "resistor", &resistor);
+    answer.fact("resistor", resistor);
 }
 
 /// Data that are missing before the drive can be ordered.
@@ -183,11 +139,15 @@ fn missing(file: &MachineFile, judged: &Assessment) -> Vec<String> {
 }
 
 /// The rules that use most of their limits, or are violated, and the number of rules by verdict.
-fn limits(screen: Screen, text: &mut String, judged: &Assessment) {
-    let is = |verdict: RuleVerdict| move |check: &&Check| check.verdict == verdict;
-    let fails = judged.checks.iter().any(|c| c.verdict == RuleVerdict::Fail);
-    let mut shown: Vec<&Check> = if fails {
-        judged.checks.iter().filter(is(RuleVerdict::Fail)).collect()
+pub(super) fn limits(answer: &mut Answer, judged: &Assessment) {
+    let of = |verdict: RuleVerdict| {
+        let checks = judged.checks.iter();
+        checks.filter(move |check| check.verdict == verdict)
+    };
+    let count = |verdict| of(verdict).count();
+    let fails = count(RuleVerdict::Fail);
+    let mut shown: Vec<&Check> = if fails > 0 {
+        of(RuleVerdict::Fail).collect()
     } else {
         let checked = judged.checks.iter();
         checked.filter(|check| !check.used().is_empty()).collect()
@@ -197,36 +157,22 @@ fn limits(screen: Screen, text: &mut String, judged: &Assessment) {
         let by_use = b.use_of_limit().total_cmp(&a.use_of_limit());
         b.verdict.cmp(&a.verdict).then(by_use)
     });
-    shown.truncate(if fails { SHOWN_VIOLATED } else { SHOWN });
-    let title = if fails {
+    shown.truncate(if fails > 0 { SHOWN_VIOLATED } else { SHOWN });
+    let title = if fails > 0 {
         "violated limits"
     } else {
         "uses most of its limits"
     };
-    let mut table = text_table(&[title, "figure", "limit", "used", "verdict"]);
-    for check in &shown {
-        table.add_row([
-            check.rule.to_owned(),
-            check.figure(),
-            check.bound().unwrap_or_default(),
-            check.used(),
-            check.verdict.word().to_owned(),
-        ]);
-    }
-    for column in 1..4 {
-        if let Some(column) = table.column_mut(column) {
-            column.set_cell_alignment(CellAlignment::Right);
-        }
-    }
-    if let Ok(width) = u16::try_from(screen.width.unwrap_or(WIDTH)) {
-        table
-            .set_content_arrangement(ContentArrangement::Dynamic)
-            .set_width(width);
-    }
-    let _ = writeln!(text, "{table}");
-    let count = |verdict| judged.checks.iter().filter(is(verdict)).count();
-    let checked = count(RuleVerdict::Pass) + count(RuleVerdict::Warn) + count(RuleVerdict::Fail);
-    let result = match (count(RuleVerdict::Fail), count(RuleVerdict::Warn)) {
+    let row = |check: &&Check| {
+        let bound = check.bound().unwrap_or_default();
+        let verdict = check.verdict.word().to_owned();
+        let rule = check.rule.to_owned();
+        [rule, check.figure(), bound, check.used(), verdict]
+    };
+    let header = [title, "figure", "limit", "used", "verdict"];
+    answer.table(table(header, shown.iter().map(row), 0));
+    let checked = count(RuleVerdict::Pass) + count(RuleVerdict::Warn) + fails;
+    let result = match (fails, count(RuleVerdict::Warn)) {
         (0, 0) => "all satisfied".to_owned(),
         (0, n) => format!("all satisfied, {}", counted(n, "warning", "warnings")),
         (n, _) => format!("{n} violated"),
@@ -239,31 +185,18 @@ fn limits(screen: Screen, text: &mut String, judged: &Assessment) {
         0 => String::new(),
         n => format!("; {}", counted(n, "assumption", "assumptions")),
     };
-    screen.says(
-        text,
-        &format!(
-            "{}: {result}{open}{assumed}",
-            counted(checked, "rule", "rules")
-        ),
-    );
+    let rules = counted(checked, "rule", "rules");
+    answer.sentence(format!("{rules}: {result}{open}{assumed}"));
     let in_table = |check: &&Check| shown.iter().any(|other| other.id == check.id);
-    let warned = judged.checks.iter().filter(is(RuleVerdict::Warn));
-    for check in warned.filter(|check| !in_table(check)) {
-        let bound = check
-            .bound()
-            .map_or_else(String::new, |b| format!(", limit {b}"));
-        screen.says(
-            text,
-            &format!("warning: {} {}{bound}", check.rule, check.figure()),
-        );
+    for check in of(RuleVerdict::Warn).filter(|check| !in_table(check)) {
+        answer.warning(format!("{} {}", check.rule, check.against()));
     }
 }
 
 /// The next smaller and the next larger choice.
-pub(super) fn choices(screen: Screen, selection: &Selection) -> String {
-    let mut text = String::new();
+fn choices(answer: &mut Answer, selection: &Selection) {
     let Some(best) = selection.fit.first() else {
-        return text;
+        return;
     };
     let power = |candidate: &Candidate| candidate.drive.motor.rated_power();
     let own = power(best).unwrap_or(f64::INFINITY);
@@ -275,60 +208,86 @@ pub(super) fn choices(screen: Screen, selection: &Selection) -> String {
         });
         others.min_by(|a, b| (order * a.2).total_cmp(&(order * b.2)))
     };
-    let certainty = |candidate: &Candidate| candidate.certainty().map_or("", doubt);
     if let Some((rank, smaller, power)) = beside(&|power| power < own / STEP, -1.0) {
-        let says = format!(
-            "{}, {}: rank {rank}; {}",
-            kilowatts(power),
-            smaller.drive.name(),
-            certainty(smaller)
+        let certainty = smaller.certainty().map_or("", doubt);
+        let (power, name) = (kilowatts(power), smaller.drive.name());
+        answer.fact(
+            "smaller",
+            format!("{power}, {name}: rank {rank}; {certainty}"),
         );
-        screen.entry(&mut text, "smaller", &says);
     } else if let Some(next) = selection.next_smaller() {
         let next = selection.judged(&next);
-        let violated: Vec<String> = (next.checks.iter())
-            .filter(|check| check.verdict == RuleVerdict::Fail)
-            .map(|check| {
-                format!("{} {}", check.rule, check.used())
-                    .trim_end()
-                    .to_owned()
-            })
-            .collect();
-        let says = format!(
-            "{}, {}: violates {}",
-            kilowatts(next.rated_power().unwrap_or(0.0)),
-            next.drive.name(),
-            violated.join(", ")
-        );
-        screen.entry(&mut text, "smaller", &says);
+        let violated = (next.checks.iter()).filter(|check| check.verdict == RuleVerdict::Fail);
+        let violated = violated.map(|check| format!("{} {}", check.rule, check.used()));
+        let violated: Vec<String> = violated.map(|rule| rule.trim_end().to_owned()).collect();
+        let power = kilowatts(next.rated_power().unwrap_or(0.0));
+        let (name, violated) = (next.drive.name(), violated.join(", "));
+        answer.fact("smaller", format!("{power}, {name}: violates {violated}"));
     }
     if let Some((rank, larger, power)) = beside(&|power| power > own * STEP, 1.0) {
-        let says = format!("{}, {}: rank {rank}", kilowatts(power), larger.drive.name());
-        screen.entry(&mut text, "larger", &says);
+        let (power, name) = (kilowatts(power), larger.drive.name());
+        answer.fact("larger", format!("{power}, {name}: rank {rank}"));
     }
-    text
 }
 
-/// The number of drives, and the options that show more.
-pub(super) fn further(screen: Screen, selection: &Selection, list: List) -> String {
-    let mut text = String::new();
-    let [fit, refused] = [selection.fit.len(), selection.refused.len()];
-    let hints: Vec<&str> = [
-        (!list.full, "--full (duty, every rule, ranking)"),
-        (!list.is_ranked && fit > 1, "--top 10"),
-        (!list.refused && refused > 0, "--refused"),
-        (!list.explained, "--explain"),
-        (true, "--report FILE.html"),
-    ]
-    .into_iter()
-    .filter_map(|(is_open, hint)| is_open.then_some(hint))
-    .collect();
-    let many = match fit {
-        // The violated rules already tell.
-        0 => String::new(),
-        1 => format!("1 of {} drives satisfies every rule. ", fit + refused),
-        _ => format!("{fit} of {} drives satisfy every rule. ", fit + refused),
-    };
-    screen.says(&mut text, &format!("{many}More: {}", hints.join(", ")));
-    text
+impl Listing<'_> {
+    /// The next smaller and larger choice; if no drive is suitable, the `most` rules that most drives violate.
+    pub(crate) fn others(&self, answer: &mut Answer, most: usize) {
+        let selection = self.selection;
+        if !selection.fit.is_empty() || self.count() == 1 {
+            choices(answer, selection);
+            return;
+        }
+        answer.sentence(format!(
+            "None of {} satisfies every rule; this is the closest one. Violated:",
+            counted(self.count(), "drive", "drives")
+        ));
+        for violation in selection.violations().into_iter().take(most) {
+            let closest = &selection.judged(&violation.closest);
+            let check = closest.checks.iter().find(|c| c.id == violation.rule);
+            let figures = check.map_or_else(String::new, |check| {
+                // A part is missing; the note names it.
+                let note = if check.id.is_yes_or_no() {
+                    format!(" ({})", check.note)
+                } else {
+                    String::new()
+                };
+                check.against() + &note
+            });
+            let rule = violation.rule.named(closest.drive.motor.kind.vocabulary());
+            let alone = match violation.alone {
+                0 => String::new(),
+                n => format!(", {n} for no other reason"),
+            };
+            let drives = counted(violation.count, "drive", "drives");
+            let name = closest.drive.name();
+            answer.fact(
+                rule,
+                format!("{drives}{alone}; the closest, {name}: {figures}"),
+            );
+        }
+    }
+
+    /// The number of drives, and the options that show more.
+    pub(super) fn further(&self, answer: &mut Answer) {
+        let (list, selection) = (self.list, self.selection);
+        let [fit, refused] = [selection.fit.len(), selection.refused.len()];
+        let hints: Vec<&str> = [
+            (!list.full, "--full (duty, every rule, ranking)"),
+            (!list.is_ranked && fit > 1, "--top 10"),
+            (!list.refused && refused > 0, "--refused"),
+            (!list.explained, "--explain"),
+            (true, "--report FILE.html"),
+        ]
+        .into_iter()
+        .filter_map(|(is_open, hint)| is_open.then_some(hint))
+        .collect();
+        let many = match fit {
+            // The violated rules already tell.
+            0 => String::new(),
+            1 => format!("1 of {} drives satisfies every rule. ", fit + refused),
+            _ => format!("{fit} of {} drives satisfy every rule. ", fit + refused),
+        };
+        answer.sentence(format!("{many}More: {}", hints.join(", ")));
+    }
 }

@@ -3,7 +3,6 @@
 use jred_file::problem;
 use jred_file::text::problem::Result;
 
-use crate::table::screen::Screen;
 use jred_file::units::closest;
 use jred_sizing::catalogue::Drive;
 use jred_sizing::select::size::{Candidate, Selection};
@@ -28,8 +27,6 @@ pub struct List {
     pub is_ranked: bool,
     /// An explanation follows.
     pub explained: bool,
-    /// The screen that a text is for.
-    pub screen: Screen,
 }
 
 impl List {

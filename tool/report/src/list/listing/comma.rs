@@ -1,9 +1,10 @@
 //! A selection as comma-separated values.
 
-use super::{Asked, List};
+use super::Listing;
+use crate::answer::Answer;
 use jred_file::number::csv;
 use jred_sizing::judge::Assessment;
-use jred_sizing::select::size::{Candidate, Certainty, Selection};
+use jred_sizing::select::size::{Candidate, Certainty};
 
 /// Columns; a row for every rule of every listed drive.
 const COLUMNS: [&str; 15] = [
@@ -26,29 +27,30 @@ const COLUMNS: [&str; 15] = [
 
 /// A row for every rule of every listed drive, in parts of one drive. "verdict" is that of the rule, "certainty" that of a suitable drive; "brake
 /// resistor" is the one chosen from the catalogue. A requested drive comes first, with its rank if it is suitable, and is left out of the list.
-pub fn csv<'c>(
-    list: List,
-    selection: &'c Selection<'c>,
-    asked: Option<&Asked<'c>>,
-) -> impl Iterator<Item = String> {
-    let fit = list.ranked(selection).into_iter();
-    let refused = list.refused(selection).into_iter();
-    let listed = (fit.map(|(rank, candidate)| (rank.to_string(), candidate)))
-        .chain(refused.map(|candidate| (String::new(), candidate)));
-    let first = asked.map(|asked| {
-        let rank = asked.rank.map_or_else(String::new, |rank| rank.to_string());
-        (rank, asked.candidate)
+pub(super) fn answer(shown: Listing) -> Answer {
+    let mut answer = Answer::words(&shown.file.title);
+    answer.csv_parts(move || {
+        let (list, selection) = (shown.list, shown.selection);
+        let fit = list.ranked(selection).into_iter();
+        let fit = fit.map(|(rank, candidate)| (Some(rank), candidate));
+        let refused = list.refused(selection).into_iter();
+        let listed = fit.chain(refused.map(|candidate| (None, candidate)));
+        let first = shown.asked.map(|asked| (asked.rank, asked.candidate));
+        let is_first = move |candidate: &Candidate| {
+            first.is_some_and(|(_, asked)| asked.is_same_drive(candidate))
+        };
+        let listed = listed.filter(move |(_, candidate)| !is_first(candidate));
+        let drives = first
+            .into_iter()
+            .chain(listed)
+            .map(move |(rank, candidate)| {
+                let rank = rank.map_or_else(String::new, |rank| rank.to_string());
+                let certainty = candidate.certainty().map_or("", Certainty::word);
+                rows(&rank, certainty, &selection.judged(&candidate))
+            });
+        Box::new(std::iter::once(csv::row(COLUMNS)).chain(drives))
     });
-    let asked = first.as_ref().map(|(_, candidate)| *candidate);
-    let is_first =
-        move |candidate: &Candidate| asked.is_some_and(|asked| asked.is_same_drive(candidate));
-    let listed = listed.filter(move |(_, candidate)| !is_first(candidate));
-    let drives = first.into_iter().chain(listed);
-    let drives = drives.map(|(rank, candidate)| {
-        let certainty = candidate.certainty().map_or("", Certainty::word);
-        rows(&rank, certainty, &selection.judged(&candidate))
-    });
-    std::iter::once(csv::row(COLUMNS)).chain(drives)
+    answer
 }
 
 fn rows(rank: &str, certainty: &str, judged: &Assessment) -> String {

@@ -1,15 +1,13 @@
 //! Contributions to one drive and the changes it would need, for all output formats.
 
-use std::fmt::Write as _;
-
 use jred::error::Error;
 use serde::Serialize;
 
-use crate::table::output::text_table;
+use super::table;
+use crate::answer::Answer;
 use jred_analysis::duty::Duty;
 use jred_file::model::machine::MachineFile;
 use jred_file::number::rounding::{percent, short, shown};
-use jred_file::units::Vocabulary;
 use jred_sizing::explain::{Breakdown, DutyModel, InertiaShare, Remedies, Share};
 use jred_sizing::select::size::{Candidate, Selection};
 
@@ -68,93 +66,86 @@ impl Explanation {
         })
     }
 
-    /// For reading; `duration` is the cycle time (s).
-    pub fn text(&self, duration: f64) -> String {
-        let mut text = String::new();
-        if let Some(contributions) = &self.contributions {
-            text += &contributions_text(contributions);
+    /// Contributions, changes of the drive, and changes of refused ones; `duration` is the cycle time (s).
+    pub(super) fn blocks(&self, answer: &mut Answer, duration: f64) {
+        if let Some(breakdown) = &self.contributions {
+            let torque = breakdown.words.torque;
+            answer.heading(format!(
+                "Contributions to the motor {torque} of {} [{}]; the peak is at {} s",
+                breakdown.drive,
+                torque.unit,
+                short(breakdown.peak_time)
+            ));
+            contributions(answer, breakdown);
         }
         if let Some(change) = &self.change {
-            let heading = if change.holds {
+            answer.heading(if change.holds {
                 "How far each quantity may change by itself before a rule is violated"
             } else {
                 "What would have to change, one quantity at a time"
-            };
-            let _ = write!(text, "\n{heading}\n{}", remedies_text(change, duration));
+            });
+            changes(answer, change, duration);
         }
         if !self.nearest.is_empty() {
-            text +=
-                "\nClosest refused drives, and what would have to change, one quantity at a time\n";
+            answer.heading(
+                "Closest refused drives, and what would have to change, one quantity at a time",
+            );
             for refused in &self.nearest {
-                text += &remedies_text(refused, duration);
+                changes(answer, refused, duration);
             }
         }
-        text
     }
 }
 
-fn contributions_text(breakdown: &Breakdown) -> String {
-    let shares = |heading: &str, shares: &[Share]| {
-        let mut table = text_table(&[
-            heading,
+/// The shares of torque and inertia of the effects and parts, with their totals.
+pub(crate) fn contributions(answer: &mut Answer, breakdown: &Breakdown) {
+    let Breakdown { total, words, .. } = breakdown;
+    for (name, shares) in [("effect", &breakdown.effects), ("part", &breakdown.parts)] {
+        let header = [
+            name,
             "RMS",
             "peak",
             "at the peak",
             "share of mean square",
             "energy [J]",
-        ]);
-        for share in shares.iter().chain([&breakdown.total]) {
-            table.add_row([
+        ];
+        let row = |share: &Share| {
+            [
                 share.name.clone(),
-                shown(share.torque.rms, breakdown.total.torque.rms),
-                shown(share.torque.peak(), breakdown.total.torque.peak()),
-                shown(share.at_peak, breakdown.total.at_peak),
+                shown(share.torque.rms, total.torque.rms),
+                shown(share.torque.peak(), total.torque.peak()),
+                shown(share.at_peak, total.at_peak),
                 percent(share.mean_square),
                 shown(share.energy, breakdown.turned_over()),
-            ]);
-        }
-        table.to_string()
-    };
-    let Vocabulary {
-        torque, inertia, ..
-    } = breakdown.words;
-    let scale = inertia.scale;
-    let heading = format!("{inertia} at the motor [{}]", inertia.unit);
-    let mut inertias = text_table(&[heading.as_str(), "min", "mean", "max", "share"]);
-    let row = |share: &InertiaShare| {
-        let figures = share.inertia;
-        let [min, mean, max] = [figures.min, figures.mean, figures.max];
-        let [min, mean, max] = [min, mean, max].map(|x| shown(x / scale, figures.max / scale));
-        let part = percent(share.of_mean);
-        [share.name.clone(), min, mean, max, part]
-    };
-    for share in breakdown.inertia.iter().chain([&breakdown.total_inertia]) {
-        inertias.add_row(row(share));
+            ]
+        };
+        answer.table(table(header, shares.iter().chain([total]).map(row), 0));
     }
-    format!(
-        "\nContributions to the motor {torque} of {} [{}]; the peak is at {} s\n{}\n\n{}\n\n{inertias}\n",
-        breakdown.drive,
-        torque.unit,
-        short(breakdown.peak_time),
-        shares("effect", &breakdown.effects),
-        shares("part", &breakdown.parts)
-    )
+    let inertia = words.inertia;
+    let row = |share: &InertiaShare| {
+        let of = share.inertia;
+        let [min, mean, max] =
+            [of.min, of.mean, of.max].map(|x| shown(x / inertia.scale, of.max / inertia.scale));
+        [share.name.clone(), min, mean, max, percent(share.of_mean)]
+    };
+    let shares = breakdown.inertia.iter().chain([&breakdown.total_inertia]);
+    let name = format!("{inertia} at the motor [{}]", inertia.unit);
+    let header = [&*name, "min", "mean", "max", "share"];
+    answer.table(table(header, shares.map(row), 0));
 }
 
-/// A drive, the rules it violates, and all remedies.
-fn remedies_text(remedies: &Remedies, duration: f64) -> String {
-    let mut text = format!("  {}", remedies.drive);
-    let misses: Vec<String> = remedies
-        .misses
-        .iter()
-        .map(|miss| miss.sentence(remedies.words))
-        .collect();
-    if !misses.is_empty() {
-        let _ = write!(text, ": {}", misses.join("; "));
+/// A drive, the rules it violates, and the range of each quantity.
+pub(crate) fn changes(answer: &mut Answer, remedies: &Remedies, duration: f64) {
+    let misses = remedies.misses.iter();
+    let misses: Vec<String> = misses.map(|miss| miss.sentence(remedies.words)).collect();
+    if misses.is_empty() {
+        answer.sentence(&remedies.drive);
+    } else {
+        answer.sentence(format!("{}: {}", remedies.drive, misses.join("; ")));
     }
-    text += "\n";
     for remedy in &remedies.remedies {
-        let _ = writeln!(text, "    {}", remedy.sentence(duration, remedies.words));
+        let sentence = remedy.sentence(duration, remedies.words);
+        let (name, says) = sentence.split_once(": ").unwrap_or(("", &sentence));
+        answer.fact(name, says);
     }
-    text
 }

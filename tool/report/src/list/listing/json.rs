@@ -4,15 +4,13 @@ use std::collections::BTreeMap;
 
 use schemars::JsonSchema;
 use serde::Serialize;
-use serde_json::{Value, json};
+use serde_json::json;
 
-use super::{Asked, Explanation, List};
-use crate::answer::schema::{Data, headed};
+use super::{Explanation, Listing};
+use crate::answer::Answer;
+use crate::answer::schema::Data;
 use crate::list::suited::MotionData;
-use crate::table::json::{array_parts, split_at_entry};
-use jred_analysis::duty::Duty;
 use jred_file::model::coordinate::Coordinate;
-use jred_file::model::machine::MachineFile;
 use jred_file::model::rule::Rule;
 use jred_file::model::rules::RuleVerdict;
 use jred_file::number::figures::Figures;
@@ -21,15 +19,6 @@ use jred_sizing::cycle::form::MotorDuty;
 use jred_sizing::judge::check::Check;
 use jred_sizing::judge::{Assessment, cure};
 use jred_sizing::select::size::{Candidate, Certainty, Selection};
-
-/// Remarks beside the drives.
-#[derive(Debug)]
-pub struct Notes<'a> {
-    /// Possible mistakes in the machine file.
-    pub warnings: &'a [String],
-    /// The motion that the drives are judged with, if it was computed for them.
-    pub motion: Option<&'a MotionData>,
-}
 
 /// The JSON of `jred size`: SI units unless a key names another; of a linear motor read N for N m, m/s for rad/s and kg for kg m^2.
 #[derive(Serialize, JsonSchema)]
@@ -250,20 +239,12 @@ pub(crate) struct DriveData<'a> {
     assumptions: Vec<String>,
 }
 
-/// The listed drives and the requested one with every digit, and the numbers of all. In parts of one drive: the text of a whole catalogue is many
-/// times larger than its drives.
-pub fn json(
-    list: List,
-    file: &MachineFile,
-    duty: &Duty,
-    selection: &Selection,
-    notes: &Notes,
-    asked: Option<&Asked>,
-    explanation: Option<&Explanation>,
-) -> impl Iterator<Item = String> {
-    let first = selection.fit.first().or(selection.refused.first());
-    let shown = asked.map(|asked| &asked.candidate).or(first);
-    let kind = shown.map_or(MotorKind::Rotary, |c| c.drive.motor.kind);
+/// The listed drives and the requested one with every digit, and the numbers of all. The drives are written one by one: the text of a whole catalogue
+/// is many times larger than its drives.
+pub(super) fn answer(shown: Listing) -> Answer {
+    let (list, selection) = (shown.list, shown.selection);
+    let (file, duty) = (shown.file, shown.duty);
+    let kind = (shown.shown()).map_or(MotorKind::Rotary, |c| c.drive.motor.kind);
     // In units of the drive link; a rotary motor may drive a slide through a screw.
     let effort = duty.figures(|i| i.terms.total());
     let speed = duty.figures(|i| i.omega);
@@ -290,10 +271,10 @@ pub fn json(
             bus: file.site.bus_voltage,
         },
         rules: rules(selection),
-        warnings: notes.warnings,
+        warnings: shown.warnings,
         ranking: selection.ranking(kind.vocabulary()),
         counts: Counts {
-            drives: selection.fit.len() + selection.refused.len(),
+            drives: shown.count(),
             fit: selection.fit.len(),
             partly: selection.partly_checked(),
             refused: selection.refused.len(),
@@ -303,33 +284,28 @@ pub fn json(
         violated: violated(selection, kind),
         fit: (),
         refused: (),
-        asked: asked.map(|asked| RankedData {
+        asked: shown.asked.map(|asked| RankedData {
             drive: drive(selection, &asked.candidate),
             rank: asked.rank,
         }),
-        explanation,
-        motion: notes.motion,
+        explanation: shown.explanation,
+        motion: shown.motion,
     };
-    // Serialisation fails only for a map whose keys are not text.
-    let data = serde_json::to_value(data).unwrap_or_default();
-    let value = Value::Object(headed(SizeData::FORM, &file.title, data));
-    let text = format!("{value:#}\n");
-    let (before, rest) = split_at_entry(&text, "fit");
-    let (between, after) = split_at_entry(&rest, "refused");
-    let fit = list.fit(selection).into_iter().map(|(rank, candidate)| {
-        json!(RankedData {
-            drive: drive(selection, &candidate),
-            rank: Some(rank),
-        })
+    let mut answer = Answer::new(&file.title, &data);
+    answer.array("fit", move || {
+        let fit = list.fit(selection).into_iter().map(|(rank, candidate)| {
+            json!(RankedData {
+                drive: drive(selection, &candidate),
+                rank: Some(rank),
+            })
+        });
+        Box::new(fit)
     });
-    let refused = list.refused(selection).into_iter();
-    std::iter::once(before)
-        .chain(array_parts(fit))
-        .chain(std::iter::once(between))
-        .chain(array_parts(
-            refused.map(|candidate| json!(drive(selection, &candidate))),
-        ))
-        .chain(std::iter::once(after))
+    answer.array("refused", move || {
+        let refused = list.refused(selection).into_iter();
+        Box::new(refused.map(|candidate| json!(drive(selection, &candidate))))
+    });
+    answer
 }
 
 fn rules<'a>(selection: &'a Selection) -> RulesData<'a> {

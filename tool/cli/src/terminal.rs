@@ -1,0 +1,131 @@
+//! Stdout and stderr: results, messages, width and colours of the terminal.
+//!
+//! A message that cannot be written to stderr is dropped; results and exit code are unaffected. Nothing else in the command writes to stdout or
+//! stderr.
+
+use std::collections::BTreeSet;
+use std::io::{ErrorKind, IsTerminal as _, Write as _};
+use std::sync::{Mutex, PoisonError};
+
+use miette::{
+    GraphicalReportHandler, GraphicalTheme, IntoDiagnostic as _, Report, Result, WrapErr as _,
+};
+
+use crate::busy;
+use crate::output::stdout;
+use jred_file::plain;
+use jred_report::table::screen::Screen;
+
+/// Prints to stdout; a closed pipe (`jred … | head`) is not an error.
+///
+/// # Errors
+/// The text cannot be written, for example to a full disk.
+pub fn print(text: &str) -> Result<()> {
+    print_parts(std::iter::once(text))
+}
+
+/// The same for a text in parts; after a closed pipe the remaining parts are not computed.
+///
+/// # Errors
+/// As for [`print()`].
+pub fn print_parts(parts: impl IntoIterator<Item = impl AsRef<str>>) -> Result<()> {
+    let mut stdout = stdout()?;
+    let coloured = stdout.is_terminal() && has_colour();
+    for part in parts {
+        if stdout.is_terminal() {
+            busy::end();
+        }
+        let text = plain::lines(part.as_ref());
+        let written = stdout
+            .write_all(
+                if coloured {
+                    painted(&text).into()
+                } else {
+                    text
+                }
+                .as_bytes(),
+            )
+            .and_then(|()| stdout.flush());
+        match written {
+            Err(error) if error.kind() == ErrorKind::BrokenPipe => break,
+            Err(error) => {
+                return Err(error)
+                    .into_diagnostic()
+                    .wrap_err("cannot write the result");
+            }
+            Ok(()) => {}
+        }
+    }
+    Ok(())
+}
+
+/// Whether the terminal shows colours and the user wants them: <https://no-color.org>.
+fn has_colour() -> bool {
+    let set = |name: &str| std::env::var_os(name).filter(|value| !value.is_empty());
+    set("NO_COLOR").is_none() && set("TERM").is_none_or(|term| term != "dumb")
+}
+
+/// Colours the verdicts at line ends and the word "warning".
+fn painted(text: &str) -> String {
+    const GREEN: &str = "32";
+    const YELLOW: &str = "33";
+    const RED: &str = "1;31";
+    let paint = |colour: &str, word: &str| format!("\u{1b}[{colour}m{word}\u{1b}[0m");
+    let line = |line: &str| {
+        if let Some(rest) = line.strip_prefix("warning:") {
+            return paint(YELLOW, "warning:") + rest;
+        }
+        let verdicts = [(" ok", GREEN), (" warning", YELLOW), (" FAIL", RED)];
+        let end = line.trim_end_matches([' ', '\n']);
+        for (word, colour) in verdicts {
+            if let Some(start) = end.strip_suffix(word) {
+                return format!("{start}{}{}", paint(colour, word), &line[end.len()..]);
+            }
+        }
+        line.to_owned()
+    };
+    text.split_inclusive('\n').map(line).collect()
+}
+
+/// The screen of stdout; 80 columns if it is not a terminal.
+pub fn screen() -> Screen {
+    let terminal = terminal_size::terminal_size_of(std::io::stdout());
+    Screen {
+        width: terminal.map(|(width, _)| usize::from(width.0).max(40)),
+    }
+}
+
+/// Prints a line to stderr.
+pub fn say(line: &str) {
+    busy::aside(|| message(&plain::lines(line)));
+}
+
+/// Prints a warning to stderr, once: repeated runs produce the same warnings.
+pub fn warn(line: &str) {
+    static SAID: Mutex<BTreeSet<String>> = Mutex::new(BTreeSet::new());
+    let mut said = SAID.lock().unwrap_or_else(PoisonError::into_inner);
+    if said.insert(line.to_owned()) {
+        say(&format!("warning: {line}"));
+    }
+}
+
+/// Writes a line to stderr; dropped if it cannot be written, for example to a full disk or a closed pipe.
+fn message(line: &str) {
+    let mut stderr = std::io::stderr();
+    let _ = writeln!(stderr, "{line}").and_then(|()| stderr.flush());
+}
+
+/// Prints an error to stderr; `plainly`: without colours, every hidden character escaped.
+pub fn complain(report: &Report, plainly: bool) {
+    busy::end();
+    if !plainly {
+        message(&format!("{report:?}"));
+        return;
+    }
+    let mut text = String::new();
+    let handler = GraphicalReportHandler::new_themed(GraphicalTheme::unicode_nocolor());
+    match handler.render_report(&mut text, report.as_ref()) {
+        Ok(()) => say(&text),
+        Err(_) => say(&report.to_string()),
+    }
+}
