@@ -16,18 +16,24 @@ pub(crate) struct Symbol {
 
 /// The symbols of a file in the order of their names; there must be some.
 pub(crate) fn symbols(path: &Path) -> Result<Vec<Symbol>> {
-    let bytes = std::fs::read(path).with_context(|| path.display().to_string())?;
+    let bytes = std::fs::read(path);
+    bytes
+        .map_err(Into::into)
+        .and_then(|bytes| all(&bytes))
+        .with_context(|| path.display().to_string())
+}
+
+/// The symbols of a program, or of all members of a static library.
+fn all(bytes: &[u8]) -> Result<Vec<Symbol>> {
     let mut found = Vec::new();
-    if bytes.starts_with(b"!<arch>\n") {
-        let archive = ArchiveFile::parse(&*bytes)?;
-        for member in archive.members() {
-            collect(member?.data(&*bytes)?, &mut found)
-                .with_context(|| path.display().to_string())?;
+    if bytes.starts_with(&object::archive::MAGIC) {
+        for member in ArchiveFile::parse(bytes)?.members() {
+            collect(member?.data(bytes)?, &mut found)?;
         }
     } else {
-        collect(&bytes, &mut found).with_context(|| path.display().to_string())?;
+        collect(bytes, &mut found)?;
     }
-    ensure!(!found.is_empty(), "no symbols in {}", path.display());
+    ensure!(!found.is_empty(), "no symbols");
     found.sort();
     Ok(found)
 }
@@ -172,11 +178,28 @@ mod tests {
     }
 
     #[test]
-    fn the_names_of_this_program_are_read() {
-        let own = std::env::current_exe().unwrap();
-        let own = std::fs::read(own).unwrap();
-        let mut found = Vec::new();
-        collect(&own, &mut found).unwrap();
-        assert!(collect(b"no object", &mut found).is_err());
+    #[cfg(target_os = "linux")] // Of programs only those of Linux have the form of those for a core.
+    fn symbols_of_a_program_and_of_a_library_are_read() {
+        let program = std::fs::read(std::env::current_exe().unwrap()).unwrap();
+        let once = all(&program).unwrap();
+        assert_eq!(functions(&once, "main"), 1);
+        assert!(!panics(&once).is_empty());
+
+        // Twice the same member, at even places.
+        let header = format!("{:<16}{:<12}{:<6}{:<6}{:<8}", "member.o/", 0, 0, 0, 644);
+        let header = format!("{header}{:<10}`\n", program.len());
+        let odd = vec![b'\n'; program.len() % 2];
+        let member = [header.as_bytes(), &program, &odd].concat();
+        let library = [b"!<arch>\n".as_slice(), &member, &member].concat();
+        let twice = all(&library).unwrap();
+        assert_eq!(twice.len(), 2 * once.len());
+        assert_eq!(functions(&twice, "main"), 2);
+    }
+
+    #[test]
+    fn a_file_without_symbols_is_an_error() {
+        assert!(all(b"no object").is_err());
+        let empty = all(b"!<arch>\n").unwrap_err();
+        assert_eq!(empty.to_string(), "no symbols");
     }
 }
