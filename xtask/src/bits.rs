@@ -110,9 +110,10 @@ fn compare(on: &str, output: &str, ticks: u32) -> Result<()> {
     let all = expected::read(EXPECTED)?;
     let expected = until(&all, ticks)
         .with_context(|| format!("no digests after {ticks} ticks are expected"))?;
-    expected::same(expected, output).with_context(|| {
-        format!("{on}: not the same bits (scripts/test --bless bits if they should be others)")
-    })?;
+    ensure!(
+        expected::same(expected, output)?,
+        "{on}: not the same bits (scripts/test --bless bits if they should be others)"
+    );
     println!("{on}: the same bits after {ticks} ticks of each model");
     Ok(())
 }
