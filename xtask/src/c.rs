@@ -1,37 +1,21 @@
-//! `cargo xtask c`: cost of a tick through the C interface, compared with the same tick in Rust.
+//! `cargo xtask c`: the library for C and C++.
 
-use std::fmt::Write as _;
-use std::path::{Path, PathBuf};
-use std::process::Command;
+mod cost;
+mod gcc;
+mod panics;
+mod programs;
 
-use anyhow::{Context, Result, bail, ensure};
+use anyhow::Result;
 use clap::Args;
 
-use crate::cores::{CORES, Core};
-use crate::data::Data;
-use crate::kernels::{COUNTED, KERNELS, Kernel, Origin, Quantity};
-use crate::number::Number;
-use crate::perf::measure;
-use crate::program::{self, root, target_dir};
-use crate::report::Measurement;
-use crate::trace::Emulator;
+use crate::cores::CORES;
+use crate::run::{done, installed, program, skip};
 
-/// Additional instructions allowed for a call from C.
-const MORE: u32 = 6;
-/// Part of them for the caller's check for a model: a load, a comparison, a branch.
-const LOOK: u32 = 3;
-/// Cases with fewer free registers than in a program with one model, where more instructions are allowed.
-const EXCEPTIONS: [(&str, u32); 2] = [("jred_q31_spline16_torque", 20), ("jred_q31_torque", 12)];
-/// Additional instructions allowed for a path from a count on a core that multiplies only to 32 bits. For the product of four halves LLVM needs 23
-/// instructions, gcc 12 needs 60: half of the sixteen registers cannot take part, and it moves as much as it computes.
-const MORE_BY_HALVES: u32 = 46;
-const GCC: &str = "arm-none-eabi-gcc";
-const LIBRARY: &str = "libjred_ffi.a";
-
-/// Measures a tick through the C interface on emulated Cortex-M cores, beside the same tick in Rust.
+/// Checks the library for C: its examples in C and in C++ print what those in Rust print, on the host and on emulated Cortex-M cores; a
+/// tick through its interface gives the bits of one in Rust for at most 6 instructions more; no function can panic.
 ///
-/// The results must be the same bits, and a call from C may take 6 instructions more. The libraries, with few sets of curves, stay in
-/// target/c/CORE, where `scripts/test c` takes them. Needs arm-none-eabi-gcc and its newlib.
+/// With an option only ticks are measured. The libraries for cores, with few sets of curves, stay in target/c/CORE. Needs
+/// arm-none-eabi-gcc and its newlib.
 #[derive(Args)]
 pub(crate) struct Options {
     /// Only these cores, by their names in benches/ceilings.txt.
@@ -42,234 +26,23 @@ pub(crate) struct Options {
     markdown: bool,
 }
 
-/// Runs the command; an error if a call from C costs too much or gives other bits.
+/// Runs the command; an error if a call from C costs too much or gives other bits, or another check fails.
 pub(crate) fn run(options: &Options) -> Result<()> {
-    let emulator = Emulator::installed()?;
-    let kernels: Vec<&Kernel> = KERNELS
-        .iter()
-        .filter(|k| k.origin == Origin::Jred)
-        .chain(COUNTED)
-        .collect();
-    let chosen =
-        |core: &&Core| options.core.is_empty() || options.core.iter().any(|n| n == core.name);
-    let mut all = Vec::new();
-    for core in CORES.iter().filter(chosen) {
-        // With software floating point a trace takes longer than all others together, and shows nothing more.
-        let here = |kernel: &&&Kernel| core.float || kernel.number != Number::PhaseF32;
-        let kernels: Vec<&Kernel> = kernels.iter().filter(here).copied().collect();
-        let rust = program::compile(core, None)?;
-        let folder = program::files(core);
-        let of_rust = measure(emulator, core, &rust, &folder, &kernels, |k| {
-            k.name.to_owned()
-        })?;
-        let c = compile(core)?;
-        let beside = folder_of(core).join("tick");
-        let of_c = measure(emulator, core, &c, &beside, &kernels, symbol)?;
-        for (kernel, pair) in kernels.iter().zip(of_rust.into_iter().zip(of_c)) {
-            same_bits(core, kernel, &folder, &beside)?;
-            all.push(pair);
-        }
+    if options.markdown || !options.core.is_empty() {
+        return cost::measure_all(&options.core, options.markdown);
     }
-    ensure!(
-        !all.is_empty(),
-        "no such core; there are {}",
-        CORES.map(|core| core.name).join(", ")
-    );
-    print!(
-        "{}",
-        if options.markdown {
-            markdown(&kernels, &all)
-        } else {
-            text(&all)
-        }
-    );
-    let above = |(rust, c): &&Pair| more(rust, c) > allowed(rust);
-    match all.iter().filter(above).count() {
-        0 => Ok(()),
-        count => bail!("{count} calls from C take more than they may"),
+    programs::on_host()?;
+    if !installed("arm-none-eabi-g++") || !installed("qemu-system-arm") {
+        skip("arm-none-eabi-g++ or qemu-system-arm is not installed (scripts/test setup)");
+        return Ok(());
     }
-}
-
-/// Additional instructions of a call from C, including the caller's check for a model: the function with a count is such a caller.
-fn more(rust: &Measurement, c: &Measurement) -> i64 {
-    let look = if rust.kernel.counts { 0 } else { LOOK };
-    i64::from(c.worst.instructions + look) - i64::from(rust.worst.instructions)
-}
-
-fn allowed(rust: &Measurement) -> i64 {
-    if rust.kernel.counts && rust.core.target == "thumbv6m-none-eabi" {
-        return MORE_BY_HALVES.into();
+    // The libraries that this leaves have few sets of curves: all of them take most of a minute for each core.
+    cost::measure_all(&[], false)?;
+    for core in &CORES {
+        programs::on(core)?;
+        let folder = gcc::folder(core);
+        panics::none(&folder.join(gcc::LIBRARY), core.name)?;
+        done(program("arm-none-eabi-size").arg(folder.join("press")))?;
     }
-    let mut exceptions = EXCEPTIONS.iter();
-    let found = exceptions.find(|(name, _)| *name == rust.kernel.name);
-    i64::from(found.map_or(MORE, |(_, most)| *most))
-}
-
-/// In Rust, and in C.
-type Pair = (Measurement, Measurement);
-
-/// Folder of the library for `core` and its programs.
-fn folder_of(core: &Core) -> PathBuf {
-    target_dir().join("c").join(core.name)
-}
-
-/// The library's function for a kernel, or the program's function that calls it with a count.
-fn symbol(kernel: &Kernel) -> String {
-    if kernel.counts {
-        return kernel.name.replacen("jred", "c", 1);
-    }
-    let number = match kernel.number {
-        Number::PhaseQ31 => "q31",
-        Number::PhaseQ15 => "q15",
-        Number::PhaseF32 | Number::Radians => "f32",
-    };
-    let quantity = match kernel.quantity {
-        Quantity::Torque => "torque",
-        Quantity::Acceleration => "acceleration",
-    };
-    match kernel.data {
-        Data::Jred { layout, set, .. } => {
-            let layout = format!("{layout:?}")
-                .to_lowercase()
-                .replace("rows16", "rows")
-                .replace("slidercrank", "slider_crank");
-            format!("jred_{layout}_{number}_s{set}_{quantity}")
-        }
-        _ => String::new(),
-    }
-}
-
-/// The library for `core`, and `ffi/tests/tick.c` linked with it.
-fn compile(core: &Core) -> Result<PathBuf> {
-    let folder = folder_of(core);
-    std::fs::create_dir_all(&folder).with_context(|| folder.display().to_string())?;
-    let flags = format!("target.{}.rustflags = {:?}", core.target, core.rustc);
-    let mut cargo = program::cargo();
-    cargo
-        .current_dir(root())
-        .args([
-            "rustc",
-            "--quiet",
-            "--package",
-            "jred-ffi",
-            "--profile",
-            "firmware",
-        ])
-        .args(["--target", core.target, "--config", &flags, "--target-dir"])
-        .arg(target_dir())
-        .args(["--", "--cfg=few_sets"]);
-    done(&mut cargo)?;
-    let library = folder.join(LIBRARY);
-    let made = target_dir()
-        .join(core.target)
-        .join("firmware")
-        .join(LIBRARY);
-    std::fs::copy(&made, &library).with_context(|| made.display().to_string())?;
-    let program = folder.join("tick.elf");
-    let ffi = root().join("ffi");
-    let mut gcc = Command::new(GCC);
-    gcc.current_dir(root())
-        .args(core.gcc)
-        .args([
-            "-mthumb",
-            "-O2",
-            "-std=gnu11",
-            "-Wall",
-            "-Wextra",
-            "-Werror",
-        ])
-        .args(["-ffunction-sections", "-fdata-sections", "-nostartfiles"])
-        .args([
-            "--specs=nano.specs",
-            "--specs=rdimon.specs",
-            "-Iffi/include",
-            "-L.",
-        ])
-        .args([
-            "-Tffi/examples/cortex-m.ld",
-            "-Wl,--gc-sections",
-            "-Wl,-z,noexecstack",
-        ])
-        .args([
-            ffi.join("tests/tick.c"),
-            ffi.join("examples/startup.c"),
-            library,
-        ]);
-    if core.name == "cortex-m0" {
-        gcc.arg("-Wl,--defsym=__small_ram=1");
-    }
-    done(gcc.arg("-o").arg(&program))?;
-    Ok(program)
-}
-
-fn done(command: &mut Command) -> Result<()> {
-    let status = command.status().with_context(|| format!("{command:?}"))?;
-    ensure!(status.success(), "{command:?}: {status}");
-    Ok(())
-}
-
-/// Checks that both programs gave the same results; the last word of a file is the clock's.
-fn same_bits(core: &Core, kernel: &Kernel, rust: &Path, c: &Path) -> Result<()> {
-    let results = |folder: &Path| -> Result<Vec<u8>> {
-        let path = folder.join(format!("{}.out", kernel.name));
-        let mut bytes = std::fs::read(&path).with_context(|| path.display().to_string())?;
-        bytes.truncate(bytes.len().saturating_sub(4));
-        Ok(bytes)
-    };
-    let (rust, c) = (results(rust)?, results(c)?);
-    ensure!(
-        !rust.is_empty() && rust == c,
-        "{} on {}: not the same bits in C",
-        kernel.name,
-        core.name
-    );
-    Ok(())
-}
-
-fn text(all: &[Pair]) -> String {
-    let mut text = format!(
-        "{:10}  {:32} {:>6} {:>6} {:>5}\n",
-        "core", "kernel", "Rust", "C", "more"
-    );
-    for (rust, c) in all {
-        let (of_rust, of_c) = (rust.worst.instructions, c.worst.instructions);
-        let more = more(rust, c);
-        let _ = writeln!(
-            text,
-            "{:10}  {:32} {of_rust:6} {of_c:6} {more:5}",
-            rust.core.name, rust.kernel.name
-        );
-    }
-    text
-}
-
-/// A line for each kernel, a column for each core: Rust, and C's additional instructions.
-fn markdown(kernels: &[&Kernel], all: &[Pair]) -> String {
-    let cores: Vec<_> = CORES
-        .iter()
-        .filter(|core| all.iter().any(|(m, _)| m.core.name == core.name))
-        .collect();
-    let mut text = String::from("| tick |");
-    for core in &cores {
-        let _ = write!(text, " {} |", core.title);
-    }
-    let _ = write!(text, "\n|---|{}\n", "---:|".repeat(cores.len()));
-    for kernel in kernels {
-        let quantity = if kernel.quantity == Quantity::Torque {
-            "torque"
-        } else {
-            "acceleration"
-        };
-        let _ = write!(text, "| {}, {quantity} |", kernel.title);
-        for core in &cores {
-            let found = all
-                .iter()
-                .find(|(m, _)| m.core.name == core.name && m.kernel.name == kernel.name);
-            text += &found.map_or(String::from(" |"), |(rust, c)| {
-                format!(" {} + {} |", rust.worst.instructions, more(rust, c))
-            });
-        }
-        text += "\n";
-    }
-    text
+    panics::everywhere()
 }

@@ -1,5 +1,8 @@
 //! The cores, and the compilation and emulation of programs for them.
 
+use std::path::PathBuf;
+
+use crate::run::target_dir;
 use crate::timing::Timing;
 
 /// A Cortex-M core.
@@ -91,3 +94,29 @@ pub(crate) const CORES: [Core; 5] = [
         timing: None,
     },
 ];
+
+impl Core {
+    /// Folder of what the profile `firmware` makes for its target.
+    pub(crate) fn firmware(&self) -> PathBuf {
+        firmware(self.target)
+    }
+}
+
+/// Folder of what the profile `firmware` makes for a target.
+pub(crate) fn firmware(target: &str) -> PathBuf {
+    target_dir().join(target).join("firmware")
+}
+
+/// The targets of all cores.
+pub(crate) fn targets() -> Vec<&'static str> {
+    let mut targets: Vec<_> = CORES.iter().map(|core| core.target).collect();
+    targets.dedup();
+    targets
+}
+
+/// Cargo's options for the targets of all cores.
+pub(crate) fn for_targets() -> impl Iterator<Item = &'static str> {
+    targets()
+        .into_iter()
+        .flat_map(|target| ["--target", target])
+}

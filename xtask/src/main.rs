@@ -1,6 +1,7 @@
-//! Commands for developers of jred: `cargo xtask perf`, `cargo xtask loaded`, `cargo xtask c`, `cargo xtask template`, `cargo xtask book`.
+//! Commands for developers of jred; `scripts/test` calls most of them.
 #![forbid(unsafe_code)]
 
+mod bits;
 mod book;
 mod bounds;
 mod c;
@@ -9,6 +10,9 @@ mod ceilings;
 mod cores;
 mod data;
 mod elf;
+mod examples;
+mod expected;
+mod gates;
 mod image;
 mod instruction;
 mod kernels;
@@ -20,6 +24,8 @@ mod peers;
 mod perf;
 mod program;
 mod report;
+mod run;
+mod symbols;
 mod template;
 mod timing;
 mod trace;
@@ -38,19 +44,25 @@ struct Cli {
 
 #[derive(Subcommand)]
 enum Command {
+    Bits(bits::Options),
     Book(book::Options),
-    Perf(perf::Options),
-    Loaded(loaded::Options),
     C(c::Options),
+    Examples(examples::Options),
+    Gates(gates::Options),
+    Loaded(loaded::Options),
+    Perf(perf::Options),
     Template(template::Options),
 }
 
 fn main() -> ExitCode {
     let result = match Cli::parse().command {
+        Command::Bits(options) => bits::run(&options),
         Command::Book(options) => book::run(&options),
-        Command::Perf(options) => perf::run(&options),
-        Command::Loaded(options) => loaded::run(&options),
         Command::C(options) => c::run(&options),
+        Command::Examples(options) => examples::run(&options),
+        Command::Gates(options) => gates::run(&options),
+        Command::Loaded(options) => loaded::run(&options),
+        Command::Perf(options) => perf::run(&options),
         Command::Template(options) => template::run(&options),
     };
     match result {

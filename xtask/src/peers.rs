@@ -13,13 +13,13 @@ use sha2::{Digest, Sha256};
 
 use crate::cores::Core;
 use crate::kernels::{KERNELS, Origin};
-use crate::program::{root, target_dir};
+use crate::run::{output, root, target_dir};
 
 const ARCHIVE: &str = "cmsisdsp-1.10.3.tar.gz";
 const SHA256: &str = "307d32298faa7c58db912851027fce35f886fec7eb1a27c4b309ce1a97f47519";
 /// Prints the address of the package index in pip's configuration.
 const INDEX: &str = "import subprocess, sys; from pip._internal.models.index import PyPI; \
-    own = subprocess.run([sys.executable, '-m', 'pip', 'config', 'get', 'global.index-url'], \
+    own = subprocess.output([sys.executable, '-m', 'pip', 'config', 'get', 'global.index-url'], \
     capture_output=True, text=True).stdout.strip(); print(own or PyPI.simple_url)";
 /// The package's name in the index.
 const PACKAGE: &str = "cmsisdsp";
@@ -42,22 +42,8 @@ const SOURCES: [&str; 6] = [
     "CommonTables/arm_common_tables.c",
 ];
 
-fn run(command: &mut Command) -> Result<Vec<u8>> {
-    let name = command.get_program().to_string_lossy().into_owned();
-    let output = command
-        .output()
-        .with_context(|| format!("{name} is not installed"))?;
-    ensure!(
-        output.status.success(),
-        "{name}: {}\n{}",
-        output.status,
-        String::from_utf8_lossy(&output.stderr)
-    );
-    Ok(output.stdout)
-}
-
 fn curl(url: &str) -> Result<Vec<u8>> {
-    run(Command::new("curl").args([
+    output(Command::new("curl").args([
         "--silent",
         "--show-error",
         "--fail",
@@ -79,7 +65,7 @@ fn sha256(bytes: &[u8]) -> String {
 
 /// The package's sources, downloaded on first use.
 pub(crate) fn fetch() -> Result<PathBuf> {
-    run(Command::new(GCC).arg("--version"))
+    output(Command::new(GCC).arg("--version"))
         .context("apt-get install gcc-arm-none-eabi libnewlib-arm-none-eabi")?;
     let folder = target_dir().join("peers");
     let sources = folder.join(ARCHIVE.trim_end_matches(".tar.gz"));
@@ -87,7 +73,7 @@ pub(crate) fn fetch() -> Result<PathBuf> {
     std::fs::create_dir_all(&folder)?;
     if !archive.exists() {
         eprintln!("downloading {ARCHIVE} into {}", folder.display());
-        let index = run(Command::new("python3").args(["-c", INDEX])).context("pip is needed")?;
+        let index = output(Command::new("python3").args(["-c", INDEX])).context("pip is needed")?;
         let index = String::from_utf8(index)?;
         let index = format!("{}/{PACKAGE}/", index.trim().trim_end_matches('/'));
         let page = String::from_utf8_lossy(&curl(&index)?).into_owned();
@@ -100,11 +86,13 @@ pub(crate) fn fetch() -> Result<PathBuf> {
         std::fs::write(&archive, bytes)?;
     }
     if !sources.exists() {
-        run(Command::new("tar")
-            .arg("xzf")
-            .arg(&archive)
-            .arg("-C")
-            .arg(&folder))?;
+        output(
+            Command::new("tar")
+                .arg("xzf")
+                .arg(&archive)
+                .arg("-C")
+                .arg(&folder),
+        )?;
     }
     Ok(sources)
 }
@@ -128,31 +116,35 @@ pub(crate) fn compile(core: &Core, sources: &Path) -> Result<PathBuf> {
         let to = folder
             .join(file.file_name().context("a file")?)
             .with_extension("o");
-        run(Command::new(GCC)
-            .args(core.gcc)
-            .args([
-                "-mthumb",
-                "-O3",
-                "-std=gnu11",
-                "-fno-math-errno",
-                "-ffunction-sections",
-                "-fdata-sections",
-            ])
-            .args(["-D__GNUC_PYTHON__", "-w", "-c", "-I"])
-            .arg(sources.join("Include"))
-            .arg("-I")
-            .arg(sources.join("PrivateInclude"))
-            .arg(&file)
-            .arg("-o")
-            .arg(&to))?;
+        output(
+            Command::new(GCC)
+                .args(core.gcc)
+                .args([
+                    "-mthumb",
+                    "-O3",
+                    "-std=gnu11",
+                    "-fno-math-errno",
+                    "-ffunction-sections",
+                    "-fdata-sections",
+                ])
+                .args(["-D__GNUC_PYTHON__", "-w", "-c", "-I"])
+                .arg(sources.join("Include"))
+                .arg("-I")
+                .arg(sources.join("PrivateInclude"))
+                .arg(&file)
+                .arg("-o")
+                .arg(&to),
+        )?;
         objects.push(to);
     }
-    run(Command::new(GCC)
-        .args(core.gcc)
-        .args(["-mthumb", "-nostdlib", "-r", "-o"])
-        .arg(&object)
-        .args(&objects)
-        .args(["-lm", "-lc", "-lgcc"]))?;
+    output(
+        Command::new(GCC)
+            .args(core.gcc)
+            .args(["-mthumb", "-nostdlib", "-r", "-o"])
+            .arg(&object)
+            .args(&objects)
+            .args(["-lm", "-lc", "-lgcc"]),
+    )?;
     // Only the kernels stay visible.
     let mut objcopy = Command::new("arm-none-eabi-objcopy");
     for kernel in KERNELS
@@ -164,7 +156,7 @@ pub(crate) fn compile(core: &Core, sources: &Path) -> Result<PathBuf> {
     for build in BUILDERS {
         objcopy.arg(format!("--keep-global-symbol={build}"));
     }
-    run(objcopy.arg(&object))?;
+    output(objcopy.arg(&object))?;
     Ok(object)
 }
 

@@ -1,7 +1,7 @@
 //! The on-target program: compiled and linked, and its input and output files.
 
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::process::Stdio;
 
 use anyhow::{Context, Result, ensure};
 
@@ -9,25 +9,7 @@ use crate::cores::Core;
 use crate::data::{self, Words};
 use crate::kernels::{COUNTS, Kernel, Quantity};
 use crate::machine::{Example, motions};
-
-/// The workspace.
-pub(crate) fn root() -> &'static Path {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-        .parent()
-        .unwrap_or(Path::new("."))
-}
-
-/// The cargo that runs this, or the installed one.
-pub(crate) fn cargo() -> Command {
-    Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
-}
-
-/// Build folder.
-pub(crate) fn target_dir() -> PathBuf {
-    let set =
-        std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| PathBuf::from("target"), PathBuf::from);
-    root().join(set)
-}
+use crate::run::{target_dir, workspace};
 
 /// Folder of the files that the program for `core` reads and writes.
 pub(crate) fn files(core: &Core) -> PathBuf {
@@ -43,29 +25,12 @@ pub(crate) fn compile(core: &Core, peers: Option<&Path>) -> Result<PathBuf> {
             format!("-Clink-arg={}", object.display()),
         ]);
     }
-    let mut cargo = cargo();
+    let mut cargo = workspace("bench");
     cargo
-        .current_dir(root())
-        .args([
-            "bench",
-            "--no-run",
-            "--package",
-            "jred",
-            "--features",
-            "micromath",
-            "--bench",
-            "tick",
-            "--profile",
-            "firmware",
-        ])
-        .args([
-            "--target",
-            core.target,
-            "--message-format",
-            "json-render-diagnostics",
-            "--quiet",
-        ]);
-    cargo.arg("--target-dir").arg(target_dir());
+        .args(["--no-run", "--package", "jred", "--features", "micromath"])
+        .args(["--bench", "tick", "--profile", "firmware"])
+        .args(["--target", core.target, "--quiet"])
+        .args(["--message-format", "json-render-diagnostics"]);
     if !flags.is_empty() {
         cargo
             .arg("--config")

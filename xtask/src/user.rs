@@ -1,15 +1,14 @@
 //! A user's firmware, `benches/user`: upper bounds of the instructions of each function.
 
 use std::path::PathBuf;
-use std::process::Stdio;
 
-use anyhow::{Context, Result, ensure};
+use anyhow::{Context, Result};
 
 use crate::bounds::Bounds;
 use crate::ceilings::judge;
 use crate::cores::{CORES, Core};
 use crate::elf::Program;
-use crate::program::{cargo, root, target_dir};
+use crate::run::{cargo, done, root, target_dir};
 
 /// Compilation of the program: core, profile, further options of rustc.
 struct Build {
@@ -141,30 +140,16 @@ impl Build {
         let mut flags = vec!["-Clink-arg=-L../.."];
         flags.extend(self.rustc);
         let folder = target_dir().join(self.name());
-        let status = cargo()
+        let mut cargo = cargo();
+        cargo
             .current_dir(root().join("benches/user"))
-            .args([
-                "build",
-                "--quiet",
-                "--profile",
-                self.profile,
-                "--target",
-                core.target,
-            ])
-            .args([
-                "--config",
-                &format!("target.{}.rustflags = {flags:?}", core.target),
-            ])
+            .args(["build", "--quiet", "--profile", self.profile])
+            .args(["--target", core.target, "--config"])
+            .arg(format!("target.{}.rustflags = {flags:?}", core.target))
             .arg("--target-dir")
-            .arg(&folder)
-            .stderr(Stdio::inherit())
-            .status()
-            .context("cargo")?;
-        ensure!(
-            status.success(),
-            "benches/user does not compile for {}",
-            core.name
-        );
+            .arg(&folder);
+        done(&mut cargo)
+            .with_context(|| format!("benches/user does not compile for {}", core.name))?;
         Ok(folder.join(core.target).join(self.profile).join("user"))
     }
 }
