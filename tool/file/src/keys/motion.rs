@@ -28,8 +28,8 @@ pub(super) const REST_TO_REST: &[Key] = &[key("law", ValueForm::Words(&LAWS), "a
 
 /// The shares of two laws.
 pub(super) const SHARES: &[Key] = &[
-    may("accelerate", quantity(&SHARE).limited(ValueRange::UpTo(1.0)), "of the move; with `decelerate` ≤ 100 % (1/3)").only(TRAPEZOID),
-    may("decelerate", quantity(&SHARE).limited(ValueRange::UpTo(1.0)), "of the move; with `accelerate` ≤ 100 % (1/3)").only(TRAPEZOID),
+    may("accelerate", quantity(&SHARE).limited(ValueRange::UpTo(1.0)), "of the move; both together ≤ 100 % (1/3)").only(TRAPEZOID),
+    may("decelerate", quantity(&SHARE).limited(ValueRange::UpTo(1.0)), "of the move; both together ≤ 100 % (1/3)").only(TRAPEZOID),
     may("sine", ANY_SHARE, "of the move in both halves; the three together 1 % to 100 %").or("0").only(SCCA),
     may("constant", ANY_SHARE, "of the move in both halves; the three together 1 % to 100 %").or("0").only(SCCA),
     may("cosine", ANY_SHARE, "of the move in both halves; the three together 1 % to 100 %").or("0").only(SCCA),
@@ -42,10 +42,10 @@ static SEGMENT: KeyTable = KeyTable::of("motion.segment", &[&[
     may("duration", quantity(&TIME).positive(), "of a move; required without limits"),
 ], SHARES, &[
     may("speed", of_axis(SPEED), "not zero: with `move` or `duration`; the third follows").only(&["constant-speed"]),
-    may("start_speed", of_axis(SPEED), "at the start (the neighbour's, else rest)").only(BETWEEN_SPEEDS),
-    may("end_speed", of_axis(SPEED), "at the end (the neighbour's, else rest)").only(BETWEEN_SPEEDS),
-    may("start_acceleration", of_axis(ACCELERATIONS), "at the start (the neighbour's, else 0)").only(BETWEEN_ACCELERATIONS),
-    may("end_acceleration", of_axis(ACCELERATIONS), "at the end (the neighbour's, else 0)").only(BETWEEN_ACCELERATIONS),
+    may("start_speed", of_axis(SPEED), "at this end (the neighbour's, else rest)").only(BETWEEN_SPEEDS),
+    may("end_speed", of_axis(SPEED), "at this end (the neighbour's, else rest)").only(BETWEEN_SPEEDS),
+    may("start_acceleration", of_axis(ACCELERATIONS), "at this end (the neighbour's, else 0)").only(BETWEEN_ACCELERATIONS),
+    may("end_acceleration", of_axis(ACCELERATIONS), "at this end (the neighbour's, else 0)").only(BETWEEN_ACCELERATIONS),
     may("start_jerk", of_axis(JERKS), "at one end, with polynomial-7 at both (0)").only(BETWEEN_JERKS),
     may("end_jerk", of_axis(JERKS), "at one end, with polynomial-7 at both (0)").only(BETWEEN_JERKS),
     may("max_speed", of_axis(SPEED).positive(), "limit; required with `move`").only(LIMITED),

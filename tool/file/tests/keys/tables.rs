@@ -133,7 +133,7 @@ pub(super) fn cell(table: &KeyTable, key: &Key, only: &[&str]) -> String {
     cell
 }
 
-/// Which keys of a table are shown: all, those with a word only, all but those.
+/// Which keys of a table are shown: all, those with a word only, all but those of some words.
 #[derive(Clone, Copy)]
 enum Shown<'n> {
     All,
@@ -142,10 +142,10 @@ enum Shown<'n> {
 }
 
 impl<'n> Shown<'n> {
-    /// `motion`, `motion/profile`, `motion, without profile`
+    /// `motion`, `motion/profile`, `motion, without profile`, `branch, without belt, friction`
     fn of(name: &'n str) -> (&'n str, Self) {
-        if let Some((name, word)) = name.split_once(", without ") {
-            return (name, Self::Without(word));
+        if let Some((name, words)) = name.split_once(", without ") {
+            return (name, Self::Without(words));
         }
         match name.split_once('/') {
             Some((name, word)) => (name, Self::With(word)),
@@ -157,7 +157,7 @@ impl<'n> Shown<'n> {
         match self {
             Self::All => true,
             Self::With(word) => key.only == [word],
-            Self::Without(word) => key.only != [word],
+            Self::Without(words) => !words.split(", ").any(|word| key.only == [word]),
         }
     }
 }
