@@ -223,7 +223,6 @@ const TOOL: [(&str, &[&str]); 8] = [
             "collocation",
             "fastest",
             "gentlest",
-            "retime",
             "co_design",
             "drive_simulation",
             "contact",
@@ -236,7 +235,10 @@ const TOOL: [(&str, &[&str]); 8] = [
             "table", "answer", "list", "schemas", "plot", "drawing", "page",
         ],
     ),
-    ("cli", &["busy", "output", "options", "rows", "commands"]),
+    (
+        "cli",
+        &["busy", "output", "terminal", "options", "rows", "commands"],
+    ),
 ];
 
 #[test]

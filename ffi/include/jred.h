@@ -390,7 +390,7 @@ static inline jred_q15 jred_q15_to_share_(jred_q15 share) { return share; }
 
 /* ---- plan -------------------------------------------------------------------------------------------------------- */
 
-/* A motion that `jred fastest --plan` or `jred retime --plan` wrote, followed tick by tick at its own pace or slower. Of a machine that
+/* A motion that `jred fastest --plan` or `jred gentlest --plan` wrote, followed tick by tick at its own pace or slower. Of a machine that
  * JRED_MODEL has declared,
  *
  *     jred_status press_follow(const press_model *, jred_f32_plan_follower *, const uint32_t *plan, size_t length, float period, float ramp);

@@ -72,7 +72,7 @@ impl Curable for PlanError {
         match self {
             Self::Image(error) => error.write_cure(f),
             Self::NotAPlan(_) => {
-                f.write_str("give what jred fastest or jred retime wrote with --plan")
+                f.write_str("give what jred fastest or jred gentlest wrote with --plan")
             }
             Self::Range => f.write_str("make table and plan of the same machine file"),
             Self::Order(_) => f.write_str("give rows at least 2⁻⁴⁰ s and a 2³⁰th of the plan apart"),

@@ -1,6 +1,6 @@
 //! A motion planned on a host: a table over time, followed by a tick.
 //!
-//! [`Plan`] reads an image written by `jred fastest --plan` or `jred retime --plan`; [`encode()`] writes one. `docs/table-image.md` documents the
+//! [`Plan`] reads an image written by `jred fastest --plan` or `jred gentlest --plan`; [`encode()`] writes one. `docs/table-image.md` documents the
 //! layout word by word.
 
 mod encode;

@@ -30,7 +30,7 @@ pub const COMMANDS: [Heavy; 32] = [
     quick("ratio press.toml --steps 200000"),
     quick("check excavator-bucket.toml"),
     quick("steady slow-steady.toml --torque 699.706_N_m --delta 0.00163033"),
-    quick("retime slow-retime.toml --ends zero --drive sgm7a-25a+npt025mf-4"),
+    quick("gentlest slow-gentlest.toml --ends zero --drive sgm7a-25a+npt025mf-4"),
     quick("fastest slow-fastest.toml --torque 44.6344_N_m --motor-speed 10148.7_rpm").violated(),
     slow("size excavator-bucket.toml --motion best"),
     slow("reduce press.toml --positions 1000000"),

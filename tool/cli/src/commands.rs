@@ -5,10 +5,10 @@ pub mod bus;
 mod core_error;
 mod export;
 pub mod fastest;
+pub mod gentlest;
 mod plan;
 pub mod ratio;
 mod reduce;
-pub mod retime;
 pub mod sensitivity;
 mod simulate;
 pub mod size;
@@ -81,7 +81,7 @@ fn dispatch(command: &options::Command) -> Result<Completion> {
         options::Command::Simulate(options) => simulate::run(options),
         options::Command::Steady(options) => steady::steady(options),
         options::Command::Fastest(options) => fastest::fastest(options),
-        options::Command::Retime(options) => retime::retime(options),
+        options::Command::Gentlest(options) => gentlest::gentlest(options),
         options::Command::Balance(options) => balance::balance(options),
         options::Command::Export(options) => export::run(options),
         options::Command::Rules(options) => {
@@ -110,7 +110,7 @@ const fn doing(command: &options::Command) -> &'static str {
         Command::Simulate(_) => "following the motion",
         Command::Steady(_) => "searching for the steady cycle",
         Command::Fastest(_) => "computing the fastest motion",
-        Command::Retime(_) => "computing the gentlest motion",
+        Command::Gentlest(_) => "computing the gentlest motion",
         Command::Balance(_) => "computing counterweights and springs",
         Command::Export(_) => "searching for the smallest table",
         Command::Rules(_) => "reading rules",

@@ -4,8 +4,8 @@ pub mod balance;
 pub mod bus;
 pub mod catalogue;
 pub mod fastest;
+pub mod gentlest;
 pub mod plan;
-pub mod retime;
 pub mod sampling;
 pub mod search;
 pub mod simulate;
@@ -107,7 +107,8 @@ pub enum Command {
     /// Find the fastest motion within the limits of a drive: moves in minimum time.
     Fastest(Box<fastest::Fastest>),
     /// Find the motion with the least RMS torque, energy or peak torque for the moves of the machine file, and compare it with all motion laws.
-    Retime(retime::Retime),
+    #[command(alias = "retime")]
+    Gentlest(gentlest::Gentlest),
     /// Find counterweights and springs that minimise the torque of the drive, or the fluctuation of the reduced inertia.
     Balance(balance::Balance),
     /// Write a fast firmware table that meets a torque error.
@@ -186,7 +187,7 @@ jred_file::words! {
     pub enum MotionChoice default Own {
         /// The motion of the machine file.
         Own = "own",
-        /// The same moves in the same times with the least RMS torque for the smallest drive that is suitable with such a motion; see `jred retime`.
+        /// The same moves in the same times with the least RMS torque for the smallest drive that is suitable with such a motion; see `jred gentlest`.
         Best = "best",
     }
 }

@@ -1,4 +1,4 @@
-//! Parts of the file's motion that `retime`, `fastest` and `size --motion best` keep, and their reports about it.
+//! Parts of the file's motion that `gentlest`, `fastest` and `size --motion best` keep, and their reports about it.
 
 use crate::support::schema::faults;
 use crate::support::{Folder, Run, jred_with, squeezed};
@@ -30,8 +30,8 @@ fn the_process_of_a_machine_is_kept() {
         ("winder", "4 m/s of x of web", "1ft7108-5af7+sp140mf-3"),
     ] {
         for (command, options) in [
-            ("retime", &[][..]),
-            ("retime", &["--ends", "zero"]),
+            ("gentlest", &[][..]),
+            ("gentlest", &["--ends", "zero"]),
             ("fastest", &["--drive", drive]),
         ] {
             let run = jred(command, name, options);
@@ -46,7 +46,7 @@ fn the_process_of_a_machine_is_kept() {
     }
     let run = jred("size", "flying-shear", &["--motion", "best"]);
     assert!(run.out.contains("kept: 2 m/s of x of drive"), "{}", run.out);
-    let run = jred("retime", "shaper", &[]);
+    let run = jred("gentlest", "shaper", &[]);
     assert!(run.out.contains("  not kept "), "{}", run.out);
 }
 
@@ -68,7 +68,7 @@ fn limits_of_segments_are_not_dropped_without_a_word() {
         "{}",
         run.out
     );
-    let run = jred("retime", "belt-axis", &[]);
+    let run = jred("gentlest", "belt-axis", &[]);
     assert!(run.out.contains("max_speed 1.6 m/s"), "{}", run.out);
 }
 
@@ -93,8 +93,8 @@ fn a_motion_for_a_drive_drops_no_limit_without_a_word() {
     assert!(faults.is_empty(), "{}", faults.join("\n"));
     assert_eq!(answer["motion"]["from"], "gentlest");
     assert_eq!(answer["motion"]["not kept"][0], says);
-    let retimed = jred("retime", "belt-axis", &["--format", "json"]).json();
-    assert_eq!(retimed["not_kept"][0], says);
+    let gentlest = jred("gentlest", "belt-axis", &["--format", "json"]).json();
+    assert_eq!(gentlest["not_kept"][0], says);
 }
 
 /// If every drive that is suitable with its own motion is larger than the best one with the file's motion, the file's motion is kept.
@@ -153,7 +153,7 @@ fn the_overshoot_of_a_law_is_no_move() {
     let file = file.to_str().unwrap();
     let says = "segment 2 goes 0.004157 deg beyond its end and comes back";
     let drive = ["--torque", "100 N m", "--motor-speed", "3000 rpm"];
-    for (command, options) in [("retime", &[][..]), ("fastest", &drive)] {
+    for (command, options) in [("gentlest", &[][..]), ("fastest", &drive)] {
         let run = jred_with(&[&[command, file][..], options].concat());
         assert!(run.out.contains(says), "{}{}", run.out, run.err);
         assert!(
@@ -199,7 +199,7 @@ fn a_passing_move_neither_repeats_nor_stands() {
 /// Sentences about equal figures, and cures that help.
 #[test]
 fn sentences_say_what_they_mean() {
-    let run = jred("retime", "rotary-table", &["--objective", "peak"]);
+    let run = jred("gentlest", "rotary-table", &["--objective", "peak"]);
     assert!(
         !run.out.contains("as as") && !run.out.contains("than as"),
         "{}",
@@ -208,7 +208,7 @@ fn sentences_say_what_they_mean() {
     let run = jred("simulate", "belt-axis", &["--drive", "sgm7g-03a"]);
     assert!(run.message().contains("no [simulation]"), "{}", run.err);
     assert!(!run.message().contains("and torque"), "{}", run.err);
-    let run = jred("retime", "belt-axis", &["--drive", "sgm7g-45a"]);
+    let run = jred("gentlest", "belt-axis", &["--drive", "sgm7g-45a"]);
     assert!(
         run.message().contains("did you mean \"sgm7g-"),
         "{}",

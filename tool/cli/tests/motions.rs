@@ -1,4 +1,4 @@
-//! Motions that are computed, written and judged: `jred fastest` and `jred retime`, then `jred size`.
+//! Motions that are computed, written and judged: `jred fastest` and `jred gentlest`, then `jred size`.
 
 mod limits;
 mod plan;

@@ -51,7 +51,7 @@ const READ: [[&str; 3]; 15] = [
         "motors.csv",
     ],
     [
-        "retime @press.toml --motors @motors.csv --drive sgm7a-25a+npt025mf-4",
+        "gentlest @press.toml --motors @motors.csv --drive sgm7a-25a+npt025mf-4",
         "--report",
         "motors.csv",
     ],
@@ -219,7 +219,7 @@ fn of_files_that_belong_together_all_or_none_are_written() {
     let folder = Folder::new();
     let press = folder.file("press.toml", press_text());
     let drive = ["--torque", "60 N m", "--motor-speed", "3000 rpm"];
-    for (command, options) in [("fastest", &drive[..]), ("retime", &[])] {
+    for (command, options) in [("fastest", &drive[..]), ("gentlest", &[])] {
         let cam = folder.path("cam.csv");
         let missing = folder.path("nowhere/report.html");
         for what in ["--report", "--plan"] {

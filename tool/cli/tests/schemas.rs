@@ -71,7 +71,7 @@ fn every_answer_follows_its_schema() {
                 "simulate",
                 "size",
                 "fastest",
-                "retime",
+                "gentlest",
             ],
         ),
         (

@@ -11,10 +11,10 @@ use jred_sizing::motor::envelope::{Envelope, MotorLimits};
 use jred_sizing::select::size::{Candidate, Order, Selection};
 use jred_sizing::threads;
 
+use crate::gentlest::cycle::{self, Figures, Goal, Obstacle, Request};
 use crate::gentlest::without_drive;
 use crate::moves::{self, Chain};
 use crate::path_dynamics::Actuator;
-use crate::retime::{self, Figures, Goal, Obstacle, Request};
 
 /// Number of suitable and of refused drives, under the file's motion and under the machine's own gentlest one, that get their own motion.
 const MOST_CANDIDATES: usize = 8;
@@ -95,7 +95,7 @@ impl<'a> CoDesignInput<'a> {
     /// Each of the first drives with its motion of least RMS torque.
     ///
     /// # Errors
-    /// As [`retime::retime`].
+    /// As [`cycle::gentlest`].
     pub fn best(&self) -> Result<CoDesign<'a>, Obstacle> {
         let own = self.cycle(self.own)?;
         let before = self.first(&own);
@@ -167,7 +167,7 @@ impl<'a> CoDesignInput<'a> {
     }
 
     fn gentlest(&self, request: &Request) -> Result<Motion, Obstacle> {
-        retime::alone(self.file, self.own, request)
+        cycle::alone(self.file, self.own, request)
     }
 
     fn cycle(&self, motion: &Motion) -> Result<Cycle, Obstacle> {

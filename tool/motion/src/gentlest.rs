@@ -15,7 +15,8 @@
 //! - [`task`](self): successive meshes, and time that is better spent waiting;
 //! - [`waiting`](self): a wait on the path, where holding costs less than at the ends;
 //! - [`scale`](self): the unit of the numbers, and the largest load;
-//! - [`outcome`](self): cost, optimum and motion of a solution.
+//! - [`outcome`](self): cost, optimum and motion of a solution;
+//! - [`cycle`]: the moves of a machine file, each in its own time, compared with the motion laws.
 
 use std::rc::Rc;
 
@@ -29,6 +30,7 @@ pub use crate::path_dynamics::without_drive;
 
 mod bound;
 mod cost;
+pub mod cycle;
 mod mesh;
 mod outcome;
 mod ramps;

@@ -9,10 +9,9 @@
 //! 4. [`trace`]: a finished motion, and its export formats;
 //! 5. [`plan`]: the same as the table that firmware follows;
 //! 6. [`gentlest`]: least RMS torque, energy or peak in a given time;
-//! 7. [`retime`]: the gentlest moves of a machine file, compared with motion laws;
-//! 8. [`co_design`]: drives, each with its own gentlest motion;
-//! 9. [`balance`]: counterweights and springs that relieve the drive;
-//! 10. [`drive_simulation`]: the free motion under a drive.
+//! 7. [`co_design`]: drives, each with its own gentlest motion;
+//! 8. [`balance`]: counterweights and springs that relieve the drive;
+//! 9. [`drive_simulation`]: the free motion under a drive.
 #![forbid(unsafe_code)]
 
 pub mod balance;
@@ -26,6 +25,5 @@ mod memo;
 pub mod moves;
 pub mod path_dynamics;
 pub mod plan;
-pub mod retime;
 mod skyline;
 pub mod trace;

@@ -6,11 +6,11 @@ use std::path::Path;
 use jred_analysis::checked;
 use jred_file::model::machine::MachineFile;
 use jred_file::model::motion::Motion;
+use jred_motion::gentlest::cycle::{GentlestResult, Goal, Obstacle, Request, gentlest_cycle};
 use jred_motion::gentlest::{
     Fault, LeastEffortMove, Objective, Optimum, Travel, gentlest, without_drive,
 };
 use jred_motion::path_dynamics::{Actuator, PathDynamics};
-use jred_motion::retime::{Goal, Obstacle, Request, RetimeResult, retime};
 use jred_sizing::catalogue::Catalogue;
 use jred_sizing::motor::envelope::Envelope;
 use jred_sizing::select::named::named;
@@ -79,9 +79,9 @@ fn request(goal: Goal, ramp: f64) -> Request {
     }
 }
 
-fn retimed(file: &MachineFile, goal: Goal, ramp: f64) -> RetimeResult {
+fn solved(file: &MachineFile, goal: Goal, ramp: f64) -> GentlestResult {
     let motion = file.motion.as_ref().unwrap();
-    retime(file, motion, &request(goal, ramp)).unwrap()
+    gentlest_cycle(file, motion, &request(goal, ramp)).unwrap()
 }
 
 fn is_global(gentle: &LeastEffortMove) {
@@ -127,7 +127,7 @@ fn ramps_begin_and_end_without_a_jump() {
     );
     assert!(gentle.cost < 120.0 / 7.0 / 12.0 * least);
     assert_eq!(gentle.optimum, Optimum::Global);
-    let press = retimed(&example("press", &[]), Goal::Rms, 0.1);
+    let press = solved(&example("press", &[]), Goal::Rms, 0.1);
     let nodes = press.trace.nodes();
     let largest = nodes
         .iter()
@@ -204,14 +204,14 @@ fn bad_input_is_named() {
     };
     let motion = Motion::constant_speed(0.0, 1.0, TAU);
     assert_eq!(
-        retime(&file, &motion, &unknown).unwrap_err(),
+        gentlest_cycle(&file, &motion, &unknown).unwrap_err(),
         Obstacle::NoCopper
     );
 }
 /// The table of an indexing cam rests while the cam turns through its dwell: the gentlest motion shortens the dwell and reports it.
 #[test]
 fn a_dwell_of_a_cam_that_is_lost_is_named() {
-    let found = retimed(&example("indexing-cam", &[]), Goal::Rms, 0.0);
+    let found = solved(&example("indexing-cam", &[]), Goal::Rms, 0.0);
     let (name, [own, best]) = &found.standing[0];
     assert!(name.contains("table") || name.contains("turret"), "{name}");
     assert!(
@@ -219,7 +219,7 @@ fn a_dwell_of_a_cam_that_is_lost_is_named() {
         "{own} {best}"
     );
     assert!(
-        retimed(&example("press", &[]), Goal::Rms, 0.0)
+        solved(&example("press", &[]), Goal::Rms, 0.0)
             .standing
             .is_empty()
     );
@@ -227,7 +227,7 @@ fn a_dwell_of_a_cam_that_is_lost_is_named() {
 /// The load table acts on no link of the machine: none is reported as resting while the drive turns.
 #[test]
 fn a_load_is_no_link_that_stands_still() {
-    let found = retimed(&example("load-table", &[]), Goal::Rms, 0.0);
+    let found = solved(&example("load-table", &[]), Goal::Rms, 0.0);
     assert!(found.standing.is_empty(), "{:?}", found.standing);
 }
 /// A large gearbox with losses, at whose output the torque bends twice within the roundings of the wide bracket in which bends are searched: the

@@ -8,10 +8,10 @@ use jred_file::model::machine::MachineFile;
 use jred_file::model::motion::Motion;
 use jred_motion::fastest::cycle::cycle;
 use jred_motion::fastest::{MoveLimits, Rms};
+use jred_motion::gentlest::cycle::{GentlestResult, Goal, Request, gentlest_cycle};
 use jred_motion::gentlest::without_drive;
 use jred_motion::moves::{Chain, NoMoves, Part, chain};
 use jred_motion::path_dynamics::Actuator;
-use jred_motion::retime::{Goal, Request, RetimeResult, retime};
 use jred_sizing::catalogue::Motor;
 use jred_sizing::cycle::form::Coefficients;
 use jred_sizing::motor::envelope::Envelope;
@@ -46,7 +46,7 @@ fn of(file: &MachineFile) -> (&Motion, Chain) {
     (motion, chain(motion, &file.process()).unwrap())
 }
 
-fn retimed(file: &MachineFile, goal: Goal, ramp: f64) -> RetimeResult {
+fn solved(file: &MachineFile, goal: Goal, ramp: f64) -> GentlestResult {
     let request = Request {
         actuator: without_drive(),
         copper: Some(2.0),
@@ -54,7 +54,7 @@ fn retimed(file: &MachineFile, goal: Goal, ramp: f64) -> RetimeResult {
         ramp,
         sampling: 4000.into(),
     };
-    retime(file, file.motion.as_ref().unwrap(), &request).unwrap()
+    gentlest_cycle(file, file.motion.as_ref().unwrap(), &request).unwrap()
 }
 
 /// 100 N·m up to 60 rad/s.
@@ -88,9 +88,9 @@ fn a_flying_shear_keeps_its_synchrony() {
         near("speed", speed, motion.at(0.0).omega, 1e-9);
     }
     let made = [
-        retimed(&file, Goal::Rms, 0.0).trace,
-        retimed(&file, Goal::Rms, 0.1).trace,
-        retimed(&file, Goal::Peak, 0.0).trace,
+        solved(&file, Goal::Rms, 0.0).trace,
+        solved(&file, Goal::Rms, 0.1).trace,
+        solved(&file, Goal::Peak, 0.0).trace,
         cycle(&file, &motor(), MoveLimits::default(), None, &chain.parts)
             .unwrap()
             .trace,
@@ -111,7 +111,7 @@ fn a_flying_shear_keeps_its_synchrony() {
 fn ramps_begin_with_the_acceleration_of_the_kept_part() {
     let file = example("flying-shear");
     let jumps = |ramp: f64| {
-        let trace = retimed(&file, Goal::Rms, ramp).trace;
+        let trace = solved(&file, Goal::Rms, ramp).trace;
         let border = trace
             .nodes()
             .iter()
@@ -143,7 +143,7 @@ fn a_drawing_press_keeps_its_stroke_and_its_pause() {
     near("stroke", kept.duration, 0.011 / 0.08, 1e-9);
     let whole: f64 = chain.parts.iter().map(Part::duration).sum();
     near("whole", whole, motion.duration(), 1e-12);
-    let found = retimed(&file, Goal::Rms, 0.0);
+    let found = solved(&file, Goal::Rms, 0.0);
     assert!(found.best.rms < found.own.rms && found.bound.unwrap() <= found.best.rms);
     near("bound", found.bound.unwrap(), found.best.rms, 1e-4);
 }
@@ -154,18 +154,18 @@ fn a_kept_part_counts_in_full() {
     let steady = "law = \"constant-speed\"; speed = \"2 rad/s\"; move = \"1 rad\"";
     let round = "law = \"polynomial-5\"; move = \"5.283185307179586 rad\"; duration = \"1 s\"";
     let file = table(0.0, &[steady, round]);
-    let found = retimed(&file, Goal::Rms, 0.0);
+    let found = solved(&file, Goal::Rms, 0.0);
     let cost = 12.0 * 4.0 * (TAU - 1.0 - 2.0_f64).powi(2);
     near("RMS", found.best.rms, (cost / 1.5).sqrt(), 1e-5);
     near("bound", found.bound.unwrap(), (cost / 1.5).sqrt(), 1e-6);
     // C added to a torque of zero mean, as between equal speeds.
     let file = table(3.0, &[steady, round]);
-    let found = retimed(&file, Goal::Rms, 0.0);
+    let found = solved(&file, Goal::Rms, 0.0);
     let exact = (cost / 1.5 + 9.0).sqrt();
     near("RMS", found.best.rms, exact, 1e-5);
     near("bound", found.bound.unwrap(), exact, 1e-6);
     assert_eq!(found.laws.len(), 1);
-    let peak = retimed(&file, Goal::Peak, 0.0);
+    let peak = solved(&file, Goal::Peak, 0.0);
     assert!(peak.bound.unwrap() <= peak.best.peak && peak.best.peak < peak.own.peak);
 }
 
@@ -189,7 +189,7 @@ fn a_cycle_begins_with_what_is_kept() {
     for speed in ends.speeds {
         near("speed", speed, 2.0, 1e-12);
     }
-    let found = retimed(&file, Goal::Rms, 0.0);
+    let found = solved(&file, Goal::Rms, 0.0);
     near("whole", found.motion.duration(), motion.duration(), 1e-9);
     near("speed", found.motion.at(0.2).omega, 2.0, 1e-9);
 }
@@ -245,7 +245,7 @@ fn a_winder_keeps_the_speed_of_its_web() {
         panic!("{:?}", chain.parts);
     };
     near("web", kept.speed, 4.0, 1e-12);
-    let found = retimed(&file, Goal::Rms, 0.0);
+    let found = solved(&file, Goal::Rms, 0.0);
     let (own, best) = (found.own, found.best);
     assert!(
         best.rms <= own.rms && best.speed < 2.0 * own.speed,

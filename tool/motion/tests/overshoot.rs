@@ -6,9 +6,9 @@ use std::path::Path;
 use jred_analysis::checked;
 use jred_file::model::machine::MachineFile;
 use jred_file::model::motion::{Motion, Node};
+use jred_motion::gentlest::cycle::{GentlestResult, Goal, Request, gentlest_cycle};
 use jred_motion::gentlest::{Optimum, without_drive};
 use jred_motion::moves::{Chain, Part, chain};
-use jred_motion::retime::{Goal, Request, RetimeResult, retime};
 
 use crate::support::near;
 
@@ -47,7 +47,7 @@ fn of(file: &MachineFile) -> Chain {
     chain(file.motion.as_ref().unwrap(), &file.process()).unwrap()
 }
 
-fn retimed(file: &MachineFile) -> RetimeResult {
+fn solved(file: &MachineFile) -> GentlestResult {
     let request = Request {
         actuator: without_drive(),
         copper: None,
@@ -55,7 +55,7 @@ fn retimed(file: &MachineFile) -> RetimeResult {
         ramp: 0.0,
         sampling: 4000.into(),
     };
-    retime(file, file.motion.as_ref().unwrap(), &request).unwrap()
+    gentlest_cycle(file, file.motion.as_ref().unwrap(), &request).unwrap()
 }
 
 /// Least ∫(J·a)² from a speed to rest and the reverse: the speed is a parabola, v ≥ 0 as long as D ≥ v₀·T/3.
@@ -81,7 +81,7 @@ fn a_stop_ends_where_it_is_asked_to() {
         near("time", step.duration, t, 1e-12);
         // The speed of the kept part, and rest.
         near("speeds", ends.speeds[0] + ends.speeds[1], v, 1e-12);
-        let found = retimed(&file);
+        let found = solved(&file);
         assert_eq!(found.optimum(), Optimum::Global);
         // The search uses parabolas, so only roundings remain.
         near("heat", found.moves[0].cost, heat, 1e-9 * heat);
@@ -114,7 +114,7 @@ fn a_stop_with_viscous_friction() {
         * (2.0 * a * a * (e * e - 1.0) / k + 4.0 * a * level * (e - 1.0) / k + level * level * t);
     // From an independent computation.
     near("heat", heat, 14.252, 5e-4);
-    let found = retimed(&table(c, &[STEADY, STOP]));
+    let found = solved(&table(c, &[STEADY, STOP]));
     assert_eq!(found.moves.len(), 1);
     near("found", found.moves[0].cost, heat, 1e-6 * heat);
 }

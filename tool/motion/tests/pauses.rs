@@ -7,8 +7,8 @@ use std::path::Path;
 use jred_analysis::checked;
 use jred_analysis::duty::Duty;
 use jred_file::model::machine::MachineFile;
+use jred_motion::gentlest::cycle::{GentlestResult, Goal, Request, gentlest_cycle};
 use jred_motion::gentlest::without_drive;
-use jred_motion::retime::{Goal, Request, RetimeResult, retime};
 use jred_sizing::cycle::Cycle;
 use jred_sizing::cycle::form::Coefficients;
 use jred_sizing::thermal::classify::Features;
@@ -155,7 +155,7 @@ fn the_peak_of_a_corner_is_that_of_its_row() {
 }
 
 /// The machine with a profile as its motion; prescribed parts are kept.
-fn with_profile(name: &str, made: &RetimeResult, file: &MachineFile) -> MachineFile {
+fn with_profile(name: &str, made: &GentlestResult, file: &MachineFile) -> MachineFile {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../../machines/{name}.toml"));
     let text = std::fs::read_to_string(path).unwrap();
     let mut of_motion = false;
@@ -229,7 +229,7 @@ fn a_written_motion_is_read_with_its_pauses() {
             ramp,
             sampling: 300.into(),
         };
-        let made = retime(&file, file.required_motion().unwrap(), &request)
+        let made = gentlest_cycle(&file, file.required_motion().unwrap(), &request)
             .unwrap_or_else(|_| panic!("{name}"));
         check_pauses(name, &made.trace.of_axis(&file.axis()).profile());
         let read = with_profile(name, &made, &file);

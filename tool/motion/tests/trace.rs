@@ -10,10 +10,10 @@ use jred_file::model::machine::MachineFile;
 use jred_file::model::motion::Motion;
 use jred_motion::fastest::MoveLimits;
 use jred_motion::fastest::cycle::cycle;
+use jred_motion::gentlest::cycle::{Goal, Request, gentlest_cycle};
 use jred_motion::gentlest::without_drive;
 use jred_motion::moves::{self, Move, Part};
 use jred_motion::path_dynamics::Actuator;
-use jred_motion::retime::{Goal, Request, retime};
 use jred_motion::trace::{Master, Node, Trace};
 use jred_sizing::catalogue::Motor;
 use jred_sizing::cycle::Cycle;
@@ -274,7 +274,8 @@ fn the_check_accepts_the_profiles() {
             ramp: 0.0,
             sampling: 500.into(),
         };
-        let gentle = retime(&file, motion, &request).unwrap_or_else(|_| panic!("{machine}"));
+        let gentle =
+            gentlest_cycle(&file, motion, &request).unwrap_or_else(|_| panic!("{machine}"));
         let trace = &gentle.trace;
         let missed = trace
             .nodes()

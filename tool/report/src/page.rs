@@ -29,7 +29,7 @@ use drive::{Subject, TOP};
 use section::{Figure, Page, Section};
 
 pub use mechanism::mechanism_page;
-pub use motion::{fastest_page, retime_page, steady_page};
+pub use motion::{fastest_page, gentlest_page, steady_page};
 
 /// Number of motors on the page, each with its first gearbox and amplifier.
 const LISTED: usize = 25;

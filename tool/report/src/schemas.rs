@@ -18,7 +18,7 @@ pub fn all() -> Vec<(&'static str, Schema)> {
         of::<list::front::FrontData>(),
         of_sheet(list::ratio::FORM, &list::ratio::COLUMNS),
         of::<list::reduction::ReductionData>(),
-        of::<list::retime::RetimeData>(),
+        of::<list::gentlest::GentlestData>(),
         of_sheet(list::sensitivity::FORM, &list::sensitivity::COLUMNS),
         of::<list::rule_list::SetData>(),
         of::<list::rule_list::SetsData>(),

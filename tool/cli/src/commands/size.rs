@@ -5,7 +5,7 @@ use std::path::Path;
 use miette::{Report, Result, miette};
 
 use crate::commands::core_error::{core_report, duty_report};
-use crate::commands::retime::report;
+use crate::commands::gentlest::report;
 use crate::commands::vary::catalogue;
 use crate::commands::{Completion, print, print_answer};
 use crate::options::{MotionChoice, Size};

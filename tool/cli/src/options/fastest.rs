@@ -4,8 +4,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use super::gentlest::EndAcceleration;
 use super::plan::PlanFile;
-use super::retime::EndAcceleration;
 use super::search::SizingOptions;
 use super::word::word;
 use jred_file::argument;

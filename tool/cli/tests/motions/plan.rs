@@ -114,7 +114,7 @@ fn the_error_of_a_plan_is_looked_at() {
     let press = folder.file("press.toml", press_text());
     let (press, plan) = (press.to_str().unwrap(), folder.path("p.jred"));
     let refused = |more: &[&str], says: &str| {
-        let mut arguments = vec!["retime", press];
+        let mut arguments = vec!["gentlest", press];
         arguments.extend(more);
         run(&arguments).ends(2).says(&[says]);
     };
@@ -152,7 +152,7 @@ fn a_plan_has_a_known_ending() {
     for name in ["q.txt", "q", "q.rs.bak"] {
         let plan = folder.path(name);
         let arguments = [
-            "retime",
+            "gentlest",
             press.to_str().unwrap(),
             "--plan",
             plan.to_str().unwrap(),

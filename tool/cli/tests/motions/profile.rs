@@ -122,13 +122,13 @@ fn an_axis_is_spoken_of_in_its_own_words() {
     for words in ["motion of x of carriage: 0.7 s", "600 mm", "1 m/s"] {
         assert!(checked.contains(words), "{checked}");
     }
-    let retimed = run(&["retime", axis, "--format", "csv"]).ends(0);
+    let gentlest = run(&["gentlest", axis, "--format", "csv"]).ends(0);
     assert!(
-        retimed.out.starts_with("t [s],s [m],v [m/s],a [m/s^2]"),
+        gentlest.out.starts_with("t [s],s [m],v [m/s],a [m/s^2]"),
         "{}",
-        &retimed.out[..60]
+        &gentlest.out[..60]
     );
-    let listed = run(&["retime", axis]).ends(0).out;
+    let listed = run(&["gentlest", axis]).ends(0).out;
     assert!(listed.contains("x = 0 mm to x = 600 mm"), "{listed}");
 }
 

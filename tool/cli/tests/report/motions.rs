@@ -1,4 +1,4 @@
-//! Pages about motions: fastest, retime, steady.
+//! Pages about motions: fastest, gentlest, steady.
 
 use super::{check_nesting, check_plots, check_self_contained, plots};
 use crate::support::{Folder, jred_with, press_file};
@@ -62,7 +62,7 @@ fn the_phase_plane_names_the_limits() {
 /// The gentlest motion is shown with that of the file and the laws.
 #[test]
 fn the_gentlest_motion_stands_beside_the_laws() {
-    let page = page(&["retime"]);
+    let page = page(&["gentlest"]);
     check_plots(&page, 4);
     for plot in plots(&page) {
         for name in ["gentlest", "as in the file", "modified-trapezoid"] {

@@ -26,7 +26,7 @@ pub(crate) const COMMANDS: [&str; 17] = [
     "simulate",
     "steady",
     "fastest",
-    "retime",
+    "gentlest",
     "balance",
     "export",
     "rules",

@@ -412,15 +412,15 @@ fn fastest_with_a_warm_winding() {
 }
 
 #[test]
-fn retime() {
+fn gentlest() {
     let machines = ["press.toml", "vertical-axis.toml", "scotch-yoke.toml"];
     let desk = Desk::new().with_machines(&machines);
     let with = |file: &'static str, more: &[&'static str]| {
-        [&["retime", file, "--steps", "500"], more].concat()
+        [&["gentlest", file, "--steps", "500"], more].concat()
     };
     let drive = ["--drive", "sgmsh-30a+npt025mf-5", "--catalogue", "drives"];
     compare(
-        "retime",
+        "gentlest",
         &desk.runs(&[
             &with("press.toml", &[]),
             &with("press.toml", &drive),

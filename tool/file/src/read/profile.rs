@@ -83,7 +83,7 @@ pub(super) fn read(
         if let (Some(tool), Some(of)) = (&prescribed.tool, section.get("of")) {
             let what = format!("is {}, but the file has {has}, positions of the drive link", tool.name());
             return of.problem(&what, "not those of the file").help(
-                "remove `of` from [motion]: `jred fastest` and `jred retime` write such profiles of the drive link",
+                "remove `of` from [motion]: `jred fastest` and `jred gentlest` write such profiles of the drive link",
             );
         }
         let (does, own) = match other {

@@ -3,8 +3,8 @@
 use std::f64::consts::TAU;
 
 use jred_file::model::motion::Motion;
+use jred_motion::gentlest::cycle::{Goal, gentlest_cycle};
 use jred_motion::gentlest::{Objective, Travel};
-use jred_motion::retime::{Goal, retime};
 
 use super::{best, crank, is_global, machine, request, table, travel};
 use crate::support::near;
@@ -105,7 +105,7 @@ fn a_weight_is_moved_all_the_time() {
 fn an_endless_turn_keeps_its_energy() {
     let file = crank("");
     let motion = Motion::constant_speed(0.0, TAU, TAU);
-    let found = retime(&file, &motion, &request(Goal::Rms, 0.0)).unwrap();
+    let found = gentlest_cycle(&file, &motion, &request(Goal::Rms, 0.0)).unwrap();
     assert!(found.chain.endless);
     assert!(found.best.rms < 1e-5 * found.own.rms, "{:?}", found.best);
     let even = &found.laws[1].figures;

@@ -3,10 +3,10 @@
 use std::f64::consts::TAU;
 
 use jred_file::model::motion::Motion;
+use jred_motion::gentlest::cycle::{Goal, Obstacle, gentlest_cycle};
 use jred_motion::gentlest::{Fault, Objective, Optimum};
-use jred_motion::retime::{Goal, Obstacle, retime};
 
-use super::{best, crank, example, machine, request, retimed, table, travel};
+use super::{best, crank, example, machine, request, solved, table, travel};
 use crate::support::near;
 
 /// A slider-crank at one turn per second with friction at its slider and bearings: compared with constant speed both objectives reduce the peak
@@ -17,8 +17,8 @@ fn a_slider_crank_takes_a_fraction_of_the_peak() {
         "[[load]]\non = \"slider\"\nopposing_force = \"4 N\"\n[[load]]\non = \"crank\"\nopposing_moment = \"0.05 N m\"\n",
     );
     let motion = Motion::constant_speed(0.0, TAU, TAU);
-    let [rms, peak] =
-        [Goal::Rms, Goal::Peak].map(|goal| retime(&file, &motion, &request(goal, 0.0)).unwrap());
+    let [rms, peak] = [Goal::Rms, Goal::Peak]
+        .map(|goal| gentlest_cycle(&file, &motion, &request(goal, 0.0)).unwrap());
     assert!(rms.best.peak < 0.4 * rms.own.peak, "{:?}", rms.best);
     assert!(peak.best.peak < 0.4 * peak.own.peak, "{:?}", peak.best);
     assert!(peak.best.peak <= rms.best.peak * 1.001);
@@ -38,7 +38,7 @@ fn the_duty_confirms_the_torque() {
         "six-link",
     ] {
         let file = example(name, &[]);
-        let found = retimed(&file, Goal::Rms, 0.0);
+        let found = solved(&file, Goal::Rms, 0.0);
         let duration = found.motion.duration();
         let moves: f64 = found.moves.iter().map(|gentle| gentle.cost).sum();
         // The share of the file's dwells: its own motion without the moves.
@@ -82,7 +82,7 @@ fn each_objective_is_least_in_its_own_figure() {
     for name in ["press", "rotary-table", "four-bar"] {
         let file = example(name, &[]);
         let all =
-            [Goal::Rms, Goal::Energy, Goal::Peak].map(|goal| (goal, retimed(&file, goal, 0.0)));
+            [Goal::Rms, Goal::Energy, Goal::Peak].map(|goal| (goal, solved(&file, goal, 0.0)));
         for (goal, found) in &all {
             for (_, other) in &all {
                 let [own, other] = [found, other].map(|found| found.best.of(*goal));
@@ -111,7 +111,7 @@ fn no_law_has_a_lower_peak() {
     let text = "title = \"table\"\ngravity = [\"0 m/s^2\", \"0 m/s^2\"]\n[mechanism]\ntype = \"rotary-table\"\n[mechanism.table]\n\
                 inertia = \"2 kg m^2\"\n[motion]\ntype = \"cycle\"\n[[motion.segment]]\nlaw = \"cycloidal\"\nmove = \"90 deg\"\nduration = \"0.5 s\"\n\
                 [[motion.segment]]\ndwell = \"0.2 s\"\n";
-    let found = retimed(&machine(text), Goal::Peak, 0.0);
+    let found = solved(&machine(text), Goal::Peak, 0.0);
     assert_eq!(found.moves[0].law, Some("parabola"));
     near(
         "peak",
@@ -132,7 +132,7 @@ fn no_law_has_a_lower_peak() {
         // With ramps the search for the peak finds no motion for some machines, and reports so.
         for ramp in [0.0, 0.1] {
             let motion = file.motion.as_ref().unwrap();
-            let found = match retime(file, motion, &request(Goal::Peak, ramp)) {
+            let found = match gentlest_cycle(file, motion, &request(Goal::Peak, ramp)) {
                 Ok(found) => found,
                 Err(Obstacle::Move(_, _, Fault::NotFound)) if ramp > 0.0 => continue,
                 Err(why) => panic!("{why:?}"),
@@ -159,7 +159,7 @@ fn no_law_has_a_lower_peak() {
 #[test]
 fn a_search_that_does_not_end_gives_its_best() {
     for name in ["shaper", "whitworth", "linkage-four-bar"] {
-        let found = retimed(&example(name, &[]), Goal::Peak, 0.0);
+        let found = solved(&example(name, &[]), Goal::Peak, 0.0);
         assert!(found.best.peak <= found.own.peak * (1.0 + 1e-9), "{name}");
         for row in &found.laws {
             assert!(found.best.peak <= row.figures.peak * (1.0 + 1e-9), "{name}");

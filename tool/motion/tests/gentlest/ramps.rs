@@ -1,11 +1,11 @@
 //! Ramps: the acceleration rises from zero to its first peak in the requested share of the time.
 
 use jred_file::model::machine::MachineFile;
+use jred_motion::gentlest::cycle::Goal;
 use jred_motion::moves::{Part, chain};
-use jred_motion::retime::Goal;
 use jred_motion::trace::Trace;
 
-use super::{example, machine, retimed};
+use super::{example, machine, solved};
 
 const RAMPS: [f64; 4] = [0.02, 0.05, 0.1, 0.25];
 
@@ -58,7 +58,7 @@ fn the_acceleration_rises_in_the_share_of_the_time() {
     ] {
         let parts = chain(file.motion.as_ref().unwrap(), &[]).unwrap().parts;
         for ramp in RAMPS {
-            let found = retimed(&file, Goal::Rms, ramp);
+            let found = solved(&file, Goal::Rms, ramp);
             let mut t = 0.0;
             for part in &parts {
                 if let Part::Move(step) = part {
@@ -89,7 +89,7 @@ fn ramps_take_less_than_laws_that_rise_as_long() {
             (0.125, &["modified-sine", "modified-trapezoid"]),
             (0.25, &["cycloidal", "polynomial-4567"]),
         ] {
-            let found = retimed(&file, Goal::Rms, ramp);
+            let found = solved(&file, Goal::Rms, ramp);
             assert!(found.best.rms > last, "{ramp}: {}", found.best.rms);
             last = found.best.rms;
             for name in laws {

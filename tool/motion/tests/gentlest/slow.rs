@@ -3,9 +3,9 @@
 use std::f64::consts::TAU;
 
 use jred_file::model::motion::{Motion, MotionSegment};
-use jred_motion::retime::{Goal, retime};
+use jred_motion::gentlest::cycle::{Goal, gentlest_cycle};
 
-use super::{example, request, retimed};
+use super::{example, request, solved};
 
 /// The largest difference between positions and the integral of the speeds, as a share of the range.
 fn contradiction(nodes: &[jred_motion::trace::Node]) -> f64 {
@@ -35,7 +35,7 @@ fn a_slow_motion_does_not_contradict_itself() {
     ] {
         let file = example(name, &[]);
         let motion = file.motion.as_ref().unwrap();
-        let found = retimed(&file, Goal::Rms, 0.0);
+        let found = solved(&file, Goal::Rms, 0.0);
         let off = contradiction(found.trace.nodes());
         assert!(off <= 1e-6, "{name}: {off}");
         let time = found.trace.duration() / motion.duration() - 1.0;
@@ -63,7 +63,7 @@ fn a_press_waits_at_its_dead_centre() {
                     ("[[motion.segment]]\ndwell = \"0.1 s\"\n", ""),
                 ],
             );
-            let found = retimed(&file, Goal::Rms, 0.0);
+            let found = solved(&file, Goal::Rms, 0.0);
             let heat = found.best.rms.powi(2) * duration;
             assert!(
                 heat <= before * (1.0 + 2e-3),
@@ -92,14 +92,14 @@ fn a_press_waits_at_its_dead_centre() {
 #[test]
 fn the_peak_of_a_press_with_level_ends_is_found() {
     let file = example("press", &[]);
-    let found = retimed(&file, Goal::Peak, 0.1);
+    let found = solved(&file, Goal::Peak, 0.1);
     let law = found.best_law(Goal::Peak).unwrap();
     assert!(
         found.best.peak < 0.5 * law.figures.peak,
         "{}",
         found.best.peak
     );
-    let free = retimed(&file, Goal::Peak, 0.0);
+    let free = solved(&file, Goal::Peak, 0.0);
     assert!(free.best.peak <= found.best.peak * (1.0 + 1e-2));
 }
 
@@ -117,7 +117,7 @@ fn a_turn_waits_wherever_it_begins() {
             &[MotionSegment::constant_speed(TAU, period, TAU / period)],
             true,
         );
-        let found = retime(&file, &asked.unwrap(), &request(Goal::Rms, 0.0)).unwrap();
+        let found = gentlest_cycle(&file, &asked.unwrap(), &request(Goal::Rms, 0.0)).unwrap();
         let nodes = found.trace.nodes();
         assert!((nodes[0].phi - start).abs() <= 1e-12);
         assert!(contradiction(nodes) <= 1e-6, "{start}");

@@ -37,7 +37,7 @@ pub fn of_fastest(broken: &ContactLimits, axis: &Axis) -> String {
 }
 
 /// For a motion of a given time.
-pub fn of_retime(broken: &ContactLimits) -> String {
+pub fn of_gentlest(broken: &ContactLimits) -> String {
     format!(
         "{}; give the move more time, or {}",
         state(broken),

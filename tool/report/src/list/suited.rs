@@ -27,7 +27,7 @@ pub fn words(file: &MachineFile, suited: &CoDesign) -> String {
     }
     let torque = best.drive.motor.kind.vocabulary().torque;
     let says = format!(
-        "Motion: the gentlest for {}, with {} less RMS {torque} than the file's; `jred retime` writes it",
+        "Motion: the gentlest for {}, with {} less RMS {torque} than the file's; `jred gentlest` writes it",
         named(&best.drive),
         percent(saving(best))
     );

@@ -302,20 +302,20 @@ pub fn fastest_page(view: &list::fastest::FastestView) -> Result<String, Error> 
 ///
 /// # Errors
 /// The mechanism cannot be placed somewhere.
-pub fn retime_page(shown: &list::retime::RetimeView, own: &Motion) -> Result<String, Error> {
-    let list::retime::RetimeView {
+pub fn gentlest_page(shown: &list::gentlest::GentlestView, own: &Motion) -> Result<String, Error> {
+    let list::gentlest::GentlestView {
         file,
         request,
-        retimed,
+        gentlest,
         ..
     } = *shown;
     let actuator = &request.actuator;
     let mut courses = vec![
-        MotionSeries::of_trace("gentlest", file, actuator, &retimed.trace)?,
+        MotionSeries::of_trace("gentlest", file, actuator, &gentlest.trace)?,
         MotionSeries::of_motion("as in the file", file, actuator, own)?,
     ];
-    let mut laws: Vec<_> = retimed.laws.iter().collect();
-    let figure = |row: &jred_motion::retime::ComparisonRow| row.figures.of(request.goal);
+    let mut laws: Vec<_> = gentlest.laws.iter().collect();
+    let figure = |row: &jred_motion::gentlest::cycle::ComparisonRow| row.figures.of(request.goal);
     laws.sort_by(|a, b| figure(a).total_cmp(&figure(b)));
     for law in laws.into_iter().take(LAWS) {
         courses.push(MotionSeries::of_motion(
@@ -330,9 +330,9 @@ pub fn retime_page(shown: &list::retime::RetimeView, own: &Motion) -> Result<Str
         "gentlest motion",
         format!(
             "{}, with the motion of the file and the best laws",
-            list::retime::subject(shown)
+            list::gentlest::subject(shown)
         ),
-        &list::retime::answer(shown),
+        &list::gentlest::answer(shown),
         vec![over_time(file, &courses, &[])],
     ))
 }

@@ -8,7 +8,7 @@ use super::motor_coordinate;
 use crate::commands::core_error::core_report;
 use crate::commands::{quantity, rate};
 use crate::options::fastest::Fastest as Options;
-use crate::options::retime::EndAcceleration;
+use crate::options::gentlest::EndAcceleration;
 use jred::Domain;
 use jred::machine::Mechanism as _;
 use jred_analysis::reduce::joints_with_force;

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::contact::of_retime;
+use super::contact::of_gentlest;
 use crate::answer::Answer;
 use crate::answer::schema::Data;
 use crate::list::kept::{self, KeptPart};
@@ -16,8 +16,8 @@ use jred_file::model::rules::RuleVerdict;
 use jred_file::number::rounding::{percent, short};
 use jred_file::units::Vocabulary;
 use jred_motion::contact::ContactLimits;
+use jred_motion::gentlest::cycle::{Figures, GentlestResult, Goal, LAWS, Request};
 use jred_motion::gentlest::{LeastEffortMove, Optimum, Reason};
-use jred_motion::retime::{Figures, Goal, LAWS, Request, RetimeResult};
 use jred_sizing::judge::check::Check;
 use jred_sizing::select::fit::input_kind;
 use jred_sizing::study::cell::Cell;
@@ -27,7 +27,7 @@ const FIGURE_TOLERANCE: f64 = 5e-4;
 
 /// The content of the listing.
 #[derive(Debug)]
-pub struct RetimeView<'a> {
+pub struct GentlestView<'a> {
     /// The machine.
     pub file: &'a MachineFile,
     /// Name of the drive; `None`: the torque is at the input of the drive train.
@@ -35,7 +35,7 @@ pub struct RetimeView<'a> {
     /// The request.
     pub request: &'a Request,
     /// The result.
-    pub retimed: &'a RetimeResult,
+    pub gentlest: &'a GentlestResult,
     /// The contact that the motion loses.
     pub broken: Option<&'a ContactLimits>,
     /// The rules of the drive in the gentlest motion; empty without a drive.
@@ -44,7 +44,7 @@ pub struct RetimeView<'a> {
     pub written: Vec<String>,
 }
 
-fn words(shown: &RetimeView) -> &'static Vocabulary {
+fn words(shown: &GentlestView) -> &'static Vocabulary {
     input_kind(shown.file).vocabulary()
 }
 
@@ -65,20 +65,20 @@ fn unit(goal: Goal, words: &Vocabulary) -> &'static str {
 }
 
 /// The rows of the comparison: the file's own motion, the others, the gentlest.
-fn rows(retimed: &RetimeResult) -> Vec<(&'static str, &Figures)> {
-    let mut rows = vec![("as in the file", &retimed.own)];
-    rows.extend(retimed.laws.iter().map(|row| (row.name, &row.figures)));
-    rows.push(("gentlest", &retimed.best));
+fn rows(gentlest: &GentlestResult) -> Vec<(&'static str, &Figures)> {
+    let mut rows = vec![("as in the file", &gentlest.own)];
+    rows.extend(gentlest.laws.iter().map(|row| (row.name, &row.figures)));
+    rows.push(("gentlest", &gentlest.best));
     rows
 }
 
 /// Whether there are columns for the copper loss, and for the shares of the drive's limits.
-fn columns(shown: &RetimeView) -> [bool; 2] {
+fn columns(shown: &GentlestView) -> [bool; 2] {
     [shown.request.copper.is_some(), shown.drive.is_some()]
 }
 
 /// The motion, its drive, and the ends of its moves.
-pub(crate) fn subject(shown: &RetimeView) -> String {
+pub(crate) fn subject(shown: &GentlestView) -> String {
     let words = words(shown);
     let drive = shown.drive.as_ref().map_or_else(
         || "at the input of the drive train".to_owned(),
@@ -98,12 +98,12 @@ pub(crate) fn subject(shown: &RetimeView) -> String {
 }
 
 /// The result: its figure first, then the motions compared, then each move.
-pub fn answer(shown: &RetimeView) -> Answer<'static> {
+pub fn answer(shown: &GentlestView) -> Answer<'static> {
     let words = words(shown);
-    let RetimeView { retimed, .. } = shown;
+    let GentlestView { gentlest, .. } = shown;
     let title = format!("{}: {}", shown.file.title, subject(shown));
     let mut answer = Answer::new(shown.file.title.clone(), &data(shown)).titled(title);
-    answer.csv(retimed.trace.of_axis(&shown.file.axis()).profile());
+    answer.csv(gentlest.trace.of_axis(&shown.file.axis()).profile());
     describe(&mut answer, shown, words);
     answer.heading("the motions compared");
     let [copper, limits] = columns(shown);
@@ -120,7 +120,7 @@ pub fn answer(shown: &RetimeView) -> Answer<'static> {
         heads.push("peak of limit [%]".to_owned());
         heads.push("speed of largest [%]".to_owned());
     }
-    let rows: Vec<Vec<Cell>> = rows(retimed)
+    let rows: Vec<Vec<Cell>> = rows(gentlest)
         .into_iter()
         .map(|(name, figures)| {
             let mut cells: Vec<Cell> = vec![
@@ -151,19 +151,19 @@ pub fn answer(shown: &RetimeView) -> Answer<'static> {
     answer
 }
 
-fn describe(answer: &mut Answer, shown: &RetimeView, words: &Vocabulary) {
-    let RetimeView {
-        request, retimed, ..
+fn describe(answer: &mut Answer, shown: &GentlestView, words: &Vocabulary) {
+    let GentlestView {
+        request, gentlest, ..
     } = shown;
-    let best = retimed.best.of(request.goal);
+    let best = gentlest.best.of(request.goal);
     let mut says = format!(
         "{} {}: {} in the file",
         short(best),
         unit(request.goal, words),
-        less(best, retimed.own.of(request.goal))
+        less(best, gentlest.own.of(request.goal))
     );
-    if let Some(law) = retimed.best_law(request.goal) {
-        let of = if retimed.laws.len() == LAWS.len() {
+    if let Some(law) = gentlest.best_law(request.goal) {
+        let of = if gentlest.laws.len() == LAWS.len() {
             "with the best law,"
         } else {
             "with"
@@ -177,14 +177,14 @@ fn describe(answer: &mut Answer, shown: &RetimeView, words: &Vocabulary) {
     }
     answer.fact("least", says);
     answer.fact("optimum", optimum(shown, words));
-    for (name, says) in kept::all_lines(shown.file, &retimed.chain) {
+    for (name, says) in kept::all_lines(shown.file, &gentlest.chain) {
         answer.fact(name, says);
     }
-    for (k, gentle) in retimed.moves.iter().enumerate() {
+    for (k, gentle) in gentlest.moves.iter().enumerate() {
         let says = one_move(shown, gentle, request.goal);
         answer.fact(format!("move {}", k + 1), says);
     }
-    for (name, [own, best]) in &retimed.standing {
+    for (name, [own, best]) in &gentlest.standing {
         let says = format!(
             "{name} rests for {} s while the drive turns, in the file for {} s: a new motion of the drive changes that; to keep a dwell, prescribe it in [motion]",
             short(*best),
@@ -193,7 +193,7 @@ fn describe(answer: &mut Answer, shown: &RetimeView, words: &Vocabulary) {
         answer.warning(says);
     }
     if let Some(broken) = shown.broken {
-        answer.warning(of_retime(broken));
+        answer.warning(of_gentlest(broken));
     }
     for check in violated(shown) {
         let whose = if check.id.follows_motion() {
@@ -207,7 +207,7 @@ fn describe(answer: &mut Answer, shown: &RetimeView, words: &Vocabulary) {
 }
 
 /// The rules that the motion violates.
-fn violated<'a>(shown: &'a RetimeView) -> impl Iterator<Item = &'a Check> {
+fn violated<'a>(shown: &'a GentlestView) -> impl Iterator<Item = &'a Check> {
     let all = shown.checks.iter();
     all.filter(|check| check.verdict == RuleVerdict::Fail)
 }
@@ -222,11 +222,11 @@ fn less(value: f64, than: f64) -> String {
     format!("{} {side} than", percent(share.abs()))
 }
 
-fn optimum(shown: &RetimeView, words: &Vocabulary) -> String {
-    let retimed = shown.retimed;
+fn optimum(shown: &GentlestView, words: &Vocabulary) -> String {
+    let gentlest = shown.gentlest;
     let goal = shown.request.goal;
-    let best = retimed.best.of(goal);
-    let bound = retimed.bound.map(|bound| {
+    let best = gentlest.best.of(goal);
+    let bound = gentlest.bound.map(|bound| {
         let gap = if best > 0.0 {
             ((best - bound) / best).max(1e-16)
         } else {
@@ -240,7 +240,7 @@ fn optimum(shown: &RetimeView, words: &Vocabulary) -> String {
         ""
     };
     let unit = unit(goal, words);
-    match (retimed.optimum(), bound) {
+    match (gentlest.optimum(), bound) {
         (Optimum::Global, Some((bound, gap))) => {
             format!("global: no motion of these moves is below {bound} {unit}; gap {gap:.0e}")
         }
@@ -275,7 +275,7 @@ const fn why(reason: Reason) -> &'static str {
     }
 }
 
-fn one_move(shown: &RetimeView, gentle: &LeastEffortMove, goal: Goal) -> String {
+fn one_move(shown: &GentlestView, gentle: &LeastEffortMove, goal: Goal) -> String {
     let axis = shown.file.axis();
     let travel = &gentle.travel;
     let mut says = format!(
@@ -339,9 +339,9 @@ fn percent_fine(share: f64) -> String {
     format!("{} %", short((share * 1e4).round() / 100.0))
 }
 
-/// The JSON of `jred retime` (SI units).
+/// The JSON of `jred gentlest` (SI units).
 #[derive(Serialize, JsonSchema)]
-pub(crate) struct RetimeData<'a> {
+pub(crate) struct GentlestData<'a> {
     /// Name of the drive; none: torque and speed are those at the input of the drive train.
     drive: Option<&'a str>,
     /// The quantity that is least: rms, energy or peak.
@@ -372,8 +372,8 @@ pub(crate) struct RetimeData<'a> {
     nodes: Vec<[f64; 5]>,
 }
 
-impl Data for RetimeData<'_> {
-    const FORM: &'static str = "jred-retime/1";
+impl Data for GentlestData<'_> {
+    const FORM: &'static str = "jred-gentlest/1";
 }
 
 /// Figures of a motion (SI units).
@@ -443,21 +443,21 @@ struct MoveData {
     elements: usize,
 }
 
-fn data<'a>(shown: &'a RetimeView) -> RetimeData<'a> {
-    let RetimeView {
+fn data<'a>(shown: &'a GentlestView) -> GentlestData<'a> {
+    let GentlestView {
         request,
-        retimed,
+        gentlest,
         file,
         ..
     } = *shown;
-    let (global, local_because) = match retimed.optimum() {
+    let (global, local_because) = match gentlest.optimum() {
         Optimum::Global => (true, None),
         Optimum::Local(reason) => (false, Some(why(reason))),
     };
     let axis = file.axis();
     // The mean of a high power has no useful unit.
     let known = |figure: f64| Some(figure).filter(|_| request.goal != Goal::Peak);
-    let moves = retimed.moves.iter().map(|gentle| {
+    let moves = gentlest.moves.iter().map(|gentle| {
         let travel = &gentle.travel;
         let ends = [travel.start, travel.start + travel.distance];
         let [start, end] = ends.map(|phi| axis.position(phi));
@@ -475,23 +475,23 @@ fn data<'a>(shown: &'a RetimeView) -> RetimeData<'a> {
             elements: gentle.elements,
         }
     });
-    let trace = retimed.trace.of_axis(&axis);
+    let trace = gentlest.trace.of_axis(&axis);
     let nodes = trace.nodes().iter();
     let nodes = nodes.map(|node| [node.t, node.phi, node.omega, node.alpha[0], node.alpha[1]]);
-    RetimeData {
+    GentlestData {
         drive: shown.drive.as_deref(),
         objective: request.goal.word(),
-        motions: rows(retimed).into_iter().map(MotionFigures::of).collect(),
-        least: retimed.best.of(request.goal),
-        bound: retimed.bound,
+        motions: rows(gentlest).into_iter().map(MotionFigures::of).collect(),
+        least: gentlest.best.of(request.goal),
+        bound: gentlest.bound,
         global,
         local_because,
-        contact_lost: shown.broken.map(of_retime),
+        contact_lost: shown.broken.map(of_gentlest),
         rules_not_kept: violated(shown).collect(),
         unit: axis.coordinate.per(),
         moves: moves.collect(),
-        kept: kept::parts(file, &retimed.chain),
-        not_kept: kept::lost(file, &retimed.chain),
+        kept: kept::parts(file, &gentlest.chain),
+        not_kept: kept::lost(file, &gentlest.chain),
         nodes: nodes.collect(),
     }
 }

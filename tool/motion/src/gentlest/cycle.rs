@@ -75,7 +75,7 @@ pub struct ComparisonRow {
 
 /// The result.
 #[derive(Clone, Debug)]
-pub struct RetimeResult {
+pub struct GentlestResult {
     /// The motion of the file.
     pub own: Figures,
     /// Links that are at rest while the drive moves, with the time (s) of that in the motion of the file and in the gentlest one, where these differ.
@@ -96,7 +96,7 @@ pub struct RetimeResult {
     pub trace: Trace,
 }
 
-impl RetimeResult {
+impl GentlestResult {
     /// Quality of the optimum: the worst of all moves.
     pub fn optimum(&self) -> Optimum {
         let all = self.moves.iter().map(|gentle| gentle.optimum);
@@ -152,11 +152,11 @@ const COST_TOLERANCE: f64 = 1e-3;
 ///
 /// # Errors
 /// See [`Obstacle`].
-pub fn retime(
+pub fn gentlest_cycle(
     file: &MachineFile,
     motion: &Motion,
     request: &Request,
-) -> Result<RetimeResult, Obstacle> {
+) -> Result<GentlestResult, Obstacle> {
     let chain = moves::chain(motion, &file.process()).map_err(Obstacle::NoMoves)?;
     let asked = Comparison::new(file, motion, request, &chain);
     let mut gentle = asked.gentlest(gentlest::gentlest)?;
@@ -191,7 +191,7 @@ pub fn retime(
         }
     }
     let least = figures.of(request.goal);
-    Ok(RetimeResult {
+    Ok(GentlestResult {
         own: asked.figures(motion)?,
         standing: standing::changed(file, motion, &best)?,
         laws,

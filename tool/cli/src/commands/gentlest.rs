@@ -1,4 +1,4 @@
-//! `jred retime`: the gentlest motion.
+//! `jred gentlest`: the gentlest motion.
 
 use std::path::Path;
 
@@ -9,7 +9,7 @@ use crate::commands::plan;
 use crate::commands::{
     Completion, drive_asked, print_answer, profile_written, read_warned, warn_of_supply,
 };
-use crate::options::retime::{EndAcceleration, RAMP, Retime};
+use crate::options::gentlest::{EndAcceleration, Gentlest, RAMP};
 use crate::output::{self, Files};
 use jred_file::model::drive_train;
 use jred_file::model::machine::MachineFile;
@@ -19,10 +19,10 @@ use jred_file::number::rounding::short;
 use jred_file::plain;
 use jred_motion::contact::broken;
 use jred_motion::fastest::ruled::Judge;
+use jred_motion::gentlest::cycle::{self, Obstacle, Request};
 use jred_motion::gentlest::{Fault, without_drive};
 use jred_motion::moves::{Move, NoMoves};
 use jred_motion::path_dynamics::Actuator;
-use jred_motion::retime::{self, Obstacle, Request};
 use jred_report::list;
 use jred_report::page;
 use jred_sizing::motor::envelope::Envelope;
@@ -32,11 +32,11 @@ use jred_sizing::study::chosen::ChosenDrive;
 ///
 /// # Errors
 /// Bad input, or no motion of moves and pauses.
-pub fn retime(options: &Retime) -> Result<Completion> {
+pub fn gentlest(options: &Gentlest) -> Result<Completion> {
     let file = read_warned(&options.file)?;
-    variator::refuse(&file, "retime")?;
-    drive_train::refuse(&file, "retime")?;
-    file.refuse_timed("retime")?;
+    variator::refuse(&file, "gentlest")?;
+    drive_train::refuse(&file, "gentlest")?;
+    file.refuse_timed("gentlest")?;
     let motion = file.required_motion()?;
     let chosen = drive_asked(options.drive.as_deref(), &options.catalogue, &file)?;
     output::check([
@@ -55,15 +55,15 @@ pub fn retime(options: &Retime) -> Result<Completion> {
     });
     let request = Request {
         actuator,
-        copper: drive.as_ref().and_then(retime::copper),
+        copper: drive.as_ref().and_then(cycle::copper),
         goal: options.objective,
         ramp: ramp(options)?,
         sampling: options.sampling.sampling(),
     };
-    let retimed = retime::retime(&file, motion, &request)
+    let gentlest = cycle::gentlest_cycle(&file, motion, &request)
         .map_err(|obstacle| report(&options.file, options.drive.as_deref(), &file, &obstacle))?;
     let rows = options.rows as usize;
-    let trace = retimed.trace.of_axis(&file.axis());
+    let trace = gentlest.trace.of_axis(&file.axis());
     let mut written = Vec::new();
     let mut files = Files::default();
     if let Some(path) = &options.profile {
@@ -77,34 +77,34 @@ pub fn retime(options: &Retime) -> Result<Completion> {
     let gearbox = drive.and_then(|drive| drive.gearbox?.peak_torque);
     written.extend(plan::write(
         &options.plan,
-        (&file, &retimed.trace),
+        (&file, &gentlest.trace),
         (&request.actuator, gearbox),
         &mut files,
     )?);
     let checks = match drive {
         None => Vec::new(),
         Some(drive) => Judge::new(&file, drive, request.sampling)
-            .checks(&retimed.trace)
+            .checks(&gentlest.trace)
             .map_err(duty_report)?,
     };
-    let broken = broken(&file, &retimed.trace).map_err(core_report)?;
-    let mut shown = list::retime::RetimeView {
+    let broken = broken(&file, &gentlest.trace).map_err(core_report)?;
+    let mut shown = list::gentlest::GentlestView {
         file: &file,
         drive: drive.map(|drive| drive.name()),
         request: &request,
-        retimed: &retimed,
+        gentlest: &gentlest,
         broken: broken.as_ref(),
         checks: &checks,
         written: Vec::new(),
     };
     if let Some(path) = &options.report {
-        let page = page::retime_page(&shown, motion).map_err(core_report)?;
+        let page = page::gentlest_page(&shown, motion).map_err(core_report)?;
         files.add(path, page.as_bytes())?;
         written.push(format!("report written to {}", plain::path(path)));
     }
     files.finish()?;
     shown.written = written;
-    print_answer(&list::retime::answer(&shown), options.format)?;
+    print_answer(&list::gentlest::answer(&shown), options.format)?;
     let mut violated = checks
         .iter()
         .filter(|check| check.verdict == RuleVerdict::Fail && check.id.follows_motion());
@@ -117,7 +117,7 @@ pub fn retime(options: &Retime) -> Result<Completion> {
 }
 
 /// The share of a move's time in which the acceleration rises.
-fn ramp(options: &Retime) -> Result<f64> {
+fn ramp(options: &Gentlest) -> Result<f64> {
     match (options.ends, options.ramp) {
         (EndAcceleration::Zero, given) => Ok(given.unwrap_or(RAMP)),
         (EndAcceleration::Free, None) => Ok(0.0),

@@ -1,4 +1,4 @@
-//! `jred retime`
+//! `jred gentlest`
 
 use std::path::PathBuf;
 
@@ -9,7 +9,7 @@ use super::output_file;
 use super::plan::PlanFile;
 use super::sampling::SamplingOptions;
 use super::word::word;
-use jred_motion::retime::Goal;
+use jred_motion::gentlest::cycle::Goal;
 use jred_motion::trace::Master;
 use jred_report::table::output::Format;
 
@@ -23,12 +23,12 @@ jred_file::words! {
     }
 }
 
-/// `jred retime`
+/// `jred gentlest`
 #[derive(Debug, Args)]
 #[command(
     after_help = "Exit codes: 0 done; 1 the motion violates a rule of `jred size` for the --drive, or loses a contact; 2 bad input."
 )]
-pub struct Retime {
+pub struct Gentlest {
     /// Machine file.
     pub file: PathBuf,
     /// Quantity to minimise.
