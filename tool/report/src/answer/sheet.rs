@@ -34,6 +34,7 @@ impl Sheet {
             columns: self.columns,
             rows: self.rows,
             whole: 1,
+            ..Reading::default()
         };
         let mut answer = Answer::of_map(self.schema, self.title, data);
         answer.csv(all.csv());

@@ -76,5 +76,6 @@ fn alternatives(export: &Export) -> Reading {
         columns: columns.to_vec(),
         rows: rows.collect(),
         whole: columns.len(),
+        ..Reading::default()
     }
 }

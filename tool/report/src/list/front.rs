@@ -95,6 +95,7 @@ pub fn answer(front: &Front, title: &str) -> Answer<'static> {
         columns: named(&["motor", "gearbox", "amplifier"]),
         rows: front.points.iter().map(full).collect(),
         whole: 1,
+        ..Reading::default()
     };
     answer.csv(all.csv());
     let gaps = front.gaps();
@@ -107,6 +108,7 @@ pub fn answer(front: &Front, title: &str) -> Answer<'static> {
         whole: columns.len(),
         columns,
         rows: front.points.iter().map(read).collect(),
+        ..Reading::default()
     });
     answer.sentence(format!(
         "{} of {} drives: no other suitable drive is as good in all of these and better in one",

@@ -144,6 +144,7 @@ pub fn answer(shown: &GentlestView) -> Answer<'static> {
         columns: heads,
         rows,
         whole: 1,
+        ..Reading::default()
     });
     for line in &shown.written {
         answer.sentence(line);

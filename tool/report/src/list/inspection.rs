@@ -143,6 +143,7 @@ fn joints(findings: &Findings, answer: &mut Answer) {
         columns: columns.map(str::to_owned).to_vec(),
         rows: rows.collect(),
         whole: columns.len(),
+        ..Reading::default()
     });
 }
 
@@ -270,6 +271,7 @@ fn segments(motion: &MotionFindings, drive: Coordinate, answer: &mut Answer) {
         columns: columns.map(str::to_owned).to_vec(),
         rows: rows.collect(),
         whole: columns.len(),
+        ..Reading::default()
     });
 }
 

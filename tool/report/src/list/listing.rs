@@ -16,7 +16,7 @@ use jred_sizing::select::size::{Candidate, Selection};
 use crate::answer::Answer;
 use crate::list::suited::MotionData;
 use crate::table::output::Format;
-use crate::table::reading::Reading;
+use crate::table::reading::{ColumnKind, Reading};
 use jred_sizing::study::cell::Cell;
 
 pub use asked::Asked;
@@ -139,13 +139,15 @@ impl<'a> Listing<'a> {
 
 /// A table of texts; all columns but the last `wrapped` ones are not wrapped.
 fn table<const N: usize>(
-    header: [&str; N],
+    header: [(&str, ColumnKind); N],
     rows: impl Iterator<Item = [String; N]>,
     wrapped: usize,
 ) -> Reading {
     Reading {
-        columns: header.map(str::to_owned).to_vec(),
+        columns: header.map(|(name, _)| name.to_owned()).to_vec(),
+        kinds: header.map(|(_, kind)| kind).to_vec(),
         rows: rows.map(|row| row.map(Cell::Text).to_vec()).collect(),
         whole: N - wrapped,
+        last: 72,
     }
 }

@@ -97,6 +97,7 @@ pub fn sheet(study: &Ratios, mut rows: Vec<MotorRatio>, top: Option<usize>) -> S
             columns: READING.map(str::to_owned).to_vec(),
             rows: rows.iter().map(reading).collect(),
             whole: READING.len() - 1,
+            ..Reading::default()
         }),
         rows: rows.iter().map(cells).collect(),
         notes,

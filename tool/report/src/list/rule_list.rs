@@ -56,6 +56,7 @@ fn table<const N: usize>(header: &[&str; N], rows: impl Iterator<Item = [String;
         columns: header.map(str::to_owned).to_vec(),
         rows: rows.map(|row| row.map(Cell::Text).to_vec()).collect(),
         whole: N,
+        ..Reading::default()
     }
 }
 

@@ -176,6 +176,7 @@ fn reading(study: &Study, found: &Sensitivity, words: &Vocabulary) -> Reading {
         columns: columns.map(str::to_owned).to_vec(),
         rows: moving.map(row).collect(),
         whole: 2,
+        ..Reading::default()
     }
 }
 

@@ -127,6 +127,7 @@ pub fn sheet(samples: &Samples, summary: &Summary, rules: &RuleSet) -> Sheet {
             columns: READING.map(str::to_owned).to_vec(),
             rows: rows.clone(),
             whole: 1,
+            ..Reading::default()
         }),
         columns: COLUMNS.map(str::to_owned).to_vec(),
         rows,

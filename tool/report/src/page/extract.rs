@@ -47,6 +47,7 @@ fn section(heading: &str, columns: Vec<String>, rows: Vec<Vec<Cell>>) -> Section
             columns,
             rows,
             whole,
+            ..Reading::default()
         });
     })
 }

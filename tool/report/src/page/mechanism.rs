@@ -10,7 +10,6 @@ use crate::answer::Block;
 use crate::drawing;
 use crate::list::inspection;
 use crate::plot::Axis;
-use crate::table::reading::Reading;
 use jred_analysis::inspect::Findings;
 use jred_analysis::reduce::{Over, Request, Sets, reduce};
 use jred_file::model::coordinate::Coordinate;

@@ -4,7 +4,6 @@ use askama::Template;
 
 use crate::answer::{Answer, Block};
 use crate::plot::{Axes, Axis, lines};
-use crate::table::reading::Reading;
 use jred_file::model::machine::MachineFile;
 use jred_file::number::columns::{Column, ColumnQuantity, Columns};
 

@@ -12,24 +12,38 @@ use jred_sizing::study::cell::Cell;
 /// Largest width of a table; wider cells are wrapped.
 pub const WIDEST: u16 = 120;
 
-/// Least width of wrapped columns behind wide ones that are not wrapped, in a pipe or a file.
-const LAST: u16 = 75;
-
-/// Least width of wrapped columns on a screen.
+/// Least width of the only wrapped column on a screen.
 const LEAST: u16 = 24;
 
 /// Digits of a number in a table.
 const DIGITS: i32 = 3;
+
+/// The kind of a column's cells.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum ColumnKind {
+    /// Words.
+    Words,
+    /// Numbers, with or without a unit.
+    Quantity,
+    /// Per cent of a whole or of a limit: a page draws a bar.
+    Share,
+    /// Words of a [`RuleVerdict`], which a page colours, and the bars of the row.
+    Verdict,
+}
 
 /// A table for reading.
 #[derive(Clone, Debug, Default)]
 pub struct Reading {
     /// Its columns.
     pub columns: Vec<String>,
+    /// Their kinds; if empty, numbers and words are told apart by the cells.
+    pub(crate) kinds: Vec<ColumnKind>,
     /// Its rows.
     pub rows: Vec<Vec<Cell>>,
     /// Number of leading columns that are not wrapped.
     pub whole: usize,
+    /// Least width of the only wrapped column in a pipe or a file.
+    pub(crate) last: u16,
 }
 
 impl Reading {
@@ -40,6 +54,7 @@ impl Reading {
             columns,
             rows,
             whole,
+            ..Self::default()
         };
         table.text(Screen::default())
     }
@@ -56,43 +71,49 @@ impl Reading {
         })
     }
 
-    /// The class and the length (%) of the bar of a cell in a column of shares or used limits.
-    pub(crate) fn bar(&self, column: usize, cell: &str) -> Option<(&'static str, f64)> {
-        let name = self.columns.get(column)?;
-        if !is_share(name) {
+    fn kind(&self, column: usize) -> Option<ColumnKind> {
+        self.kinds.get(column).copied()
+    }
+
+    /// The class and the length (%) of the bar of a cell: by the verdict of its row, else by its sign.
+    pub(crate) fn bar(&self, row: &[String], column: usize) -> Option<(&'static str, f64)> {
+        if self.kind(column) != Some(ColumnKind::Share) {
             return None;
         }
-        let percent: f64 = cell
-            .strip_suffix(" %")?
-            .trim_start_matches("> ")
-            .parse()
-            .ok()?;
-        let class = if percent < 0.0 { "less" } else { "more" };
+        let number = row[column].strip_suffix(" %")?.trim_start_matches("> ");
+        let percent: f64 = number.parse().ok()?;
+        let verdict = (0..row.len()).find(|k| self.kind(*k) == Some(ColumnKind::Verdict));
+        let class = match verdict.map(|k| self.colour(row, k)) {
+            Some(class) => class,
+            None if percent < 0.0 => "less",
+            None => "more",
+        };
         Some((class, percent.abs().min(100.0).round()))
     }
 
-    /// The class of a verdict in a page, after a blank.
-    pub(crate) fn colour(cell: &str) -> &'static str {
-        let is = |verdict: RuleVerdict| cell == verdict.word();
-        match cell {
-            _ if is(RuleVerdict::Pass) => " ok",
-            _ if is(RuleVerdict::Warn) => " warn",
-            _ if is(RuleVerdict::Fail) => " bad",
+    /// The class of a cell with a verdict.
+    pub(crate) fn colour(&self, row: &[String], column: usize) -> &'static str {
+        if self.kind(column) != Some(ColumnKind::Verdict) {
+            return "";
+        }
+        match &row[column] {
+            cell if cell == RuleVerdict::Pass.word() => "ok",
+            cell if cell == RuleVerdict::Warn.word() => "warn",
+            cell if cell == RuleVerdict::Fail.word() => "bad",
             _ => "",
         }
     }
 
-    /// Whether the cells of each column are numbers; beside shares also with a unit.
+    /// Whether each column has numbers.
     pub(crate) fn are_numbers(&self) -> Vec<bool> {
-        let in_units = self.columns.iter().any(|name| is_share(name));
+        if !self.kinds.is_empty() {
+            let is_number =
+                |kind: &ColumnKind| matches!(kind, ColumnKind::Quantity | ColumnKind::Share);
+            return self.kinds.iter().map(is_number).collect();
+        }
         let is_number = |cell: &Cell| match cell {
             Cell::Empty | Cell::Number(_) => true,
-            Cell::Text(text) => {
-                text.is_empty()
-                    || text == "–"
-                    || in_units && is_quantity(text)
-                    || text.parse::<f64>().is_ok()
-            }
+            Cell::Text(text) => text.is_empty() || text == "–" || text.parse::<f64>().is_ok(),
         };
         let column = |k: usize| {
             let cells = || self.rows.iter().filter_map(|row| row.get(k));
@@ -116,23 +137,18 @@ impl Reading {
         // Content, two blanks and a gap.
         let whole = table.column_max_content_widths();
         let whole: u16 = whole.iter().take(self.whole).map(|width| width + 3).sum();
-        let rest = if self.whole + 1 == self.columns.len() {
-            LAST
-        } else {
-            0
+        let least = match self.columns.len() - self.whole {
+            0 => whole,
+            1 if width.is_none() => whole + self.last,
+            1 => whole + LEAST,
+            _ => 0,
         };
+        // On a narrow screen the only wrapped column would have no room.
+        let is_narrow = width.is_some_and(|width| width < least);
+        let kept = if is_narrow { 1 } else { self.whole };
         table
             .set_content_arrangement(ContentArrangement::Dynamic)
-            .set_width(
-                width.unwrap_or(if rest > 0 || self.whole == self.columns.len() {
-                    WIDEST.max(whole + rest)
-                } else {
-                    WIDEST
-                }),
-            );
-        // On a narrow screen the last column would have no room.
-        let is_narrow = rest > 0 && width.is_some_and(|width| width < whole + LEAST);
-        let kept = if is_narrow { 1 } else { self.whole };
+            .set_width(width.unwrap_or(WIDEST.max(least)));
         for column in table.column_iter_mut().take(kept) {
             column.set_constraint(ColumnConstraint::ContentWidth);
         }
@@ -147,18 +163,4 @@ impl Reading {
             .collect();
         lines.concat()
     }
-}
-
-/// Whether a column has used limits or shares of a whole.
-fn is_share(name: &str) -> bool {
-    name.ends_with("used") || name.starts_with("share")
-}
-
-/// Whether a text is a number with or without a unit: "42 %", "> 1000 %", "3.3 N m", "7200 per hour".
-fn is_quantity(text: &str) -> bool {
-    let text = text.trim_start_matches("> ").trim_start_matches("< ");
-    let (number, unit) = text.split_once(' ').unwrap_or((text, ""));
-    let is_number = number.trim_end_matches('…').parse::<f64>().is_ok();
-    let parts: Vec<&str> = unit.split(' ').collect();
-    is_number && matches!(parts[..], [_] | ["N" | "kg" | "per", _])
 }

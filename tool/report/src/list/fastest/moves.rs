@@ -90,6 +90,7 @@ impl FastestView<'_> {
             whole: columns.len(),
             columns,
             rows,
+            ..Reading::default()
         });
         unlimited(made, &phases, answer);
         for cost in &made.costs {

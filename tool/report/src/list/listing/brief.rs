@@ -4,6 +4,7 @@ use super::full::{doubt, kilowatts};
 use super::{Listing, table};
 use crate::answer::Answer;
 use crate::list::marks;
+use crate::table::reading::ColumnKind::{Quantity, Share, Verdict, Words};
 use jred_file::model::machine::MachineFile;
 use jred_file::model::rule::Rule;
 use jred_file::model::rules::RuleVerdict;
@@ -169,7 +170,13 @@ pub(super) fn limits(answer: &mut Answer, judged: &Assessment) {
         let rule = check.rule.to_owned();
         [rule, check.figure(), bound, check.used(), verdict]
     };
-    let header = [title, "figure", "limit", "used", "verdict"];
+    let header = [
+        (title, Words),
+        ("figure", Quantity),
+        ("limit", Quantity),
+        ("used", Share),
+        ("verdict", Verdict),
+    ];
     answer.table(table(header, shown.iter().map(row), 0));
     let checked = count(RuleVerdict::Pass) + count(RuleVerdict::Warn) + fails;
     let result = match (fails, count(RuleVerdict::Warn)) {

@@ -5,6 +5,7 @@ use serde::Serialize;
 
 use super::table;
 use crate::answer::Answer;
+use crate::table::reading::ColumnKind::{self, Quantity, Words};
 use jred_analysis::duty::Duty;
 use jred_file::model::machine::MachineFile;
 use jred_file::number::rounding::{percent, short, shown};
@@ -102,12 +103,12 @@ pub(crate) fn contributions(answer: &mut Answer, breakdown: &Breakdown) {
     let Breakdown { total, words, .. } = breakdown;
     for (name, shares) in [("effect", &breakdown.effects), ("part", &breakdown.parts)] {
         let header = [
-            name,
-            "RMS",
-            "peak",
-            "at the peak",
-            "share of mean square",
-            "energy [J]",
+            (name, Words),
+            ("RMS", Quantity),
+            ("peak", Quantity),
+            ("at the peak", Quantity),
+            ("share of mean square", ColumnKind::Share),
+            ("energy [J]", Quantity),
         ];
         let row = |share: &Share| {
             [
@@ -130,7 +131,13 @@ pub(crate) fn contributions(answer: &mut Answer, breakdown: &Breakdown) {
     };
     let shares = breakdown.inertia.iter().chain([&breakdown.total_inertia]);
     let name = format!("{inertia} at the motor [{}]", inertia.unit);
-    let header = [&*name, "min", "mean", "max", "share"];
+    let header = [
+        (&*name, Words),
+        ("min", Quantity),
+        ("mean", Quantity),
+        ("max", Quantity),
+        ("share", ColumnKind::Share),
+    ];
     answer.table(table(header, shares.map(row), 0));
 }
 

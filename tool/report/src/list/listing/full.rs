@@ -3,6 +3,7 @@
 use super::{Listing, table};
 use crate::answer::Answer;
 use crate::list::marks;
+use crate::table::reading::ColumnKind::{self, Quantity, Share, Verdict, Words};
 use crate::table::reading::Reading;
 use jred_analysis::duty::Instant;
 use jred_file::model::rule::Rule;
@@ -31,7 +32,13 @@ pub(super) fn supply(site: &Site) -> String {
 /// Every rule of a drive, those without data, and the warnings.
 pub(crate) fn rules(answer: &mut Answer, judged: &Assessment) {
     let header = [
-        "rule", "figure", "limit", "used", "margin", "verdict", "limit is",
+        ("rule", Words),
+        ("figure", Quantity),
+        ("limit", Quantity),
+        ("used", Share),
+        ("margin", Quantity),
+        ("verdict", Verdict),
+        ("limit is", Words),
     ];
     let (open, checked): (Vec<&Check>, Vec<&Check>) =
         (judged.checks.iter()).partition(|check| check.verdict == RuleVerdict::NotChecked);
@@ -122,7 +129,8 @@ impl Listing<'_> {
                 cells.map(|x| rounded(if x.abs() <= noise { 0.0 } else { x / unit }));
             [name, min, mean, max, rms]
         };
-        let header = ["", "min", "mean", "max", "RMS"];
+        let names = ["min", "mean", "max", "RMS"].map(|name| (name, Quantity));
+        let header = [("", Words), names[0], names[1], names[2], names[3]];
         answer.table(table(header, rows.into_iter().map(row), 0));
         answer.sentence(format!(
             "per cycle: {} J supplied, {} J regenerated; the brake resistor or the DC bus takes at most the latter",
@@ -211,23 +219,24 @@ impl Listing<'_> {
             .map(|(rank, candidate)| (*rank, selection.judged(candidate)));
         let each: Vec<(usize, Assessment)> = each.collect();
         let resistors = each.iter().any(|(_, judged)| judged.resistor.is_some());
-        let mut columns = vec![
-            "rank",
-            "motor",
-            "made for",
-            "gearbox",
-            "ratio",
-            "amplifier",
-            "rated [kW]",
-            "mass [kg]",
-            "price",
-            "RMS used",
-            "peak used",
-            "speed used",
-            "λ max",
+        let mut header = vec![
+            ("rank", Quantity),
+            ("motor", Words),
+            ("made for", Words),
+            ("gearbox", Words),
+            ("ratio", Quantity),
+            ("amplifier", Words),
+            ("rated [kW]", Quantity),
+            ("mass [kg]", Quantity),
+            ("price", Quantity),
+            ("RMS used", Share),
+            ("peak used", Share),
+            ("speed used", Share),
+            ("λ max", Quantity),
         ];
-        columns.extend(resistors.then_some("brake resistor"));
-        columns.extend(in_full.then_some("remarks"));
+        header.extend(resistors.then_some(("brake resistor", Words)));
+        header.extend(in_full.then_some(("remarks", Words)));
+        let (columns, kinds): (Vec<&str>, Vec<ColumnKind>) = header.into_iter().unzip();
         let row = |(rank, judged): &(usize, Assessment)| {
             let mut row = rank_row(*rank, judged, in_full).to_vec();
             if resistors {
@@ -244,11 +253,13 @@ impl Listing<'_> {
             columns: columns.into_iter().map(str::to_owned).collect(),
             rows: each.iter().map(row).collect(),
             // Keys are for copying.
+            kinds,
             whole: if in_full {
                 0
             } else {
                 13 + usize::from(resistors)
             },
+            ..Reading::default()
         });
         if self.count() > 1 {
             let words = judged.drive.motor.kind.vocabulary();
