@@ -218,6 +218,14 @@ fn help_names_the_exit_codes() {
 }
 
 #[test]
+fn the_former_name_of_gentlest_is_accepted_and_not_shown() {
+    let press = press_file();
+    let [new, old] = ["gentlest", "retime"].map(|name| jred([&name, &press]).ends(0).out);
+    assert_eq!(new, old);
+    assert!(!run(&["--help"]).ends(0).out.contains("retime"));
+}
+
+#[test]
 fn every_machine_of_the_folder_can_be_reduced() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../machines");
     let mut count = 0;

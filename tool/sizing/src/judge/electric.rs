@@ -328,6 +328,13 @@ fn bus_place(context: &Context, finding: Finding) -> String {
     }
     let rises = finding.value > data.chopper_voltage.unwrap_or(f64::INFINITY);
     if let Some(need) = need.or_else(|| Need::of(&data, &curve).filter(|_| rises)) {
+        if finding.value <= finding.rating {
+            let on = data.chopper_voltage.map_or_else(String::new, short);
+            return format!(
+                "{words}; no brake resistor is needed (one of {} holds the bus at {on} V)",
+                need.figures()
+            );
+        }
         words += ", ";
         words += &need.words();
         words += "; ";
