@@ -23,7 +23,7 @@ use jred_report::list;
 use jred_report::table::output::Format;
 
 /// Positions where the pieces of the table meet; empty without `--pieces`.
-fn edges(options: &options::Export, file: &MachineFile) -> Result<Vec<f64>> {
+fn edges(options: &options::export::Export, file: &MachineFile) -> Result<Vec<f64>> {
     let edges = match options.pieces.as_deref() {
         None => return Ok(Vec::new()),
         Some("auto") => (0..).map_while(|k| file.machine.edge(k)).collect(),
@@ -49,7 +49,7 @@ fn edges(options: &options::Export, file: &MachineFile) -> Result<Vec<f64>> {
 }
 
 /// The name of the table in a program, if one is given.
-fn name(options: &options::Export) -> Result<Option<Name>> {
+fn name(options: &options::export::Export) -> Result<Option<Name>> {
     let Some(text) = &options.name else {
         return Ok(None);
     };
@@ -71,7 +71,7 @@ fn name(options: &options::Export) -> Result<Option<Name>> {
 }
 
 /// Whether the table has a curve of 1/J; refuses options that do not go together.
-fn reciprocal(options: &options::Export) -> Result<bool> {
+fn reciprocal(options: &options::export::Export) -> Result<bool> {
     let reciprocal = match options.reciprocal {
         Choice::Auto => options.forward && options.number != Number::F32,
         Choice::Yes => true,
@@ -111,7 +111,7 @@ fn reciprocal(options: &options::Export) -> Result<bool> {
 ///
 /// # Errors
 /// Bad input, or a file that cannot be written.
-pub(super) fn run(options: &options::Export) -> Result<Completion> {
+pub(super) fn run(options: &options::export::Export) -> Result<Completion> {
     let file = read_warned(&options.file)?;
     output::check([("--out", &options.out)])?;
     let name = name(options)?;
@@ -184,7 +184,7 @@ pub(super) fn run(options: &options::Export) -> Result<Completion> {
 }
 
 /// Prints the table and the path of its file.
-fn show(options: &options::Export, export: &Export) -> Result<Completion> {
+fn show(options: &options::export::Export, export: &Export) -> Result<Completion> {
     let mut answer = list::export::answer(export);
     let format = match (&options.out, options.format) {
         (None, OutputForm::Json) => Format::Json,
