@@ -108,7 +108,8 @@ pub fn fastest(options: &Options) -> Result<Completion> {
     let made = match chosen.drive.as_ref().filter(|_| by_rules) {
         None => make(&limits, rms).map(|(cycle, warmth)| (cycle, warmth, None)),
         Some(drive) => {
-            let judge = Judge::new(&file, drive.drive(), options.supply.course.sampling());
+            let judge = Judge::new(&file, drive.drive(), options.supply.course.sampling())
+                .with_resistors(drive.resistors());
             let heat = rms.is_some() || warmth.is_some();
             let found = ruled(&judge, (&limits, rms), heat, make);
             found.map(|(cycle, warmth, judged)| (cycle, warmth, Some(judged)))

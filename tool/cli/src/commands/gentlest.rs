@@ -81,9 +81,10 @@ pub fn gentlest(options: &Gentlest) -> Result<Completion> {
         (&request.actuator, gearbox),
         &mut files,
     )?);
-    let checks = match drive {
+    let checks = match &chosen {
         None => Vec::new(),
-        Some(drive) => Judge::new(&file, drive, request.sampling)
+        Some(chosen) => Judge::new(&file, chosen.drive(), request.sampling)
+            .with_resistors(chosen.resistors())
             .checks(&gentlest.trace)
             .map_err(duty_report)?,
     };

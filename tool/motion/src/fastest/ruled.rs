@@ -13,7 +13,7 @@ use jred_file::model::machine::MachineFile;
 use jred_file::model::motion::Motion;
 use jred_file::model::rule::Rule;
 use jred_file::model::rules::RuleVerdict;
-use jred_sizing::catalogue::Drive;
+use jred_sizing::catalogue::{Drive, Resistor};
 use jred_sizing::judge::Context;
 use jred_sizing::judge::Findings;
 use jred_sizing::judge::check::Check;
@@ -123,6 +123,7 @@ pub struct Judge<'a> {
     file: &'a MachineFile,
     drive: Drive<'a>,
     prepared: MotorLimits,
+    resistors: &'a [Resistor],
     sampling: Sampling,
 }
 
@@ -133,8 +134,15 @@ impl<'a> Judge<'a> {
             file,
             drive,
             prepared: MotorLimits::new(drive.motor, drive.amplifier, &file.site),
+            resistors: &[],
             sampling,
         }
+    }
+
+    /// With brake resistors to choose from, as `jred size` has them.
+    pub const fn with_resistors(mut self, resistors: &'a [Resistor]) -> Self {
+        self.resistors = resistors;
+        self
     }
 
     fn with<T>(&self, trace: &Trace, of: impl FnOnce(&Context) -> T) -> Result<T, DutyError> {
@@ -148,7 +156,7 @@ impl<'a> Judge<'a> {
         let duty = Duty::new(&file, &motion, self.sampling)?;
         let cycle = jred_sizing::cycle::Cycle::new(&duty);
         let context = Context::new(&cycle, &file.site, self.drive, &self.prepared);
-        Ok(of(&context))
+        Ok(of(&context.with_resistors(self.resistors)))
     }
 
     /// The findings of all rules in a motion.

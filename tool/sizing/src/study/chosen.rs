@@ -67,6 +67,11 @@ impl ChosenDrive {
         }
     }
 
+    /// The brake resistors of its catalogue.
+    pub fn resistors(&self) -> &[Resistor] {
+        &self.resistors
+    }
+
     /// Its name.
     pub fn name(&self) -> String {
         self.drive().name()
