@@ -46,12 +46,7 @@ impl Answer<'_> {
                     text += code;
                     text.push('\n');
                 }
-                Block::Table(table) => {
-                    if k > 0 && matches!(self.blocks[k - 1], Block::Fact(..)) {
-                        text.push('\n');
-                    }
-                    text += &table.text(screen);
-                }
+                Block::Table(table) => text += &table.text(screen),
                 Block::Sentence(sentence) => screen.fill(&mut text, "", INDENT, sentence),
                 Block::Warning(warning) => {
                     screen.fill(&mut text, "", INDENT, &format!("warning: {warning}"));

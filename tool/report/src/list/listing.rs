@@ -148,6 +148,6 @@ fn table<const N: usize>(
         kinds: header.map(|(_, kind)| kind).to_vec(),
         rows: rows.map(|row| row.map(Cell::Text).to_vec()).collect(),
         whole: N - wrapped,
-        last: 72,
+        last: 75,
     }
 }
