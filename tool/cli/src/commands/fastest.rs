@@ -128,8 +128,12 @@ pub fn fastest(options: &Options) -> Result<Completion> {
     series(options, &trace, &mut files)?;
     let planned = plan::write(
         &options.plan,
-        (&file, &cycle.trace),
-        (actuator, chosen.limits.gearbox_torque),
+        &plan::PlannedMotion {
+            file: &file,
+            trace: &cycle.trace,
+            actuator,
+            gearbox: chosen.limits.gearbox_torque,
+        },
         &mut files,
     )?;
     let view = list::fastest::FastestView {

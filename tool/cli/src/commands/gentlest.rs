@@ -77,8 +77,12 @@ pub fn gentlest(options: &Gentlest) -> Result<Completion> {
     let gearbox = drive.and_then(|drive| drive.gearbox?.peak_torque);
     written.extend(plan::write(
         &options.plan,
-        (&file, &gentlest.trace),
-        (&request.actuator, gearbox),
+        &plan::PlannedMotion {
+            file: &file,
+            trace: &gentlest.trace,
+            actuator: &request.actuator,
+            gearbox,
+        },
         &mut files,
     )?);
     let checks = match &chosen {

@@ -16,21 +16,30 @@ use jred_motion::plan::ramp::least_ramp;
 use jred_motion::trace::Trace;
 use jred_report::list;
 
-/// Writes the plan, if requested; returns a sentence about it. `gearbox`: largest torque at the gearbox output (N·m).
+/// A motion and the drive that makes it.
+pub(super) struct PlannedMotion<'a> {
+    pub(super) file: &'a MachineFile,
+    pub(super) trace: &'a Trace,
+    pub(super) actuator: &'a Actuator,
+    /// Largest torque at the gearbox output (N·m).
+    pub(super) gearbox: Option<f64>,
+}
+
+/// Writes the plan, if requested; returns a sentence about it.
 ///
 /// # Errors
 /// A motion that does not fit a plan, or a file that cannot be written.
 pub(super) fn write(
     options: &PlanFile,
-    (file, trace): (&MachineFile, &Trace),
-    (actuator, gearbox): (&Actuator, Option<f64>),
+    motion: &PlannedMotion,
     files: &mut Files,
 ) -> Result<Option<String>> {
+    let PlannedMotion { file, trace, .. } = *motion;
     let Some(path) = &options.plan else {
         return Ok(None);
     };
     let machine = jred_export::identifier(&file.title);
-    let ramp = least_ramp(file, actuator, gearbox, trace).map_err(core_report)?;
+    let ramp = least_ramp(file, motion.actuator, motion.gearbox, trace).map_err(core_report)?;
     let plan = Plan::new(trace, file.machine.domain(), machine, options.plan_error)
         .and_then(|plan| plan.with_ramp(ramp))
         .map_err(|error| miette!(help = format!("{}", error.cure()), "{error}"))?;

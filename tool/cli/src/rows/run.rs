@@ -119,7 +119,7 @@ pub fn run(
         for cells in rows.into_iter().map_while(|row| row) {
             let index = shard.row(done);
             let study = (done == 0).then_some(study.as_str());
-            text += &form.line(&header.columns, (index, &cells), study);
+            text += &form.line(&header.columns, index, &cells, study);
             seen(index, &cells);
             done += 1;
         }

@@ -36,7 +36,8 @@ impl RowFormat {
     pub fn line(
         self,
         columns: &[String],
-        (index, cells): (u64, &[Cell]),
+        index: u64,
+        cells: &[Cell],
         study: Option<&str>,
     ) -> String {
         if self == Self::Json {
