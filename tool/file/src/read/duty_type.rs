@@ -3,9 +3,9 @@
 use crate::model::operation::{Duty, Operation};
 use crate::model::site::Site;
 
-use crate::text::item::Value;
 use crate::text::problem::Result;
 use crate::text::section::Section;
+use crate::text::value::Value;
 
 /// Reads the operation into the site.
 pub(super) fn read(root: &Section, site: &mut Site) -> Result<()> {

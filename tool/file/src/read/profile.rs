@@ -12,9 +12,9 @@ use super::motion::{self, PrescribedCoordinate};
 use crate::number::rounding::figure;
 use crate::text::columns::{Columns, CsvFault, CsvFile, Layout};
 use crate::text::csv;
-use crate::text::item::Value;
 use crate::text::problem::{Problem, Result};
 use crate::text::section::Section;
+use crate::text::value::Value;
 
 mod closing;
 mod form;

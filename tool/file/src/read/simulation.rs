@@ -11,9 +11,10 @@ use crate::model::simulation::{Shaft, Simulation};
 
 use super::drive_link::DriveLink;
 use crate::number::rounding::figure;
-use crate::text::item::{Item, Value};
+use crate::text::item::Item;
 use crate::text::problem::{Problem, Result};
 use crate::text::section::Section;
+use crate::text::value::Value;
 use crate::units::kind::LENGTH;
 use motor::effort;
 use place::AxisReader;

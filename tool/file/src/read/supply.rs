@@ -3,9 +3,9 @@
 use crate::model::site::Site;
 use crate::model::supply::{BrakeResistor, MAINS, Supply, rectified};
 
-use crate::text::item::Value;
 use crate::text::problem::{Problem, Result};
 use crate::text::section::Section;
+use crate::text::value::Value;
 
 /// Reads the supply into the site.
 pub(super) fn read(root: &Section, site: &mut Site) -> Result<()> {

@@ -6,9 +6,10 @@ use jred::Domain;
 use jred::machine::Window;
 
 use super::drive_link::DriveLink;
-use crate::text::item::{Item, Value};
+use crate::text::item::Item;
 use crate::text::problem::Result;
 use crate::text::section::Section;
+use crate::text::value::Value;
 
 /// `turns`: number of turns of the drive link after which a load repeats.
 pub(super) fn turns(section: &Section, drive: DriveLink) -> Result<u32> {

@@ -6,15 +6,16 @@ use std::ops::Range;
 use toml::Spanned;
 use toml::de::DeValue;
 
-use super::key::{Kinds, OPEN, ValueForm, ValueRange};
+use super::key::{Kinds, ValueForm, ValueRange};
 use super::problem::{Problem, Result, quoted};
-use super::section::Section;
+use super::value::Value;
 use crate::number::rounding::figure;
-use crate::number::words::counted;
 use crate::plain;
 use crate::units::kind::{Kind, SHARE};
-use crate::units::quantity::{self, Quantity};
+use crate::units::quantity;
 use crate::units::{Fault, did_you_mean};
+
+mod list;
 
 /// A value with its name for messages.
 #[derive(Clone, Debug)]
@@ -37,17 +38,6 @@ const NO_KIND: Kind = Kind {
     name: "a value that is described",
     ..SHARE
 };
-
-/// A quantity in SI with its place in the file.
-pub(crate) struct Value {
-    /// The value in SI.
-    pub(crate) si: f64,
-    quantity: Quantity,
-    /// Its kind.
-    pub(crate) kind: &'static Kind,
-    name: String,
-    span: Range<usize>,
-}
 
 impl<'a> Item<'a> {
     pub(crate) fn new(
@@ -364,195 +354,5 @@ impl<'a> Item<'a> {
     /// Whether the value is a table.
     pub(crate) fn is_table(&self) -> bool {
         matches!(self.value.get_ref(), DeValue::Table(_))
-    }
-
-    /// The elements of a list; in messages each is called `word` with its number.
-    pub(crate) fn list(&self, word: &str, example: &str) -> Result<Vec<Self>> {
-        let DeValue::Array(array) = self.value.get_ref() else {
-            return Err(self.wrong_type("a list", &format!("{} = {example}", self.key)));
-        };
-        let list = |form| match form {
-            ValueForm::List(element, counts) => Some((*element, counts)),
-            _ => None,
-        };
-        let described = self.form.and_then(|form| form.first(list));
-        if let Some((_, [least, most])) = described
-            && !(least..=most).contains(&array.len())
-        {
-            return Err(self.wrong_count(array.len(), [least, most], (word, example)));
-        }
-        let element = |(k, value): (usize, &'a Spanned<DeValue<'a>>)| {
-            let name = format!("{word} {} of {}", k + 1, self.name);
-            let element = described.map(|(element, _)| element);
-            Self::new(name, self.key, value.span(), value).described(element, "", self.slides)
-        };
-        Ok(array.iter().enumerate().map(element).collect())
-    }
-
-    /// The two elements of a list.
-    pub(crate) fn both(&self, word: &str, example: &str) -> Result<[Self; 2]> {
-        let list = self.list(word, example)?;
-        list.try_into()
-            .map_err(|list: Vec<Self>| self.wrong_count(list.len(), [2, 2], (word, example)))
-    }
-
-    /// The problem of a list with too few or too many elements, each called `word`.
-    fn wrong_count(
-        &self,
-        count: usize,
-        counts: [usize; 2],
-        (word, example): (&str, &str),
-    ) -> Problem {
-        let words = format!("{word}s");
-        let counts = match counts {
-            [2, 2] => format!("two {words}"),
-            [least, usize::MAX] => format!("at least {}", counted(least, word, &words)),
-            [least, most] => format!("{least} to {most} {words}"),
-        };
-        let problem = self.problem(&format!("must have {counts}, but has {count}"), "here");
-        problem.help(format!("write {} = {example}", self.key))
-    }
-
-    /// Two quantities.
-    pub(crate) fn pair(&self, kinds: [&'static Kind; 2]) -> Result<[Value; 2]> {
-        let [first, second] = kinds;
-        // Coordinates, or the ends of a range, of which the second is larger.
-        let example = if std::ptr::eq(first, second) {
-            format!("[\"0 {}\", \"{}\"]", first.unit, second.example)
-        } else {
-            format!("[\"{}\", \"{}\"]", first.example, second.example)
-        };
-        let [first, second] = self.both("value", &example)?;
-        Ok([first.quantity(kinds[0])?, second.quantity(kinds[1])?])
-    }
-
-    /// A table, called `title` in messages.
-    pub(crate) fn section(&self, title: String) -> Result<Section<'a>> {
-        let DeValue::Table(table) = self.value.get_ref() else {
-            let example = format!("a table: {title}, or {} = {{ … }}", self.key);
-            return Err(self.wrong_type("a table", &example));
-        };
-        let keys = self.form.and_then(ValueForm::table).unwrap_or(&OPEN);
-        let section = Section::described(title, self.span(), table, (keys, self.slides));
-        section.not_both(keys)?;
-        Ok(match self.form {
-            Some(ValueForm::Named(entry)) => section.of_entries(*entry),
-            _ => section,
-        })
-    }
-
-    /// An array of tables; in messages each is called `title` with its number.
-    ///
-    /// # Errors
-    /// The value is not an array of tables.
-    pub fn sections(&self, title: &str) -> Result<Vec<Section<'a>>> {
-        let DeValue::Array(array) = self.value.get_ref() else {
-            let example = format!("the header in double brackets: {title}, once for each");
-            return Err(self.wrong_type("a list of tables", &example));
-        };
-        let items = array.iter().enumerate();
-        items
-            .map(|(k, value)| {
-                let name = format!("{title} number {}", k + 1);
-                Self::new(name.clone(), self.key, value.span(), value)
-                    .described(self.form, self.example, self.slides)
-                    .section(name)
-            })
-            .collect()
-    }
-}
-
-impl Value {
-    /// A problem with this quantity.
-    pub(crate) fn problem(&self, what: &str, label: &str) -> Problem {
-        Problem::new(format!("{} {what}", self.name)).at(self.span.clone(), label)
-    }
-
-    /// The place of the value.
-    pub(crate) fn span(&self) -> Range<usize> {
-        self.span.clone()
-    }
-
-    /// The value in the file's unit, with a shortened number.
-    pub(crate) fn shown(&self) -> String {
-        self.show(self.si)
-    }
-
-    /// Another SI value in the unit of this one.
-    pub(crate) fn show(&self, si: f64) -> String {
-        self.quantity.in_its_unit(si).trim_end().to_owned()
-    }
-
-    /// Checks that the value is within limits.
-    pub(crate) fn check(&self, limit: ValueRange) -> Result<()> {
-        match limit {
-            ValueRange::Any => Ok(()),
-            ValueRange::Positive => self.check_positive(),
-            ValueRange::NotNegative => self.check_not_negative(),
-            ValueRange::UpTo(most) => self.check_positive().and_then(|()| self.check_most(most)),
-            ValueRange::Within(most) => self
-                .check_not_negative()
-                .and_then(|()| self.check_most(most)),
-            ValueRange::Between(least, most) => self.check_between([least, most]),
-        }
-    }
-
-    fn check_not_negative(&self) -> Result<()> {
-        if self.si >= 0.0 {
-            return Ok(());
-        }
-        let what = format!("is {}, but must not be negative", self.shown());
-        Err(self
-            .problem(&what, "negative")
-            .help(format!("write {} of zero or more", self.kind.name)))
-    }
-
-    /// Checks that the value is greater than zero.
-    pub(crate) fn check_positive(&self) -> Result<()> {
-        if self.si >= self.kind.smallest {
-            return Ok(());
-        }
-        let what = if self.si > 0.0 {
-            format!("is {}, too small for any machine", self.shown())
-        } else {
-            format!("is {}, but must be greater than zero", self.shown())
-        };
-        Err(self.problem(&what, "too small").help(format!(
-            "write {} such as \"{}\"",
-            self.kind.name, self.kind.example
-        )))
-    }
-
-    /// The value if it is greater than zero.
-    pub(crate) fn positive(self) -> Result<f64> {
-        self.check_positive().map(|()| self.si)
-    }
-
-    fn check_most(&self, max: f64) -> Result<()> {
-        if self.si <= max {
-            return Ok(());
-        }
-        let (max, shown) = (self.show(max), self.shown());
-        let what = format!("is {shown}, but must not be greater than {max}");
-        let help = if self.kind.unit == "%" && self.quantity.unit.text.is_empty() {
-            format!("the plain number 1 means 100 %; write \"{shown} %\"")
-        } else {
-            format!("write {} of {max} or less", self.kind.name)
-        };
-        Err(self.problem(&what, "too large").help(help))
-    }
-
-    fn check_between(&self, [least, most]: [f64; 2]) -> Result<()> {
-        if (least..=most).contains(&self.si) {
-            return Ok(());
-        }
-        let ends = [least, most].map(|end| self.show(end));
-        let what = format!(
-            "is {}, but must be between {} and {}",
-            self.shown(),
-            ends[0],
-            ends[1]
-        );
-        Err(self.problem(&what, "out of range").help("check the number"))
     }
 }

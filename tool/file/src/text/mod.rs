@@ -10,3 +10,4 @@ pub mod key;
 pub mod problem;
 pub mod section;
 pub mod tree;
+pub(crate) mod value;

@@ -7,9 +7,10 @@ use jred::number::RangeError;
 use super::{core, link};
 use crate::model::mechanism::{AnyMechanism, ChangePoint};
 use crate::number::rounding::short;
-use crate::text::item::{Item, Value};
+use crate::text::item::Item;
 use crate::text::problem::{Problem, Result};
 use crate::text::section::Section;
+use crate::text::value::Value;
 
 pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
     let pivot = section.two("pivot")?;

@@ -1,9 +1,10 @@
 //! Speed, acceleration and jerk at the ends of a segment, as far as the file gives them.
 
-use crate::text::item::{Item, Value};
+use crate::text::item::Item;
 use crate::text::key::JERKS;
 use crate::text::problem::Result;
 use crate::text::section::Section;
+use crate::text::value::Value;
 
 /// The ends of a segment; values that are not given come from its neighbours.
 #[derive(Default)]

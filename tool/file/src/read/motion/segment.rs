@@ -6,10 +6,11 @@ use crate::keys::motion::MOTION_LAWS;
 use crate::model::motion::{MotionSegment, MoveLimits};
 use crate::read::drive_link::DriveLink;
 use crate::read::law;
-use crate::text::item::{Item, Value};
+use crate::text::item::Item;
 use crate::text::key::SPEED;
 use crate::text::problem::{Problem, Result};
 use crate::text::section::Section;
+use crate::text::value::Value;
 
 use super::PrescribedCoordinate;
 use super::ends::Ends;

@@ -4,9 +4,9 @@ use jred::machine::motion::{End, Polynomial};
 
 use crate::model::motion::{Motion, MotionSegment, Phase, Reach, change, fastest};
 use crate::read::drive_link::DriveLink;
-use crate::text::item::Value;
 use crate::text::problem::{Problem, Result};
 use crate::text::section::Section;
+use crate::text::value::Value;
 
 use super::ends::Ends;
 use super::join;

@@ -14,9 +14,10 @@ use crate::number::numerics;
 use crate::number::rounding::figure;
 use crate::read::drive_link::DriveLink;
 use crate::read::tool;
-use crate::text::item::{Item, Value};
+use crate::text::item::Item;
 use crate::text::problem::{Problem, Result};
 use crate::text::section::Section;
+use crate::text::value::Value;
 
 /// Share of the tool's path that counts as its dead centre: the drive link's acceleration grows without bound towards it.
 const AT_DEAD_CENTRE: f64 = 1e-8;

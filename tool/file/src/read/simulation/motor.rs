@@ -4,9 +4,10 @@ use super::DriveLink;
 use crate::model::characteristic::Characteristic;
 use crate::model::simulation::Winding;
 use crate::number::rounding::{percent, short};
-use crate::text::item::{Item, Value};
+use crate::text::item::Item;
 use crate::text::problem::Result;
 use crate::text::section::Section;
+use crate::text::value::Value;
 
 /// Motor data of a file.
 pub(super) struct MotorModel {

@@ -7,8 +7,9 @@ use crate::model::axis::Axis;
 use crate::model::coordinate::Coordinate;
 use crate::number::rounding::figure;
 use crate::read::drive_link::DriveLink;
-use crate::text::item::{Item, Value};
+use crate::text::item::Item;
 use crate::text::problem::Result;
+use crate::text::value::Value;
 
 /// The axis of a machine and its drive link.
 #[derive(Clone, Copy)]

@@ -3,9 +3,9 @@
 use jred::mechanism::cam::CamError;
 
 use crate::read::mechanism::core;
-use crate::text::item::Value;
 use crate::text::problem::Problem;
 use crate::text::section::Section;
+use crate::text::value::Value;
 
 /// The error of the core, shown at the key to change.
 pub(in crate::read::mechanism) fn problem(
