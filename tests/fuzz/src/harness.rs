@@ -435,7 +435,7 @@ fn rows(text: &str) -> bool {
                 (0, texts.take(header.columns.len()).collect())
             }
         };
-        let again = form.line(&header.columns, (index, &cells), None);
+        let again = form.line(&header.columns, index, &cells, None);
         let read = store::row(form, &header.columns, again.trim_end());
         assert!(
             read.is_some_and(|(_, cells)| cells.len() == header.columns.len()),

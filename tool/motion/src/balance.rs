@@ -11,10 +11,9 @@
 //! The bounds of a real body and a real spring are convex, and so is the RMS or the peak of T. The result is therefore the global optimum, with a
 //! stated gap. T is the torque at the drive link, with the inertia of the drive train but without its losses.
 
-use jred::error::Error;
 use jred::machine::{Element, Mechanism as _, Reducible as _};
 use jred_analysis::contact::{OneWay, Separation};
-use jred_analysis::duty::{self, Duty};
+use jred_analysis::duty::{self, Duty, DutyError};
 use jred_file::model::coordinate::positions;
 use jred_file::model::machine::MachineFile;
 use jred_file::model::schedule::ScheduleInstant;
@@ -85,10 +84,8 @@ pub struct BalanceRequest {
 /// Why there is no answer.
 #[derive(Clone, Debug)]
 pub enum BalanceError {
-    /// The mechanism cannot be assembled at a position.
-    Machine(Error),
-    /// The duty of the motion cannot be computed.
-    Duty(duty::DutyError),
+    /// The mechanism cannot be assembled at a position, or the duty of the motion cannot be computed.
+    Duty(DutyError),
     /// The goal is a torque over the motion, but the file has no motion.
     NoMotion,
     /// The torque, or the deviation of the inertia, is already zero everywhere.
@@ -101,18 +98,9 @@ pub enum BalanceError {
     Parts(Box<Separation>),
 }
 
-impl From<Error> for BalanceError {
-    fn from(error: Error) -> Self {
-        Self::Machine(error)
-    }
-}
-
-impl From<duty::DutyError> for BalanceError {
-    fn from(fault: duty::DutyError) -> Self {
-        match fault {
-            duty::DutyError::Machine(error) => Self::Machine(error),
-            fault => Self::Duty(fault),
-        }
+impl<E: Into<DutyError>> From<E> for BalanceError {
+    fn from(error: E) -> Self {
+        Self::Duty(error.into())
     }
 }
 
@@ -249,7 +237,7 @@ fn efforts(
     let range = || positions(mechanism.domain(), POSITIONS).collect();
     let places: Vec<f64> = duty.map_or_else(range, |d| d.instants.iter().map(|i| i.phi).collect());
     for phi in places {
-        let frames = mechanism.frames(phi).map_err(Error::from)?;
+        let frames = mechanism.frames(phi)?;
         for (spring, most) in springs.iter().zip(&mut efforts) {
             if let (Some(spring), Some([pull, push])) = (spring, most) {
                 let effort = spring.effort(&frames, 0.0);
@@ -301,8 +289,7 @@ fn largest(values: &[f64]) -> f64 {
 fn figures(file: &MachineFile, duty: Option<&Duty>) -> Result<BalanceFigures, BalanceError> {
     let reductions = positions(file.machine.domain(), POSITIONS)
         .map(|phi| file.machine.bare_reduction(phi))
-        .collect::<Result<Vec<_>, _>>()
-        .map_err(Error::from)?;
+        .collect::<Result<Vec<_>, _>>()?;
     let holding: Vec<f64> = reductions.iter().map(|r| -r.load_torque()).collect();
     let inertias: Vec<f64> = reductions.iter().map(|r| r.inertia).collect();
     let mean = inertias.iter().sum::<f64>() / inertias.len() as f64;

@@ -49,10 +49,9 @@ fn limits(file: &MachineFile, trace: &Trace) -> Result<Option<[Option<f64>; 2]>,
     let joints = OneWay::all(file.machine.mechanism());
     let mut most = [f64::INFINITY; 2];
     let mut exceeded = [false; 2];
-    for pair in trace.nodes().windows(2) {
-        let [a, b] = [&pair[0], &pair[1]];
+    for [a, b] in trace.steps() {
         let way = b.phi - a.phi;
-        if b.step <= 0.0 || way == 0.0 {
+        if way == 0.0 {
             continue;
         }
         for share in SHARES {

@@ -50,7 +50,6 @@ use path_search::{CELLS, PathSearch, SWEEP_EXCESS};
 pub use phases::Phase;
 pub use programme::{Price, Start, WarmStart};
 pub use rms::Rms;
-pub use settable_limit::SettableLimit;
 pub use tool_speed::{ToolSpeed, ToolSpeeds};
 use track::Ends;
 

@@ -88,11 +88,7 @@ impl Travel {
     fn ends(&self) -> EndConditions {
         EndConditions {
             rest: self.speeds.map(|speed| speed == 0.0 && !self.ring),
-            ramp: if self.ring || self.ramp == 0.0 {
-                0.0
-            } else {
-                self.ramp
-            },
+            ramp: if self.ring { 0.0 } else { self.ramp },
             ring: self.ring,
         }
     }

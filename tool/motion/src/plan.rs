@@ -172,11 +172,7 @@ fn measure(
     let rows = motion_polynomial::rows(words, asked.domain);
     let mut all = [LargestError::default(); 3];
     let mut later = rows.iter().peekable();
-    for pair in trace.nodes().windows(2) {
-        let [before, after] = [&pair[0], &pair[1]];
-        if after.step <= 0.0 {
-            continue;
-        }
+    for [before, after] in trace.steps() {
         let step = MotionPolynomial::step(before, after);
         while let Some(row) = later.peek() {
             let [from, to] = [before.t.max(row.t[0]), after.t.min(row.t[1])];

@@ -92,6 +92,12 @@ impl Trace {
         &self.nodes
     }
 
+    /// The steps that take time, each as the nodes before and after it.
+    pub(crate) fn steps(&self) -> impl Iterator<Item = [&Node; 2]> {
+        let pairs = self.nodes.windows(2).map(|pair| [&pair[0], &pair[1]]);
+        pairs.filter(|[_, after]| after.step > 0.0)
+    }
+
     /// Duration (s).
     pub fn duration(&self) -> f64 {
         self.nodes.last().map_or(0.0, |node| node.t)

@@ -157,25 +157,28 @@ impl<'a> Context<'a> {
 
     /// Assumptions about the drive, and second-hand data.
     pub fn assumptions(&self, rules: &RuleSet) -> Vec<String> {
-        let mut assumptions = Vec::new();
-        if !self.drive.motor.from_maker {
-            assumptions.push("motor data not taken from the maker's own document; check them against the data sheet".to_owned());
-        }
-        if self.drive.gearbox.is_some_and(|g| !g.from_maker) {
-            assumptions.push("gearbox data not taken from the maker's own document; check them against the data sheet".to_owned());
-        }
-        if self.drive.amplifier.is_some_and(|a| !a.from_maker) {
-            assumptions.push("amplifier data not taken from the maker's own document; check them against the data sheet".to_owned());
-        }
-        if let Some(amplifier) = self.drive.amplifier.filter(|_| !self.drive.is_paired()) {
+        let Drive {
+            motor,
+            gearbox,
+            amplifier,
+        } = self.drive;
+        let parts = [
+            ("motor", motor.from_maker),
+            ("gearbox", gearbox.is_none_or(|g| g.from_maker)),
+            ("amplifier", amplifier.is_none_or(|a| a.from_maker)),
+        ];
+        let from_others = parts.into_iter().filter(|(_, from_maker)| !from_maker);
+        let mut assumptions: Vec<String> = from_others
+            .map(|(part, _)| format!("{part} data not taken from the maker's own document; check them against the data sheet"))
+            .collect();
+        if let Some(amplifier) = amplifier.filter(|_| !self.drive.is_paired()) {
             let Amplifier { key, maker, .. } = amplifier;
-            let motor = self.drive.motor;
             assumptions.push(format!(
                 "no source pairs amplifier {key} ({maker}) with motor {} ({}); ask the makers, or name the amplifier in the column amplifiers of compatibility.csv",
                 motor.key, motor.maker
             ));
         }
-        if self.drive.gearbox.is_some_and(|g| g.efficiency_assumed) {
+        if gearbox.is_some_and(|g| g.efficiency_assumed) {
             assumptions.push("gearbox efficiency not given; using 87 % per stage".to_owned());
         }
         assumptions.extend(motor::unheld(self, rules));

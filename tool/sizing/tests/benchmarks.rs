@@ -182,7 +182,7 @@ fn yaskawa_small_motor() {
     let peak = of(&checks, Rule::PeakTorque);
     within("T_P", peak.value.unwrap(), 0.186, 5e-4);
     assert_eq!(peak.verdict, RuleVerdict::Pass);
-    near("used", peak.use_of_limit(), 0.186 / 0.286, 3e-3);
+    near("used", peak.used, 0.186 / 0.286, 3e-3);
     let ratio = of(&checks, Rule::InertiaRatio);
     near("λ", ratio.value.unwrap(), 0.474 / 0.00629, 1e-9);
     assert_eq!(ratio.verdict, RuleVerdict::Fail);

@@ -11,6 +11,7 @@ mod phases;
 use crate::support::{budget, near, within};
 use jred_file::model::supply::BrakeResistor;
 use jred_sizing::bus::Need;
+use jred_sizing::bus::axes::{Axes, WorstPhases};
 use jred_sizing::bus::curve::PowerCurve;
 use jred_sizing::bus::store::{Bus, BusFigures};
 use jred_sizing::bus::supply::BusData;
@@ -193,6 +194,11 @@ fn a_resistor_at_its_most_under_a_ramp() {
         }
     }
     assert!(inside >= 4 && at_end >= 8, "{inside} {at_end}");
+}
+
+/// The worst phases for each of the figures that have limits.
+fn worst(axes: &Axes) -> Option<[WorstPhases; 4]> {
+    axes.largest(|figures| figures.judged(1.0), &())
 }
 
 fn random_curve(random: &mut ChaCha8Rng, period: f64, level: f64) -> PowerCurve {

@@ -2,7 +2,7 @@
 
 use miette::{Report, Result, miette};
 
-use crate::commands::core_error::{core_report, duty_report};
+use crate::commands::core_error::duty_report;
 use crate::commands::{Completion, print_answer};
 use crate::options;
 use jred_analysis::checked;
@@ -73,7 +73,6 @@ pub fn balance(options: &options::balance::Balance) -> Result<Completion> {
 fn report(options: &options::balance::Balance, fault: &BalanceError, links: &[String]) -> Report {
     let name = plain::path(&options.file);
     match fault {
-        BalanceError::Machine(error) => core_report(*error),
         BalanceError::Duty(fault) => duty_report(fault.clone()),
         BalanceError::NoMotion => miette!(
             help = "add a [motion], or give --least holding or --least inertia, which need none",

@@ -142,7 +142,6 @@ pub(super) fn report(
 ) -> Report {
     let name = plain::path(path);
     match obstacle {
-        Obstacle::Machine(error) => core_report(*error),
         Obstacle::Duty(fault) => duty_report(fault.clone()),
         Obstacle::NoMoves(NoMoves::Still) => miette!(
             help = "give a motion with at least one move",

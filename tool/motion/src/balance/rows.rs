@@ -1,6 +1,5 @@
 //! The quantity to minimise, at each sample, as a linear function of the unknowns.
 
-use jred::error::Error;
 use jred::machine::{Element, Frames, Link, MassProperties, Mechanism as _, Reducible as _};
 use jred_analysis::duty::{Duty, Instant, Sampling};
 use jred_file::model::coordinate::positions;
@@ -55,7 +54,7 @@ impl DesignMatrix {
                 .fold(0.0, |most, p| f64::max(most, p.value.abs())),
         };
         for place in &places {
-            let frames = mechanism.frames(place.phi).map_err(Error::from)?;
+            let frames = mechanism.frames(place.phi)?;
             let mut columns = rows.columns.iter_mut();
             let mut put = |value: f64| {
                 if let Some(column) = columns.next() {
@@ -144,7 +143,7 @@ fn places(file: &MachineFile, request: &BalanceRequest) -> Result<Vec<MotionSamp
     }
     let domain = file.machine.domain();
     let place = |phi: f64| {
-        let reduction = file.machine.bare_reduction(phi).map_err(Error::from)?;
+        let reduction = file.machine.bare_reduction(phi)?;
         Ok(MotionSample {
             weight: 1.0 / POSITIONS as f64,
             phi,
@@ -176,7 +175,7 @@ fn parts(
         } else {
             Link::new(MassProperties { mass, inertia, com })
         };
-        let body = body.map_err(Error::from)?;
+        let body = body?;
         let [j, slope, _] = body.reduced_inertia(frame);
         let [_, potential_slope] = body.potential_energy(frame, file.machine.gravity());
         Ok(match goal {

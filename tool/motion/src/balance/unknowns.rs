@@ -281,9 +281,7 @@ impl<'a> Unknowns<'a> {
             } else {
                 Element::spring(between, *k, free)
             };
-            spring
-                .map(Some)
-                .map_err(|error| BalanceError::Machine(error.into()))
+            Ok::<_, BalanceError>(Some(spring?))
         };
         let pairs = self.springs.iter().zip(&rows.longest);
         let pairs = pairs.zip(springs.chunks(2));

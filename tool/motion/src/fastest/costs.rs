@@ -4,7 +4,6 @@ use jred_file::model::machine::MachineFile;
 
 use super::cycle::FastestMove;
 use super::field::{Binding, MoveLimits};
-use super::tool_speed::ToolSpeeds;
 use super::{Task, time};
 use crate::path_dynamics::Actuator;
 
@@ -59,7 +58,6 @@ pub(super) fn costs(
 /// Motor and limits without a limit, or with more of the motor's own.
 fn without(actuator: &Actuator, limits: &MoveLimits, limit: Binding) -> (Actuator, MoveLimits) {
     let mut actuator = actuator.clone();
-    let mut limits = *limits;
     match limit {
         Binding::Driving | Binding::Braking => {
             // A tenth more torque is the same as a machine that needs a tenth less.
@@ -69,18 +67,7 @@ fn without(actuator: &Actuator, limits: &MoveLimits, limit: Binding) -> (Actuato
         }
         // The envelope only: the gearbox turns no faster.
         Binding::MotorSpeed => actuator.envelope = actuator.envelope.stretched(1.0 + MORE),
-        Binding::GearboxTorque => limits.gearbox_torque = None,
-        Binding::GearboxSpeed => limits.gearbox_speed = None,
-        Binding::Speed => limits.speed = None,
-        Binding::ToolSpeed => limits.tool = ToolSpeeds::default(),
-        Binding::Acceleration => limits.acceleration = None,
-        Binding::Deceleration => limits.deceleration = None,
-        Binding::JointForce(joint) => limits.forces = limits.forces.without(joint),
-        Binding::Jerk => limits.jerk = None,
-        Binding::TorqueRate => limits.torque_rate = None,
-        // Limits of the whole cycle, not of a move.
-        Binding::RmsTorque | Binding::WindingTemperature => {}
+        _ => {}
     }
-    limits.level_ends &= limits.has_rates();
-    (actuator, limits)
+    (actuator, limits.without(limit))
 }

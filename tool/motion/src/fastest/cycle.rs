@@ -1,5 +1,6 @@
 //! Makes all moves of a motion as fast as possible and keeps its pauses.
 
+use jred::error::Error;
 use jred_file::model::machine::MachineFile;
 
 use super::costs::costs;
@@ -57,6 +58,20 @@ impl Cycle {
             made.costs = all;
         }
         self
+    }
+
+    /// A single move.
+    fn of_one(file: &MachineFile, actuator: &Actuator, made: FastestMove) -> Result<Self, Error> {
+        let trace = made.fastest.trace.clone();
+        Ok(Self {
+            load: load(file, actuator, &trace, &made.task.limits.reserve)?,
+            before: made.before,
+            moves: vec![made],
+            trace,
+            dwells: 0.0,
+            kept: Vec::new(),
+            priced: false,
+        })
     }
 
     /// The same cycle, with the flag whether a limit of the RMS torque takes time.
@@ -160,16 +175,7 @@ pub fn single(
 ) -> Result<Cycle, NoMotion> {
     let at = |asked: &mut Continuation| -> Result<Cycle, NoMotion> {
         let made = make(file, actuator, &task, None, asked, 0)?;
-        let trace = made.fastest.trace.clone();
-        Ok(Cycle {
-            load: load(file, actuator, &trace, &task.limits.reserve)?,
-            moves: vec![made],
-            trace,
-            before: None,
-            dwells: 0.0,
-            kept: Vec::new(),
-            priced: false,
-        })
+        Ok(Cycle::of_one(file, actuator, made)?)
     };
     let slow = slowest(file, actuator, [[task.from, task.to]])?;
     let found = within(rms, slow, input(file), at).map_err(|why| match why {
@@ -203,18 +209,9 @@ pub fn endless(
         &mut Continuation::default(),
         0,
     )?;
-    let trace = made.fastest.trace.clone();
-    let speed = trace.nodes().first().map_or(0.0, |node| node.omega.abs());
-    made.task.speeds = [speed; 2];
-    Ok(Cycle {
-        load: load(file, actuator, &trace, &limits.reserve)?,
-        moves: vec![made],
-        trace,
-        before: Some(step.duration),
-        dwells: 0.0,
-        kept: Vec::new(),
-        priced: false,
-    })
+    let first = made.fastest.trace.nodes().first();
+    made.task.speeds = [first.map_or(0.0, |node| node.omega.abs()); 2];
+    Ok(Cycle::of_one(file, actuator, made)?)
 }
 
 /// The move with this index, without the cost of its limits.

@@ -57,6 +57,29 @@ impl MoveLimits {
         }
     }
 
+    /// The same without one of these limits; unchanged for a limit of the motor or of the whole cycle.
+    #[must_use]
+    pub(super) fn without(mut self, limit: Binding) -> Self {
+        match limit {
+            Binding::GearboxTorque => self.gearbox_torque = None,
+            Binding::GearboxSpeed => self.gearbox_speed = None,
+            Binding::Speed => self.speed = None,
+            Binding::ToolSpeed => self.tool = ToolSpeeds::default(),
+            Binding::Acceleration => self.acceleration = None,
+            Binding::Deceleration => self.deceleration = None,
+            Binding::JointForce(joint) => self.forces = self.forces.without(joint.into()),
+            Binding::Jerk => self.jerk = None,
+            Binding::TorqueRate => self.torque_rate = None,
+            Binding::Driving
+            | Binding::Braking
+            | Binding::MotorSpeed
+            | Binding::RmsTorque
+            | Binding::WindingTemperature => {}
+        }
+        self.level_ends &= self.has_rates();
+        self
+    }
+
     /// The same limits with a reserve of motor and gearbox.
     #[must_use]
     pub fn with_reserve(self, reserve: Reserve) -> Self {
@@ -92,7 +115,7 @@ pub enum Binding {
     /// The largest deceleration.
     Deceleration,
     /// The largest force in a joint, by its index.
-    JointForce(usize),
+    JointForce(u16),
     /// The largest rate of the acceleration.
     Jerk,
     /// The largest rate of the motor torque.
@@ -128,8 +151,8 @@ impl Binding {
     pub fn name_in(self, file: &MachineFile) -> Cow<'static, str> {
         let names = file.machine.mechanism().joint_names();
         match self {
-            Self::JointForce(joint) if joint < names.len() => {
-                Cow::Owned(format!("force in {}", names[joint]))
+            Self::JointForce(joint) if usize::from(joint) < names.len() => {
+                Cow::Owned(format!("force in {}", names[usize::from(joint)]))
             }
             // A gearbox always turns.
             Self::GearboxTorque => Cow::Borrowed(self.name()),
@@ -278,7 +301,7 @@ impl Field<'_, '_> {
             most = lower(most, (a, Binding::Acceleration));
         }
         for (joint, [_, a]) in place.intervals(z) {
-            most = lower(most, (a, Binding::JointForce(joint)));
+            most = lower(most, (a, Binding::JointForce(joint as u16)));
         }
         most
     }
@@ -299,7 +322,7 @@ impl Field<'_, '_> {
             least = higher(least, (-a, Binding::Deceleration));
         }
         for (joint, [a, _]) in place.intervals(z) {
-            least = higher(least, (a, Binding::JointForce(joint)));
+            least = higher(least, (a, Binding::JointForce(joint as u16)));
         }
         least
     }
@@ -339,7 +362,7 @@ impl Field<'_, '_> {
         ];
         let forces = seen.forces.iter().map(|force| {
             let share = force.at(v, acceleration) / force.limit - 1.0;
-            (share, Binding::JointForce(force.joint))
+            (share, Binding::JointForce(force.joint as u16))
         });
         let first = (f64::NEG_INFINITY, Binding::Driving);
         all.into_iter().chain(forces).fold(first, higher)
@@ -359,7 +382,7 @@ impl Field<'_, '_> {
             Binding::Driving => (0, piece(false)),
             Binding::Braking => (0, piece(true)),
             Binding::GearboxTorque => (1, 0),
-            Binding::JointForce(joint) => (2, joint),
+            Binding::JointForce(joint) => (2, joint.into()),
             _ => (3, 0),
         };
         let flow = self.dynamics.flow(place, v, a) as u32;

@@ -206,11 +206,7 @@ pub fn reached(
     if all.is_empty() {
         return Ok(all);
     }
-    for pair in trace.nodes().windows(2) {
-        let [a, b] = [&pair[0], &pair[1]];
-        if b.step <= 0.0 {
-            continue;
-        }
+    for [a, b] in trace.steps() {
         let heading = b.phi - a.phi;
         let stands = heading == 0.0;
         let now = ScheduleInstant {

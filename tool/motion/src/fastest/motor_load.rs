@@ -45,12 +45,8 @@ pub(super) fn load(
     let forwards = ways.forwards();
     let (mut squares, mut turns) = (0.0, 0.0);
     let mut peaks = [0.0_f64; 2];
-    for pair in trace.nodes().windows(2) {
-        let [a, b] = [&pair[0], &pair[1]];
+    for [a, b] in trace.steps() {
         let (step, heading) = (b.step, b.phi - a.phi);
-        if step <= 0.0 {
-            continue;
-        }
         for [share, weight] in GAUSS_2 {
             let motor = ways.torque(&b.after(a, share), heading)?;
             squares += weight * step * motor * motor;

@@ -14,7 +14,6 @@ use jred_sizing::select::fit::input_kind;
 
 use super::field::{Binding, Field, speed};
 use super::joint_force::{JointForce, Spot};
-use super::settable_limit::SettableLimit;
 use super::sweep::Obstacle;
 use super::track::Track;
 
@@ -44,7 +43,7 @@ pub enum NoMotion {
         /// Its name, with the joint of a force.
         name: Box<str>,
         /// A limit of speed or acceleration that denies the machine the kinetic energy to go on.
-        eased: Option<SettableLimit>,
+        eased: Option<Binding>,
         /// Torque that keeps the machine moving there (N·m), and the torque that the limit gives.
         torques: [f64; 2],
         /// Their unit: N for a linear motor.
@@ -263,7 +262,7 @@ impl NoMotion {
         field: &Field,
         track: &Track,
         obstacle: Obstacle,
-        eased: Option<SettableLimit>,
+        eased: Option<Binding>,
     ) -> Self {
         let axis = field.dynamics.file.axis();
         let unit = input(field.dynamics.file);

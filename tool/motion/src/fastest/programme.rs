@@ -33,7 +33,7 @@ use super::field::{Binding, Field, MoveLimits};
 use super::obstacle::input;
 use super::track::Ends;
 use super::{Fastest, NoMotion};
-use interior::{PrimalDual, Programme as _, StuckStation, minimise};
+use interior::{PrimalDual, StuckStation, minimise};
 pub use limits::Price;
 use limits::{Margins, MeshProblem};
 use mesh::{Border, BoundaryConditions, Mesh};

@@ -3,37 +3,14 @@
 use super::NoMotion;
 use super::field::{Binding, Field, MoveLimits};
 use super::sweep::{self, Obstacle};
-use super::tool_speed::ToolSpeeds;
 use super::track::{Ends, Survey, Track};
 
-/// A limit that an option sets.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum SettableLimit {
-    /// Speed of the drive link.
-    Speed,
-    /// Speed of the tool.
-    ToolSpeed,
-    /// Acceleration.
-    Acceleration,
-}
-
-impl SettableLimit {
-    /// Its name.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Speed => Binding::Speed.name(),
-            Self::ToolSpeed => Binding::ToolSpeed.name(),
-            Self::Acceleration => Binding::Acceleration.name(),
-        }
-    }
-
-    /// The option that sets it.
-    pub const fn option(self) -> &'static str {
-        match self {
-            Self::Speed => "--max-speed",
-            Self::ToolSpeed => "--max-tool-speed",
-            Self::Acceleration => "--max-acceleration",
-        }
+/// The option that sets such a limit.
+pub(super) const fn option(limit: Binding) -> &'static str {
+    match limit {
+        Binding::Speed => "--max-speed",
+        Binding::ToolSpeed => "--max-tool-speed",
+        _ => "--max-acceleration",
     }
 }
 
@@ -42,50 +19,31 @@ impl SettableLimit {
 ///
 /// # Errors
 /// The mechanism cannot be placed somewhere.
-pub(super) fn by(
-    field: &Field,
-    ends: &Ends,
-    count: usize,
-) -> Result<Option<SettableLimit>, NoMotion> {
-    let limits = field.limits;
-    let none = ToolSpeeds::default();
-    let asked = [
-        (SettableLimit::Speed, limits.speed.is_some()),
-        (SettableLimit::ToolSpeed, limits.tool != none),
-        (SettableLimit::Acceleration, limits.acceleration.is_some()),
+pub(super) fn by(field: &Field, ends: &Ends, count: usize) -> Result<Option<Binding>, NoMotion> {
+    let limits = &field.limits;
+    let given = [
+        (Binding::Speed, limits.speed.is_some()),
+        (Binding::ToolSpeed, limits.tool.is_some()),
+        (Binding::Acceleration, limits.acceleration.is_some()),
     ];
-    let asked: Vec<SettableLimit> = asked
-        .into_iter()
-        .filter_map(|(limit, is_asked)| is_asked.then_some(limit))
-        .collect();
-    let passes = |without: &[SettableLimit]| {
-        let is_kept = |limit: SettableLimit| !without.contains(&limit);
+    let given = given.into_iter().filter(|(_, is_given)| *is_given);
+    let given: Vec<Binding> = given.map(|(limit, _)| limit).collect();
+    let passes = |without: &[Binding]| {
         let field = Field {
             dynamics: field.dynamics,
-            limits: MoveLimits {
-                speed: limits.speed.filter(|_| is_kept(SettableLimit::Speed)),
-                tool: if is_kept(SettableLimit::ToolSpeed) {
-                    limits.tool
-                } else {
-                    none
-                },
-                acceleration: limits
-                    .acceleration
-                    .filter(|_| is_kept(SettableLimit::Acceleration)),
-                ..limits
-            },
+            limits: without.iter().copied().fold(*limits, MoveLimits::without),
         };
         let track = Track::new(&Survey::new(&field, ends.from), ends, count, &[])?;
         let found = sweep::fastest(&field, &track, ends.speeds.map(|v| 0.5 * v * v));
         Ok::<_, NoMotion>(!matches!(found, Err(Obstacle::Stops(..))))
     };
-    for limit in &asked {
+    for limit in &given {
         if passes(&[*limit])? {
             return Ok(Some(*limit));
         }
     }
-    Ok(if asked.len() > 1 && passes(&asked)? {
-        asked.first().copied()
+    Ok(if given.len() > 1 && passes(&given)? {
+        given.first().copied()
     } else {
         None
     })

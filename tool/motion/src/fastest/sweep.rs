@@ -182,23 +182,14 @@ fn upper(field: &Field, track: &Track, end: f64) -> Result<Vec<SweepPiece>, Obst
             let from = start.take().unwrap_or_else(|| leg.point(u, z));
             let reached = leg.go(from, 0.0, &mut steps);
             if let Some((k, crossing)) = above_cap(cell, &leg, &steps) {
-                push(&mut pieces, index, steps.drain(..k), leg.side);
-                let step = steps[0];
-                let right = leg.point(step.u[1], step.z[1]);
-                let mut part = Vec::new();
-                if crossing < step.u[1] && leg.go(right, crossing, &mut part).is_ok() {
-                    push(&mut pieces, index, part.drain(..), leg.side);
-                }
+                push_up_to(&mut pieces, index, &leg, &steps[..=k], (1, crossing));
                 (u, z, on_cap) = (crossing, cell.cap(crossing), true);
                 continue;
             }
-            let Ok(point) = reached else {
-                let Err(why) = reached else { continue };
-                return Err(match why {
-                    Stall::AtRest(at) => Obstacle::RunsAway(index, at),
-                    Stall::Stiff(at) => Obstacle::Stiff(index, at),
-                });
-            };
+            let point = reached.map_err(|why| match why {
+                Stall::AtRest(at) => Obstacle::RunsAway(index, at),
+                Stall::Stiff(at) => Obstacle::Stiff(index, at),
+            })?;
             push(&mut pieces, index, steps.drain(..), leg.side);
             if pieces.len() > MOST_STEPS {
                 return Err(Obstacle::Stiff(index, 0.0));
@@ -213,6 +204,25 @@ fn upper(field: &Field, track: &Track, end: f64) -> Result<Vec<SweepPiece>, Obst
 fn push(pieces: &mut Vec<SweepPiece>, cell: usize, steps: impl Iterator<Item = Step>, side: Side) {
     let along = SweepCurve::Side(side);
     pieces.extend(steps.map(|step| SweepPiece { cell, step, along }));
+}
+
+/// Adds the steps of a leg, of which the last only up to a crossing; `start` is the end at which it begins.
+fn push_up_to(
+    pieces: &mut Vec<SweepPiece>,
+    cell: usize,
+    leg: &Leg,
+    steps: &[Step],
+    (start, crossing): (usize, f64),
+) {
+    let Some((last, whole)) = steps.split_last() else {
+        return;
+    };
+    push(pieces, cell, whole.iter().copied(), leg.side);
+    let from = leg.point(last.u[start], last.z[start]);
+    let mut part = Vec::new();
+    if (crossing - from.u).abs() > 0.0 && leg.go(from, crossing, &mut part).is_ok() {
+        push(pieces, cell, part.into_iter(), leg.side);
+    }
 }
 
 /// The first step (backwards) that rises above the speed limit, and where it does.
@@ -285,23 +295,14 @@ fn forwards(
             let from = start.take().unwrap_or_else(|| leg.point(u, z));
             let reached = leg.go(from, 1.0, &mut steps);
             if let Some((k, crossing)) = above.crossed(&leg, &steps) {
-                push(&mut pieces, index, steps.drain(..k), leg.side);
-                let step = steps[0];
-                let left = leg.point(step.u[0], step.z[0]);
-                let mut part = Vec::new();
-                if crossing > step.u[0] && leg.go(left, crossing, &mut part).is_ok() {
-                    push(&mut pieces, index, part.drain(..), leg.side);
-                }
+                push_up_to(&mut pieces, index, &leg, &steps[..=k], (0, crossing));
                 (u, on_upper) = (crossing, true);
                 continue;
             }
-            let Ok(point) = reached else {
-                let Err(why) = reached else { continue };
-                return Err(match why {
-                    Stall::AtRest(at) => Obstacle::Stops(index, at),
-                    Stall::Stiff(at) => Obstacle::Stiff(index, at),
-                });
-            };
+            let point = reached.map_err(|why| match why {
+                Stall::AtRest(at) => Obstacle::Stops(index, at),
+                Stall::Stiff(at) => Obstacle::Stiff(index, at),
+            })?;
             push(&mut pieces, index, steps.drain(..), leg.side);
             if pieces.len() > MOST_STEPS {
                 return Err(Obstacle::Stiff(index, 1.0));

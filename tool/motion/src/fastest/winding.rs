@@ -162,11 +162,7 @@ impl Winding {
         let ways = BothDirections::new(file, actuator);
         let longest = model.network().map(|network| PART * network.fastest());
         let mut points = Vec::new();
-        for pair in trace.nodes().windows(2) {
-            let [a, b] = [&pair[0], &pair[1]];
-            if b.step <= 0.0 {
-                continue;
-            }
+        for [a, b] in trace.steps() {
             let [least, most] = PARTS;
             let parts = longest.map_or(least, |longest| (b.step / longest).ceil());
             let parts = parts.clamp(least, most) as u32;

@@ -1,6 +1,5 @@
 //! The gentlest moves of a machine file, each in its own time, compared with the motion laws.
 
-use jred::error::Error;
 use jred::machine::motion::Law;
 use jred_analysis::duty;
 use jred_file::model::machine::MachineFile;
@@ -118,9 +117,7 @@ impl GentlestResult {
 /// Why there is no result.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Obstacle {
-    /// The machine cannot be placed somewhere.
-    Machine(Error),
-    /// The duty of a motion cannot be computed.
+    /// The machine cannot be placed somewhere, or the duty of a motion cannot be computed.
     Duty(duty::DutyError),
     /// The motion neither consists of moves nor turns endlessly.
     NoMoves(NoMoves),
@@ -130,18 +127,9 @@ pub enum Obstacle {
     Move(usize, Move, Fault),
 }
 
-impl From<Error> for Obstacle {
-    fn from(error: Error) -> Self {
-        Self::Machine(error)
-    }
-}
-
-impl From<duty::DutyError> for Obstacle {
-    fn from(fault: duty::DutyError) -> Self {
-        match fault {
-            duty::DutyError::Machine(error) => Self::Machine(error),
-            fault => Self::Duty(fault),
-        }
+impl<E: Into<duty::DutyError>> From<E> for Obstacle {
+    fn from(error: E) -> Self {
+        Self::Duty(error.into())
     }
 }
 

@@ -89,11 +89,7 @@ pub fn least_ramp(
         ],
     };
     let mut least = (f64::INFINITY, None);
-    for pair in nodes.windows(2) {
-        let step = [&pair[0], &pair[1]];
-        if step[1].step <= 0.0 {
-            continue;
-        }
+    for step in trace.steps() {
         for k in 0..=PLACES {
             let share = f64::from(k) / f64::from(PLACES);
             for n in 1..=RATES {

@@ -3,7 +3,7 @@
 use std::convert::Infallible;
 
 use jred_file::number::numerics::least;
-use jred_motion::fastest::{Binding, MoveLimits, NoMotion, SettableLimit, Task, solve};
+use jred_motion::fastest::{Binding, MoveLimits, NoMotion, Task, solve};
 use jred_sizing::catalogue::Motor;
 use jred_sizing::motor::envelope::Envelope;
 
@@ -125,13 +125,13 @@ fn what_keeps_the_machine_slow_is_named() {
     );
     // With a motor that passes from rest a limit is the obstacle.
     for (limits, named) in [
-        (slow, SettableLimit::Acceleration),
+        (slow, Binding::Acceleration),
         (
             MoveLimits {
                 speed: Some(0.5),
                 ..MoveLimits::default()
             },
-            SettableLimit::Speed,
+            Binding::Speed,
         ),
     ] {
         let asked = Task {

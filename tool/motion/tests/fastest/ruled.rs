@@ -135,7 +135,7 @@ fn a_gearbox_keeps_its_torques_at_the_rate_of_the_motion() {
             .checks
             .iter()
             .find(|check| check.id == Rule::GearboxCubicMean);
-        let used = mean.unwrap().use_of_limit();
+        let used = mean.unwrap().used;
         assert!(used <= 1.0 && used > 0.998, "{used}");
     }
     // Without the rule for T2N only the fixed point of the shock factor remains: constant inertia and friction, a torque of the gearbox output of ±T

@@ -42,7 +42,7 @@ pub struct BusAnalysis {
     pub in_step: Option<BusFigures>,
     /// Power drawn with all axes in step.
     pub power: Option<PowerCurve>,
-    /// Worst phases, in the order of [`WorstCase::ALL`](super::axes::WorstCase::ALL).
+    /// Worst phases for each of the figures of [`BusFigures::judged`].
     pub worst: Option<[WorstPhases; 4]>,
     /// Phases with the smallest use of the limits.
     pub calmest: Option<WorstPhases>,
@@ -151,13 +151,9 @@ impl BusAnalysis {
         };
         let limits = self.limits();
         let goals = |figures: &BusFigures| {
-            [
-                figures.highest,
-                figures.burnt,
-                figures.burnt_peak,
-                figures.pulse,
-                -share(limits, figures, period),
-            ]
+            let [voltage, burnt, peak, pulse] = figures.judged(1.0);
+            let calmest = -share(limits, figures, period);
+            [voltage, burnt, peak, pulse, calmest]
         };
         if let Some([voltage, resistor, peak, pulse, calmest]) = self.shared.largest(goals, watch) {
             self.worst = Some([voltage, resistor, peak, pulse]);

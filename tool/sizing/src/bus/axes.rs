@@ -29,34 +29,6 @@ pub struct Axes {
     whole: Vec<PowerCurve>,
 }
 
-/// Quantity that a search over the phases maximises.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum WorstCase {
-    /// Highest voltage of the bus.
-    Voltage,
-    /// Energy of the brake resistor.
-    Resistor,
-    /// Its largest power.
-    Peak,
-    /// Its largest energy without a pause.
-    Pulse,
-}
-
-impl WorstCase {
-    /// All of them, in the order of [`WorstCase::of`].
-    pub const ALL: [Self; 4] = [Self::Voltage, Self::Resistor, Self::Peak, Self::Pulse];
-
-    /// The figure that it maximises.
-    pub const fn of(self, figures: &BusFigures) -> f64 {
-        match self {
-            Self::Voltage => figures.highest,
-            Self::Resistor => figures.burnt,
-            Self::Peak => figures.burnt_peak,
-            Self::Pulse => figures.pulse,
-        }
-    }
-}
-
 /// Phases found by a search.
 #[derive(Clone, Debug, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct WorstPhases {
@@ -136,12 +108,6 @@ impl Axes {
             reach,
             periods: self.curves.iter().map(PowerCurve::period).collect(),
         }
-    }
-
-    /// The worst phases for each [`WorstCase`], in the order of [`WorstCase::ALL`]; `None` if the common period is not searched.
-    pub fn worst(&self, watch: &dyn Watch) -> Option<[WorstPhases; 4]> {
-        let figures = |figures: &BusFigures| WorstCase::ALL.map(|goal| goal.of(figures));
-        self.largest(figures, watch)
     }
 
     /// The phases at which each of these figures is largest; `None` if the common period is not searched.

@@ -86,13 +86,7 @@ fn rounded(value: f64, towards: fn(f64) -> f64) -> f64 {
 
 /// Largest use of the limits of a bus: voltage, mean power, peak power and pulse energy.
 pub fn share(limits: [Option<f64>; 4], figures: &BusFigures, period: f64) -> f64 {
-    let figures = [
-        figures.highest,
-        figures.burnt / period,
-        figures.burnt_peak,
-        figures.pulse,
-    ];
-    let shares = figures.into_iter().zip(limits);
+    let shares = figures.judged(period).into_iter().zip(limits);
     shares
         .filter_map(|(figure, limit)| Some(figure / limit?))
         .fold(0.0, f64::max)

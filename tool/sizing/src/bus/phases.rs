@@ -140,8 +140,14 @@ impl Phases<'_> {
             .collect()
     }
 
+    /// Grid phases per cycle.
+    fn grid(&self) -> f64 {
+        GRID[self.whole.len().clamp(2, 4) - 2]
+    }
+
     /// Number of grid places for the phase of an axis, and their distance (s).
-    fn step(&self, axis: usize, grid: f64) -> (u32, f64) {
+    fn step(&self, axis: usize) -> (u32, f64) {
+        let grid = self.grid();
         if self.whole.len() > 3 {
             // One phase moves at a time: while the others are fixed, all phases of the axis's own period count.
             return (grid as u32, self.periods[axis] / grid);
@@ -166,17 +172,16 @@ impl Phases<'_> {
         if !everywhere || self.whole.len() < 2 {
             return best;
         }
-        let grid = GRID[(self.whole.len() - 2).min(2)];
         match self.whole {
-            [first, second] => self.pair(first, second, grid, &goals, watch, &mut best),
+            [first, second] => self.pair(first, second, &goals, watch, &mut best),
             [first, second, third] => {
                 let three = [first, second, third];
-                self.triple(three, grid, &goals, watch, &mut best);
+                self.triple(three, &goals, watch, &mut best);
             }
-            _ => self.many(grid, &goals, watch, &mut best),
+            _ => self.many(&goals, watch, &mut best),
         }
         threads::for_each(&mut best, |goal, found| {
-            self.close_in(goal, found, grid, &goals, watch);
+            self.close_in(goal, found, &goals, watch);
         });
         best
     }
@@ -185,12 +190,11 @@ impl Phases<'_> {
         &self,
         first: &PowerCurve,
         second: &PowerCurve,
-        grid: f64,
         goals: &(impl Fn(&PowerCurve) -> [f64; N] + Sync),
         watch: &dyn Watch,
         best: &mut [PhaseSolution; N],
     ) {
-        let (count, step) = self.step(1, grid);
+        let (count, step) = self.step(1);
         watch.planned(u64::from(count));
         let values: Vec<[f64; N]> = threads::map_in(count, Room::new, |room, i| {
             let values = goals(room.sum(first, second, f64::from(i) * step));
@@ -206,12 +210,11 @@ impl Phases<'_> {
     fn triple<const N: usize>(
         &self,
         [first, second, third]: [&PowerCurve; 3],
-        grid: f64,
         goals: &(impl Fn(&PowerCurve) -> [f64; N] + Sync),
         watch: &dyn Watch,
         best: &mut [PhaseSolution; N],
     ) {
-        let [(rows, row), (columns, column)] = [1, 2].map(|axis| self.step(axis, grid));
+        let [(rows, row), (columns, column)] = [1, 2].map(|axis| self.step(axis));
         watch.planned(u64::from(rows) * u64::from(columns));
         let lines: Vec<Option<[PhaseSolution; N]>> = threads::map_in(rows, Room::new, |room, i| {
             let phase = f64::from(i) * row;
@@ -235,7 +238,6 @@ impl Phases<'_> {
 
     fn many<const N: usize>(
         &self,
-        grid: f64,
         goals: &(impl Fn(&PowerCurve) -> [f64; N] + Sync),
         watch: &dyn Watch,
         best: &mut [PhaseSolution; N],
@@ -251,30 +253,29 @@ impl Phases<'_> {
         let starts: Vec<Vec<f64>> = std::iter::once(self.aligned())
             .chain((0..STARTS).map(spread))
             .collect();
-        watch.planned(starts.len() as u64 * self.climbs(N, grid));
+        watch.planned(starts.len() as u64 * self.climbs(N));
         let ends: Vec<[PhaseSolution; N]> =
-            threads::map(&starts, |start| self.climb(start, grid, goals, watch));
+            threads::map(&starts, |start| self.climb(start, goals, watch));
         for end in &ends {
             best.iter_mut().zip(end).for_each(|(a, b)| a.with(b));
         }
     }
 
     /// Number of phases that a climb is expected to try: two rounds for each goal.
-    const fn climbs(&self, goals: usize, grid: f64) -> u64 {
-        (2 * goals * (self.whole.len() - 1)) as u64 * grid as u64
+    fn climbs(&self, goals: usize) -> u64 {
+        (2 * goals * (self.whole.len() - 1)) as u64 * self.grid() as u64
     }
 
     /// Coordinate ascent: one phase at a time until no goal improves, for each goal from the best phases found so far.
     fn climb<const N: usize>(
         &self,
         start: &[f64],
-        grid: f64,
         goals: &impl Fn(&PowerCurve) -> [f64; N],
         watch: &dyn Watch,
     ) -> [PhaseSolution; N] {
         let mut room = Room::new();
         let mut best = PhaseSolution::of(start, goals(&self.all(start)));
-        let mut expected = self.climbs(N, grid);
+        let mut expected = self.climbs(N);
         for goal in 0..N {
             // A goal that no phase has changed so far does not depend on them.
             if goal > 0 && best[goal].is_flat() {
@@ -285,7 +286,7 @@ impl Phases<'_> {
                 for axis in 1..self.whole.len() {
                     let mut phases = best[goal].phases.clone();
                     let rest = self.rest(&phases, axis);
-                    let (count, step) = self.step(axis, grid);
+                    let (count, step) = self.step(axis);
                     if expected == 0 {
                         watch.planned(u64::from(count));
                     }
@@ -311,7 +312,6 @@ impl Phases<'_> {
         &self,
         goal: usize,
         found: &mut PhaseSolution,
-        grid: f64,
         goals: &impl Fn(&PowerCurve) -> [f64; N],
         watch: &dyn Watch,
     ) {
@@ -326,7 +326,7 @@ impl Phases<'_> {
             for axis in 1..self.whole.len() {
                 let centre = found.phases.clone();
                 let rest = self.rest(&centre, axis);
-                let step = self.step(axis, grid).1;
+                let step = self.step(axis).1;
                 let mut phases = centre.clone();
                 watch.planned(u64::from(2 * parts));
                 // Both sides; the middle is already evaluated.

@@ -52,6 +52,13 @@ pub struct BusFigures {
 }
 
 impl BusFigures {
+    /// The figures that have limits: the highest voltage (V), and the resistor's mean power over a period of this length (s), its largest power (W) and
+    /// its largest pulse (J).
+    pub const fn judged(&self, period: f64) -> [f64; 4] {
+        let mean = self.burnt / period;
+        [self.highest, mean, self.burnt_peak, self.pulse]
+    }
+
     /// Figures of a bus without a voltage bound, where no period repeats the previous one.
     pub const UNBOUNDED: Self = Self {
         supplied: f64::NAN,

@@ -4,7 +4,6 @@ use super::analysis::BusAnalysis;
 use super::conflict::Conflict;
 use super::curve::PowerCurve;
 use super::period::{Common, LOOKED_AT, MOST_CYCLES};
-use super::store::BusFigures;
 use jred_file::model::rule::Sense;
 use jred_file::number::rounding::short;
 
@@ -98,19 +97,11 @@ impl BusAnalysis {
     }
 
     fn found(&self) -> [f64; 4] {
-        let of = |figures: &BusFigures, period: f64| {
-            [
-                figures.highest,
-                figures.burnt / period,
-                figures.burnt_peak,
-                figures.pulse,
-            ]
-        };
         let period = self.power.as_ref().map_or(1.0, PowerCurve::period);
         match (&self.in_step, &self.worst) {
-            (Some(figures), _) if self.only_in_step => of(figures, period),
+            (Some(figures), _) if self.only_in_step => figures.judged(period),
             (Some(_), Some(worst)) => {
-                let each = worst.each_ref().map(|worst| of(&worst.figures, period));
+                let each = worst.each_ref().map(|worst| worst.figures.judged(period));
                 std::array::from_fn(|k| each.iter().map(|figures| figures[k]).fold(0.0, f64::max))
             }
             _ if self.data.resistor.is_some() => [

@@ -6,10 +6,8 @@ use std::collections::HashMap;
 use jred_file::number::rounding::figure;
 
 use super::column::{Column, Kind};
+use super::entry::Entry;
 use super::fault::Remarks;
-use super::gearbox::Gearbox;
-use super::motor::Motor;
-use super::{Amplifier, Resistor};
 
 /// A figure with its column.
 type ColumnValue = (Column, Option<f64>);
@@ -47,108 +45,85 @@ fn plain(name: &str) -> String {
     plain.collect()
 }
 
-impl Duplicates {
-    pub(super) fn motor(&mut self, remarks: &mut Remarks, place: &dyn Fn() -> String, m: &Motor) {
-        let figures = vec![
-            (Column::RatedTorque, m.rated_torque),
-            (Column::RatedSpeed, m.rated_speed),
-            (Column::StandstillTorque, m.standstill_torque),
-            (Column::PeakTorque, m.peak_torque),
-            (Column::MaxSpeed, m.max_speed),
-            (Column::RotorInertia, Some(m.rotor_inertia)),
-            (Column::TorqueConstant, m.winding.torque_constant),
-            (Column::WindingResistance, m.winding.resistance),
-            (Column::RatedCurrent, m.winding.rated_current),
-            (Column::MainsVoltage, m.mains_voltage),
-            (Column::BrakeTorque, m.brake.map(|brake| brake.torque)),
-            (Column::Mass, m.mass),
-        ];
-        let name = [m.maker.as_str(), &m.model];
-        self.check(remarks, place, Kind::Motors, (&m.key, name, ""), figures);
-    }
-
-    pub(super) fn gearbox(
-        &mut self,
-        remarks: &mut Remarks,
-        place: &dyn Fn() -> String,
-        g: &Gearbox,
-    ) {
-        let figures = vec![
-            (Column::RatedOutputTorque, g.rated_torque),
-            (Column::PeakOutputTorque, g.peak_torque),
-            (Column::EmergencyOutputTorque, g.emergency_torque),
-            (Column::RatedInputSpeed, g.rated_speed),
-            (Column::MaxInputSpeed, g.max_speed),
-            (Column::InputInertia, Some(g.inertia)),
-            (Column::Efficiency, Some(g.efficiency)),
-            (Column::Stiffness, g.stiffness),
-            (Column::Backlash, g.backlash),
-            (Column::Mass, g.mass),
-        ];
-        let name = [g.maker.as_str(), &g.model];
-        // A model is often a series with several ratios.
-        let ratio = figure(g.ratio);
-        self.check(
-            remarks,
-            place,
-            Kind::Gearboxes,
-            (&g.key, name, &ratio),
-            figures,
-        );
-    }
-
-    pub(super) fn amplifier(
-        &mut self,
-        remarks: &mut Remarks,
-        place: &dyn Fn() -> String,
-        a: &Amplifier,
-    ) {
-        let figures = vec![
-            (Column::RatedCurrent, Some(a.rated_current)),
-            (Column::PeakCurrent, Some(a.peak_current)),
-            (Column::PeakTime, a.peak_time),
-            (Column::MainsVoltage, a.mains_voltage),
-            (Column::BusVoltage, a.bus_voltage),
-            (Column::ChopperVoltage, a.chopper_voltage),
-            (Column::MaxVoltage, a.max_voltage),
-            (Column::Capacitance, a.capacitance),
-            (Column::MinResistance, a.min_resistance),
-            (Column::Mass, a.mass),
-        ];
-        let name = [a.maker.as_str(), &a.model];
-        self.check(
-            remarks,
-            place,
+/// The kind of a part, the figures that its rows must share, and its ratio, because the model of a gearbox is often a series with several ratios;
+/// `None` for a list.
+fn figures(entry: &Entry) -> Option<(Kind, Vec<ColumnValue>, String)> {
+    let mut ratio = String::new();
+    let (kind, figures) = match entry {
+        Entry::Motor(m, _) => (
+            Kind::Motors,
+            vec![
+                (Column::RatedTorque, m.rated_torque),
+                (Column::RatedSpeed, m.rated_speed),
+                (Column::StandstillTorque, m.standstill_torque),
+                (Column::PeakTorque, m.peak_torque),
+                (Column::MaxSpeed, m.max_speed),
+                (Column::RotorInertia, Some(m.rotor_inertia)),
+                (Column::TorqueConstant, m.winding.torque_constant),
+                (Column::WindingResistance, m.winding.resistance),
+                (Column::RatedCurrent, m.winding.rated_current),
+                (Column::MainsVoltage, m.mains_voltage),
+                (Column::BrakeTorque, m.brake.map(|brake| brake.torque)),
+                (Column::Mass, m.mass),
+            ],
+        ),
+        Entry::Gearbox(g) => {
+            ratio = figure(g.ratio);
+            let figures = vec![
+                (Column::RatedOutputTorque, g.rated_torque),
+                (Column::PeakOutputTorque, g.peak_torque),
+                (Column::EmergencyOutputTorque, g.emergency_torque),
+                (Column::RatedInputSpeed, g.rated_speed),
+                (Column::MaxInputSpeed, g.max_speed),
+                (Column::InputInertia, Some(g.inertia)),
+                (Column::Efficiency, Some(g.efficiency)),
+                (Column::Stiffness, g.stiffness),
+                (Column::Backlash, g.backlash),
+                (Column::Mass, g.mass),
+            ];
+            (Kind::Gearboxes, figures)
+        }
+        Entry::Amplifier(a) => (
             Kind::Amplifiers,
-            (&a.key, name, ""),
-            figures,
-        );
-    }
+            vec![
+                (Column::RatedCurrent, Some(a.rated_current)),
+                (Column::PeakCurrent, Some(a.peak_current)),
+                (Column::PeakTime, a.peak_time),
+                (Column::MainsVoltage, a.mains_voltage),
+                (Column::BusVoltage, a.bus_voltage),
+                (Column::ChopperVoltage, a.chopper_voltage),
+                (Column::MaxVoltage, a.max_voltage),
+                (Column::Capacitance, a.capacitance),
+                (Column::MinResistance, a.min_resistance),
+                (Column::Mass, a.mass),
+            ],
+        ),
+        Entry::Resistor(r) => (
+            Kind::Resistors,
+            vec![
+                (Column::Resistance, Some(r.resistance)),
+                (Column::RatedPower, Some(r.rated_power)),
+                (Column::PeakPower, r.peak_power),
+                (Column::PulseEnergy, r.pulse_energy),
+            ],
+        ),
+        Entry::Listing(_) => return None,
+    };
+    Some((kind, figures, ratio))
+}
 
-    pub(super) fn resistor(
+impl Duplicates {
+    /// Warns of an entry whose part has occurred with different figures.
+    pub(super) fn check(
         &mut self,
         remarks: &mut Remarks,
         place: &dyn Fn() -> String,
-        r: &Resistor,
+        entry: &Entry,
     ) {
-        let figures = vec![
-            (Column::Resistance, Some(r.resistance)),
-            (Column::RatedPower, Some(r.rated_power)),
-            (Column::PeakPower, r.peak_power),
-            (Column::PulseEnergy, r.pulse_energy),
-        ];
-        let name = [r.maker.as_str(), &r.model];
-        self.check(remarks, place, Kind::Resistors, (&r.key, name, ""), figures);
-    }
-
-    fn check(
-        &mut self,
-        remarks: &mut Remarks,
-        place: &dyn Fn() -> String,
-        kind: Kind,
-        (key, [maker, model], ratio): (&str, [&str; 2], &str),
-        figures: Vec<ColumnValue>,
-    ) {
+        let Some(((kind, figures, ratio), [key, maker, model])) = figures(entry).zip(entry.names())
+        else {
+            return;
+        };
         let name = format!("{}|{}|{ratio}", plain(maker), plain(model));
         let Some(first) = self.seen.get(&(kind, name.clone())) else {
             let seen = FirstRow {

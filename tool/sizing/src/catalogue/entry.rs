@@ -41,6 +41,17 @@ impl Entry {
         })
     }
 
+    /// Its key, maker and model; `None` for a list.
+    pub(super) fn names(&self) -> Option<[&str; 3]> {
+        Some(match self {
+            Self::Motor(m, _) => [&m.key, &m.maker, &m.model],
+            Self::Gearbox(g) => [&g.key, &g.maker, &g.model],
+            Self::Amplifier(a) => [&a.key, &a.maker, &a.model],
+            Self::Resistor(r) => [&r.key, &r.maker, &r.model],
+            Self::Listing(_) => return None,
+        })
+    }
+
     /// Whether it has a price.
     pub(super) fn has_price(&self) -> bool {
         match self {

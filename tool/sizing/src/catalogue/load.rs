@@ -153,50 +153,33 @@ impl Loader {
         text: &Text,
         group: &mut FileGroup,
     ) -> Result<usize, CatalogueError> {
-        let mut remarks = std::mem::take(&mut self.remarks);
-        let place = |line: usize| format!("{}:{line}", text.name);
-        let mut motors = Vec::new();
-        let mut gearboxes = Vec::new();
-        let count = match kind {
-            Kind::Motors => mgdb::motors(text, &mut remarks, &mut |entry| motors.push(entry)),
-            Kind::Gearboxes => {
-                mgdb::gearboxes(text, &mut remarks, &mut |entry| gearboxes.push(entry))
-            }
-            _ => {
-                mgdb::listings(text, |listing| match listing {
-                    Ok(listing) => group.listings.push((index, listing)),
-                    Err(fault) => self.faults.add(text, fault),
-                });
-                Ok(group.listings.len())
-            }
-        };
-        self.remarks = remarks;
-        for entry in motors {
-            match entry {
-                Ok((motor, line, at)) => {
-                    if self.claim(Kind::Motors, &motor.key, index, at) {
-                        plausible::motor(&mut self.remarks, &|| place(line), &motor);
-                        self.twins.motor(&mut self.remarks, &|| place(line), &motor);
-                        self.catalogue.motors.push(motor);
-                    }
-                }
+        if kind == Kind::Compatibility {
+            mgdb::listings(text, |listing| match listing {
+                Ok(listing) => group.listings.push((index, listing)),
                 Err(fault) => self.faults.add(text, fault),
+            });
+            return Ok(group.listings.len());
+        }
+        let rows = mgdb::entries(text, kind, &mut self.remarks);
+        let rows = rows.map_err(|fault| wrong(text, fault))?;
+        let count = rows.len();
+        for row in rows {
+            let fault = match row {
+                Err(fault) => Some(fault),
+                Ok((entry, line, at)) => {
+                    let [key, ..] = entry.names().unwrap_or_default();
+                    let clash = self.claim(kind, key, index, at);
+                    if clash.is_none() {
+                        self.put(entry, index, group, &|| format!("{}:{line}", text.name));
+                    }
+                    clash
+                }
+            };
+            if let Some(fault) = fault {
+                self.faults.add(text, fault);
             }
         }
-        for entry in gearboxes {
-            match entry {
-                Ok((gearbox, line, at)) => {
-                    if self.claim(Kind::Gearboxes, &gearbox.key, index, at) {
-                        plausible::gearbox(&mut self.remarks, &|| place(line), &gearbox);
-                        self.twins
-                            .gearbox(&mut self.remarks, &|| place(line), &gearbox);
-                        self.catalogue.gearboxes.push(gearbox);
-                    }
-                }
-                Err(fault) => self.faults.add(text, fault),
-            }
-        }
-        count.map_err(|fault| wrong(text, fault))
+        Ok(count)
     }
 
     fn row(
@@ -230,8 +213,7 @@ impl Loader {
         if broken && self.skip {
             return None;
         }
-        let before = self.keys.insert((row.kind, key.to_owned()), index)?;
-        Some(self.clash(key, before, index, row.place(Column::Key)))
+        self.claim(row.kind, key, index, row.place(Column::Key))
     }
 
     fn entry(
@@ -255,34 +237,36 @@ impl Loader {
         if entry.has_price() {
             self.price(row, text);
         }
-        let place = || format!("{}:{line}", text.name);
+        if let Entry::Motor(_, Some(gearbox)) = &entry {
+            let motor = self.catalogue.motors.len() as u32;
+            let at = row.place(Column::BuiltInGearbox);
+            self.gear_motors.push((motor, gearbox.clone(), index, at));
+        }
+        self.put(entry, index, group, &|| format!("{}:{line}", text.name));
+        Ok(())
+    }
+
+    /// Adds an entry, with warnings about its figures.
+    fn put(
+        &mut self,
+        entry: Entry,
+        index: usize,
+        group: &mut FileGroup,
+        place: &dyn Fn() -> String,
+    ) {
+        match &entry {
+            Entry::Motor(motor, _) => plausible::motor(&mut self.remarks, place, motor),
+            Entry::Gearbox(gearbox) => plausible::gearbox(&mut self.remarks, place, gearbox),
+            _ => {}
+        }
+        self.twins.check(&mut self.remarks, place, &entry);
         match entry {
-            Entry::Motor(motor, gearbox) => {
-                plausible::motor(&mut self.remarks, &place, &motor);
-                self.twins.motor(&mut self.remarks, &place, &motor);
-                if let Some(gearbox) = gearbox {
-                    let motor = self.catalogue.motors.len() as u32;
-                    let at = row.place(Column::BuiltInGearbox);
-                    self.gear_motors.push((motor, gearbox, index, at));
-                }
-                self.catalogue.motors.push(*motor);
-            }
-            Entry::Gearbox(gearbox) => {
-                plausible::gearbox(&mut self.remarks, &place, &gearbox);
-                self.twins.gearbox(&mut self.remarks, &place, &gearbox);
-                self.catalogue.gearboxes.push(*gearbox);
-            }
-            Entry::Amplifier(amplifier) => {
-                self.twins.amplifier(&mut self.remarks, &place, &amplifier);
-                self.catalogue.amplifiers.push(amplifier);
-            }
-            Entry::Resistor(resistor) => {
-                self.twins.resistor(&mut self.remarks, &place, &resistor);
-                self.catalogue.resistors.push(resistor);
-            }
+            Entry::Motor(motor, _) => self.catalogue.motors.push(*motor),
+            Entry::Gearbox(gearbox) => self.catalogue.gearboxes.push(*gearbox),
+            Entry::Amplifier(amplifier) => self.catalogue.amplifiers.push(amplifier),
+            Entry::Resistor(resistor) => self.catalogue.resistors.push(resistor),
             Entry::Listing(listing) => group.listings.push((index, listing)),
         }
-        Ok(())
     }
 
     /// Records the currency of a price with the first file that uses it.
@@ -298,19 +282,9 @@ impl Loader {
         }
     }
 
-    /// Reports a duplicate key.
-    fn claim(&mut self, kind: Kind, key: &str, index: usize, at: Range<usize>) -> bool {
-        let Some(before) = self.keys.insert((kind, key.to_owned()), index) else {
-            return true;
-        };
-        let fault = self.clash(key, before, index, at);
-        if let Some(text) = self.texts.get(index) {
-            self.faults.add(text, fault);
-        }
-        false
-    }
-
-    fn clash(&self, key: &str, before: usize, index: usize, at: Range<usize>) -> Problem {
+    /// Claims a key for an entry; returns the fault if another one has it.
+    fn claim(&mut self, kind: Kind, key: &str, index: usize, at: Range<usize>) -> Option<Problem> {
+        let before = self.keys.insert((kind, key.to_owned()), index)?;
         let key = plain::cut(key);
         let name = |index: usize| self.texts.get(index).map_or("", |text| text.name.as_str());
         let message = if before == index {
@@ -322,9 +296,8 @@ impl Loader {
                 name(index)
             )
         };
-        Problem::new(message)
-            .at(at, "again here")
-            .help("give every row a unique key")
+        let fault = Problem::new(message).at(at, "again here");
+        Some(fault.help("give every row a unique key"))
     }
 
     fn finish(mut self, groups: Vec<FileGroup>) -> Result<Catalogue, CatalogueError> {

@@ -7,6 +7,8 @@ use jred_file::plain;
 use jred_file::text::csv::{self, CsvTable};
 use jred_file::text::problem::Problem;
 
+use super::column::Kind;
+use super::entry::Entry;
 use super::fault::{Remarks, Text};
 use super::gearbox::Gearbox;
 use super::lists::Listing;
@@ -124,35 +126,31 @@ impl Sheet<'_> {
     }
 }
 
-/// Receives an entry with its line and position.
-type EntrySink<'a, T> = &'a mut dyn FnMut(Result<(T, usize, Range<usize>), Problem>);
+/// An entry with its line and position, or the fault of its row.
+pub(super) type ReadRow = Result<(Entry, usize, Range<usize>), Problem>;
 
-fn each<T>(
+/// The rows of a file of motors or of gearboxes.
+pub(super) fn entries(
     text: &Text,
+    kind: Kind,
     remarks: &mut Remarks,
-    build: impl Fn(&Sheet, &mut Remarks) -> Result<T, Problem>,
-    take: EntrySink<T>,
-) -> Result<usize, Problem> {
+) -> Result<Vec<ReadRow>, Problem> {
     let mut sheet = Sheet {
         name: &text.name,
         csv: CsvTable::read(&text.text)?,
     };
-    let mut count = 0;
+    let mut rows = Vec::new();
     while let Some(row) = sheet.csv.advance() {
-        count += 1;
-        let entry = row.and_then(|()| build(&sheet, remarks));
-        take(entry.map(|entry| (entry, sheet.csv.line(), sheet.place("key"))));
+        let entry = row.and_then(|()| {
+            Ok(if kind == Kind::Motors {
+                Entry::Motor(Box::new(motor(&sheet, remarks)?), None)
+            } else {
+                Entry::Gearbox(Box::new(gearbox(&sheet, remarks)?))
+            })
+        });
+        rows.push(entry.map(|entry| (entry, sheet.csv.line(), sheet.place("key"))));
     }
-    Ok(count)
-}
-
-/// Motors.
-pub(super) fn motors(
-    text: &Text,
-    remarks: &mut Remarks,
-    take: EntrySink<Motor>,
-) -> Result<usize, Problem> {
-    each(text, remarks, motor, take)
+    Ok(rows)
 }
 
 fn motor(sheet: &Sheet, remarks: &mut Remarks) -> Result<Motor, Problem> {
@@ -207,15 +205,6 @@ fn motor(sheet: &Sheet, remarks: &mut Remarks) -> Result<Motor, Problem> {
         source: sheet.source(),
         ..Motor::default()
     })
-}
-
-/// Gearboxes.
-pub(super) fn gearboxes(
-    text: &Text,
-    remarks: &mut Remarks,
-    take: EntrySink<Gearbox>,
-) -> Result<usize, Problem> {
-    each(text, remarks, gearbox, take)
 }
 
 fn gearbox(sheet: &Sheet, remarks: &mut Remarks) -> Result<Gearbox, Problem> {

@@ -1,7 +1,7 @@
 //! Finds the samples with a large torque without visiting the others.
 
 use super::extremes::Stretches;
-use crate::cycle::form::{Coefficients, LOADS};
+use crate::cycle::form::Coefficients;
 
 impl Stretches<'_> {
     /// Every sample at which |c·x| exceeds a bound, by its index. Stretches that cannot contain one are skipped.
@@ -14,8 +14,7 @@ impl Stretches<'_> {
     fn look_beyond(self, c: &Coefficients, bound: f64, index: usize, take: &mut impl FnMut(usize)) {
         let node = &self.tree.nodes[index];
         let [a, b] = self.ends(node, c);
-        let reach: f64 = (0..LOADS).map(|k| c.0[k].abs() * node.reach[k]).sum();
-        if a.abs().max(b.abs()) + reach < bound - self.slack(c) {
+        if a.abs().max(b.abs()) + node.reach_of(c) < bound - self.slack(c) {
             return;
         }
         if node.second > 0 {

@@ -122,8 +122,7 @@ impl Stretches<'_> {
             };
             weigh(best, node.first, ends[0]);
             weigh(best, node.last, ends[1]);
-            let reach: f64 = (0..LOADS).map(|k| c.0[k].abs() * node.reach[k]).sum();
-            if ends[0].max(ends[1]) + reach - slack <= best.1 {
+            if ends[0].max(ends[1]) + node.reach_of(c) - slack <= best.1 {
                 return;
             }
             if node.second == 0 {

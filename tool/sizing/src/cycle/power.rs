@@ -5,7 +5,7 @@ use std::convert::Infallible;
 use super::LoadSample;
 use super::extremes::Stretches;
 use super::tree::Direction;
-use crate::cycle::form::{Coefficients, LOADS};
+use crate::cycle::form::Coefficients;
 use jred_file::number::numerics;
 
 /// Work supplied and returned (J), in order of time.
@@ -39,7 +39,7 @@ impl Stretches<'_> {
             *regenerative += (-energy).max(0.0);
         };
         let ends = self.ends(node, c);
-        let reach: f64 = (0..LOADS).map(|k| c.0[k].abs() * node.reach[k]).sum();
+        let reach = node.reach_of(c);
         let one_sign =
             ends[0].min(ends[1]) - reach >= -slack || ends[0].max(ends[1]) + reach <= slack;
         if one_sign && node.direction != Direction::Any {
@@ -122,7 +122,7 @@ impl Stretches<'_> {
                 return true;
             }
             let [a, b] = stretches.ends(node, c);
-            let reach: f64 = (0..LOADS).map(|k| c.0[k].abs() * node.reach[k]).sum();
+            let reach = node.reach_of(c);
             let only_driving = match node.direction {
                 Direction::One(true) => a.min(b) - reach >= -slack,
                 Direction::One(false) => a.max(b) + reach <= slack,

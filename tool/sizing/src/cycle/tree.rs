@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::LoadSample;
-use crate::cycle::form::LOADS;
+use crate::cycle::form::{Coefficients, LOADS};
 
 /// Most samples of a stretch that is not cut further.
 const LEAF: usize = 16;
@@ -190,6 +190,11 @@ impl Node {
             node.direction = Direction::One(forwards);
         }
         node
+    }
+
+    /// Largest deviation of c·x from its chord: ∑ |c_k|·reach_k.
+    pub(super) fn reach_of(&self, c: &Coefficients) -> f64 {
+        (0..LOADS).map(|k| c.0[k].abs() * self.reach[k]).sum()
     }
 
     fn of_halves(samples: &[LoadSample], one: &Self, two: &Self, second: usize) -> Self {

@@ -20,7 +20,7 @@ pub struct Check {
     pub limit: Option<f64>,
     /// Unit of figure and limit.
     pub unit: &'static str,
-    /// The used share of the limit; zero without a limit. JSON has it as the margin.
+    /// The used share of the limit; zero without a limit, infinite for a limit of zero. JSON has it as the margin.
     #[serde(skip)]
     pub used: f64,
     /// Margin as a share of the limit; `None` without a limit, or for a yes-or-no rule.
@@ -102,16 +102,6 @@ impl Check {
         }
     }
 
-    /// The figure as a share of its limit; zero without a limit, infinite for a limit of zero.
-    pub const fn use_of_limit(&self) -> f64 {
-        self.used
-    }
-
-    /// Margin as a share of the limit; `None` without a limit.
-    pub const fn margin(&self) -> Option<f64> {
-        self.margin
-    }
-
     fn with_unit(&self, figure: &str) -> String {
         format!("{figure} {}", self.unit).trim_end().to_owned()
     }
@@ -128,7 +118,7 @@ impl Check {
 
     /// Use of the limit as text.
     pub fn used(&self) -> String {
-        match self.use_of_limit() * 100.0 {
+        match self.used * 100.0 {
             _ if self.limit.is_none() || self.id.is_yes_or_no() => String::new(),
             percent if self.verdict == RuleVerdict::Fail && percent > 100.0 && percent < 100.5 => {
                 "> 100 %".to_owned()

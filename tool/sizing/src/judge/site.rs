@@ -4,7 +4,7 @@
 //! judge whether the site is within that range.
 
 use super::{Context, Record, Words};
-use crate::catalogue::{DeratingBasis, SiteRating};
+use crate::catalogue::{DeratingBasis, HOTTEST_MOTOR, SiteRating};
 use jred_file::model::rule::Rule;
 use jred_file::model::rules::Finding;
 use jred_file::model::surroundings::{LOW, REFERENCE};
@@ -48,7 +48,7 @@ pub(super) fn words(context: &Context, rule: Rule) -> Words {
                 DeratingBasis::Maker => {
                     "highest ambient temperature of the motor's temperature_derating"
                 }
-                _ if motor.hottest < HOTTEST => "maximum temperature of the winding",
+                _ if motor.hottest < HOTTEST_MOTOR => "maximum temperature of the winding",
                 _ => {
                     "highest ambient temperature for which IEC 60034-1 has a rule; above it, ask the maker for temperature_derating"
                 }
@@ -122,9 +122,6 @@ pub(super) fn words(context: &Context, rule: Rule) -> Words {
         place,
     }
 }
-
-/// End of the general rule for motors (°C), unless the winding limits it.
-const HOTTEST: f64 = 60.0;
 
 /// Source of a factor for the temperature.
 const fn heat(basis: DeratingBasis, practice: &'static str) -> &'static str {

@@ -76,11 +76,6 @@ impl Winding {
     pub fn loss_resistance(&self, temperature: f64) -> Option<f64> {
         Some(self.commutation.loss_factor() * self.resistance_at(temperature)?)
     }
-
-    /// Copper loss (W) for a current (A) at a temperature (°C).
-    pub fn copper_loss(&self, current: f64, temperature: f64) -> Option<f64> {
-        Some(self.loss_resistance(temperature)? * current * current)
-    }
 }
 
 /// Current of a torque. It is linear with 1/k_t up to the S1 torque. If the data sheet's peak current exceeds peak torque/k_t, a second line leads

@@ -1,12 +1,12 @@
 //! Common periods of cycles, and curves with fewer points.
 
-use jred_sizing::bus::axes::{Axes, WorstCase};
+use jred_sizing::bus::axes::Axes;
 use jred_sizing::bus::curve::PowerCurve;
 use jred_sizing::bus::period::Common;
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt as _, SeedableRng as _};
 
-use super::{BUS, budget, near, random_curve};
+use super::{BUS, budget, near, random_curve, worst};
 
 /// A curve with fewer points deviates nowhere by more than allowed; jumps and ends stay in place.
 #[test]
@@ -66,7 +66,7 @@ fn a_long_common_period_is_searched_with_fewer_points() {
         panic!("not searched")
     };
     assert!(cycles.iter().sum::<u32>() * 200 > 5_000);
-    let worst = axes.worst(&()).unwrap();
+    let worst = worst(&axes).unwrap();
     let mut random = ChaCha8Rng::seed_from_u64(21);
     for _ in 0..40 {
         let phases = [
@@ -75,11 +75,12 @@ fn a_long_common_period_is_searched_with_fewer_points() {
             random.random_range(0.0..0.9),
         ];
         let figures = axes.at(&phases).unwrap();
-        for (goal, worst) in WorstCase::ALL.into_iter().zip(&worst) {
-            let [found, other] = [&worst.figures, &figures].map(|figures| goal.of(figures));
+        for (goal, worst) in worst.iter().enumerate() {
+            let [found, other] =
+                [&worst.figures, &figures].map(|figures| figures.judged(1.0)[goal]);
             assert!(
                 found >= other * (1.0 - budget::THREE_PHASES),
-                "{goal:?}: {found}, {other}"
+                "{goal}: {found}, {other}"
             );
         }
     }
@@ -117,11 +118,11 @@ fn common_periods() {
         let late = axes(&periods);
         assert!(matches!(late.common(), Common::TooLong { .. }));
         near_it(late.common(), period, &counts);
-        assert!(late.worst(&()).is_none() && late.at(&[0.0; 2]).is_none());
+        assert!(worst(&late).is_none() && late.at(&[0.0; 2]).is_none());
     }
     for second in [std::f64::consts::SQRT_2, 1.012_345_67] {
         let never = axes(&[1.0, second]);
         assert_eq!(never.common(), &Common::None);
-        assert!(never.worst(&()).is_none() && never.bounds().highest > 560.0);
+        assert!(worst(&never).is_none() && never.bounds().highest > 560.0);
     }
 }

@@ -1,7 +1,7 @@
 //! The search over phases: closed forms, brute force, and cycles that meet late or never.
 
 use jred_file::model::supply::Supply;
-use jred_sizing::bus::axes::{Axes, WorstCase};
+use jred_sizing::bus::axes::Axes;
 use jred_sizing::bus::curve::PowerCurve;
 use jred_sizing::bus::store::Bus;
 use jred_sizing::bus::supply::BusData;
@@ -10,7 +10,7 @@ use rand::SeedableRng as _;
 use rand::rngs::ChaCha8Rng;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use super::{BUS, budget, near, random_curve};
+use super::{BUS, budget, near, random_curve, worst};
 use crate::support::within;
 
 /// Two equal axes that brake while the other drives: half a period apart, one takes the regenerated energy of the other. In step they dissipate it.
@@ -28,7 +28,7 @@ fn two_axes_in_closed_form() {
     let apart = axes.at(&[0.0, 1.0]).unwrap();
     assert_eq!([apart.burnt, apart.highest], [0.0, 560.0]);
     near("supplied", apart.supplied, 400.0, budget::BUS);
-    for worst in axes.worst(&()).unwrap() {
+    for worst in worst(&axes).unwrap() {
         assert_eq!(worst.phases, [0.0, 0.0]);
         near("burnt", worst.figures.burnt, 1400.0, budget::BUS);
     }
@@ -56,8 +56,8 @@ fn brute(axes: &Axes, periods: &[f64], grid: i32) -> [f64; 4] {
                 phases.push(part(k, 2));
             }
             let figures = axes.at(&phases).unwrap();
-            for (most, goal) in most.iter_mut().zip(WorstCase::ALL) {
-                *most = most.max(goal.of(&figures));
+            for (most, figure) in most.iter_mut().zip(figures.judged(1.0)) {
+                *most = most.max(figure);
             }
         }
     }
@@ -85,11 +85,11 @@ fn phases_by_brute_force() {
         let most = brute(&axes, &periods, grid);
         let bounds = axes.bounds();
         let period = axes.power(&[0.0]).unwrap().period();
-        let worst = axes.worst(&()).unwrap();
-        for ((goal, worst), most) in WorstCase::ALL.into_iter().zip(worst).zip(most) {
-            let found = goal.of(&worst.figures);
+        let worst = worst(&axes).unwrap();
+        for ((goal, worst), most) in worst.into_iter().enumerate().zip(most) {
+            let found = worst.figures.judged(1.0)[goal];
             assert_eq!(worst.figures, axes.at(&worst.phases).unwrap());
-            let case = format!("{periods:?} {goal:?}: {found}, by brute force {most}");
+            let case = format!("{periods:?} {goal}: {found}, by brute force {most}");
             let misses = if periods.len() == 3 {
                 budget::THREE_PHASES
             } else {
@@ -132,7 +132,7 @@ fn four_axes_at_once() {
     let curves = backs.iter().zip(starts);
     let curves = curves.map(|(back, start)| curve(*back).shifted(start));
     let axes = Axes::new(bus, curves.collect());
-    let [voltage, ..] = axes.worst(&()).unwrap();
+    let [voltage, ..] = worst(&axes).unwrap();
     // 0.1 s of 2400 W.
     let expected = (560.0f64.powi(2) + 2.0 * 240.0 / BUS.capacitance).sqrt();
     near("voltage", voltage.figures.highest, expected, budget::PHASES);
@@ -180,7 +180,7 @@ fn four_axes_between_the_places_of_the_grid() {
         ..BUS
     };
     let axes = Axes::new(bus, vec![first, second, steady.clone(), steady]);
-    let [voltage, ..] = axes.worst(&()).unwrap();
+    let [voltage, ..] = worst(&axes).unwrap();
     let stored = 2.0 * (back - drawn) * block;
     let expected = (560.0f64.powi(2) + 2.0 * stored / BUS.capacitance).sqrt();
     near("voltage", voltage.figures.highest, expected, budget::PHASES);
@@ -264,7 +264,7 @@ fn the_resistor_asked_for_is_that_of_the_worst_phases() {
             budget::BUS,
         );
         // No single phase has all of them: the one with the largest mean power has a smaller pulse or peak.
-        let [_, mean, ..] = with.worst(&()).unwrap();
+        let [_, mean, ..] = worst(&with).unwrap();
         let one = [mean.figures.burnt_peak, mean.figures.pulse];
         apart += usize::from(one[0] < 0.999 * need.peak || one[1] < 0.999 * need.pulse);
         // With its resistor, held at the chopper's voltage at every phase.
@@ -330,7 +330,7 @@ fn a_search_says_how_far_it_is() {
     for (count, least) in [(1, 0), (2, 720), (3, 48 * 48), (4, 4 * 3 * 48)] {
         let axes = Axes::new(BUS, vec![curve.clone(); count]);
         let seen = Count::default();
-        axes.worst(&seen).unwrap();
+        axes.largest(|figures| figures.judged(1.0), &seen).unwrap();
         let [planned, done] = seen.0.map(AtomicU64::into_inner);
         assert_eq!(planned, done);
         assert!(done >= least, "{count} axes: {done}");

@@ -275,7 +275,7 @@ fn ranking() {
             let (value, limit) = (check.value.unwrap(), check.limit.unwrap());
             assert!(value > limit, "{}: {value} against {limit}", check.rule);
             assert!(judged.reasons().contains(check.rule));
-            assert!(check.margin().is_none_or(|margin| margin < 0.0));
+            assert!(check.margin.is_none_or(|margin| margin < 0.0));
         }
         assert!(candidate.outcome.worst_use > 1.0);
     }
@@ -284,7 +284,7 @@ fn ranking() {
         assert!(judged.holds());
         assert!(candidate.outcome.worst_use <= 1.0);
         for check in &judged.checks {
-            let held = check.margin().is_none_or(|margin| margin >= 0.0);
+            let held = check.margin.is_none_or(|margin| margin >= 0.0);
             assert!(
                 held || check.verdict == RuleVerdict::Warn,
                 "{}",

@@ -30,18 +30,18 @@ fn the_loss_of_three_phases_is_what_their_currents_make() {
         phases.iter().map(|i| line_to_line / 2.0 * i * i).sum()
     });
     near(
-        winding.copper_loss(rms, 20.0).unwrap(),
+        winding.loss_resistance(20.0).unwrap() * rms * rms,
         loss,
         budget::CLOSED_FORM,
     );
-    let hot = winding.copper_loss(rms, 120.0).unwrap();
+    let hot = winding.loss_resistance(120.0).unwrap() * rms * rms;
     near(hot, loss * 1.393, budget::CLOSED_FORM);
     let block = Winding {
         commutation: Commutation::Block,
         ..winding
     };
     near(
-        block.copper_loss(7.0, 20.0).unwrap(),
+        block.loss_resistance(20.0).unwrap() * 49.0,
         3.8 * 49.0,
         budget::CLOSED_FORM,
     );

@@ -12,7 +12,6 @@ use jred_file::model::rules::RuleVerdict;
 use jred_file::model::supply::BrakeResistor;
 use jred_sizing::catalogue::{Catalogue, Drive, Sources};
 use jred_sizing::cycle::Cycle;
-use jred_sizing::judge::check::Check;
 use jred_sizing::judge::{Assessment, Context};
 use jred_sizing::motor::envelope::MotorLimits;
 use jred_sizing::select::rank::{Objective, rank};
@@ -337,7 +336,7 @@ fn what_the_parts_are_made_for_is_no_margin() {
         let fixed = checks.iter().filter(|check| check.id.is_yes_or_no());
         for check in fixed.clone() {
             assert_eq!(
-                (check.used().as_str(), check.margin()),
+                (check.used().as_str(), check.margin),
                 ("", None),
                 "{}",
                 check.rule
@@ -347,7 +346,7 @@ fn what_the_parts_are_made_for_is_no_margin() {
         let margins = checks
             .iter()
             .filter(|check| file.rules.limit(check.id).fail.is_some());
-        let least = margins.filter_map(Check::margin).fold(1.0, f64::min);
+        let least = margins.filter_map(|check| check.margin).fold(1.0, f64::min);
         let margin = Objective::Margin.value(&selection, candidate).unwrap();
         assert!((margin - least).abs() < 1e-12, "{margin} {least}");
     }

@@ -4,15 +4,28 @@ use jred_file::number::rounding::short;
 
 use super::NoMotion;
 use crate::fastest::field::Binding;
+use crate::fastest::settable_limit::option;
 
 /// Cure for a limit of the force in a joint.
 const LARGER_FORCE: &str =
     "allow a larger force in the joint (--max-reaction), or take weight or load off it";
 
 impl NoMotion {
-    /// Cure where the machine stops on its path.
-    fn of_a_stop(&self) -> String {
+    /// The cure.
+    #[expect(clippy::too_many_lines, reason = "a cure for each variant")]
+    pub fn cure(&self) -> String {
         match self {
+            Self::Duty(fault) => fault.cure(),
+            Self::Machine(_) => "give positions between which the mechanism can be assembled".to_owned(),
+            Self::NoWay => "give two different positions".to_owned(),
+            Self::NoTorqueLimit(unit) => format!(
+                "take a motor with a peak {}, or give --torque",
+                unit.vocabulary().torque
+            ),
+            Self::NoSpeedLimit => {
+                "give --max-speed, or with --torque the --motor-speed".to_owned()
+            }
+            Self::SelfLocking => "take another gearbox".to_owned(),
             Self::Stops {
                 eased: Some(eased),
                 at_start: false,
@@ -21,7 +34,7 @@ impl NoMotion {
             } => format!(
                 "raise the {} ({}), or take a motor with more {} at low speed or a larger gear ratio",
                 eased.name(),
-                eased.option(),
+                option(*eased),
                 unit.vocabulary().torque
             ),
             Self::Stops {
@@ -46,25 +59,6 @@ impl NoMotion {
                     ),
                 }
             }
-            _ => String::new(),
-        }
-    }
-
-    /// The cure.
-    pub fn cure(&self) -> String {
-        match self {
-            Self::Duty(fault) => fault.cure(),
-            Self::Machine(_) => "give positions between which the mechanism can be assembled".to_owned(),
-            Self::NoWay => "give two different positions".to_owned(),
-            Self::NoTorqueLimit(unit) => format!(
-                "take a motor with a peak {}, or give --torque",
-                unit.vocabulary().torque
-            ),
-            Self::NoSpeedLimit => {
-                "give --max-speed, or with --torque the --motor-speed".to_owned()
-            }
-            Self::SelfLocking => "take another gearbox".to_owned(),
-            Self::Stops { .. } => self.of_a_stop(),
             Self::RunsAway { limit, unit, .. } => match limit {
                 Binding::Deceleration => "allow a larger deceleration".to_owned(),
                 Binding::JointForce(_) => LARGER_FORCE.to_owned(),

@@ -8,38 +8,30 @@ use jred_file::number::rounding::{short, told_apart};
 use super::super::field::Binding;
 use super::{Empty, NoMotion};
 
-impl NoMotion {
-    /// Limits that leave no acceleration at a place.
-    fn at_a_place(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::JointForce {
-                joint,
-                phi,
-                forces: [force, limit],
-                stands,
-                axis,
-            } => {
-                let slowly = if *stands {
-                    "while the machine rests there in a pause; its limit is"
-                } else {
-                    "in a slowly moving machine; motions that satisfy the limit only by their speed are not computed, and the limit is"
-                };
-                write!(
-                    f,
-                    "the force in joint \"{joint}\" is {} N at {} {slowly} {} N",
-                    short(*force),
-                    axis.place(*phi),
-                    short(*limit)
-                )
-            }
-            Self::Empty(place) => write!(f, "{place}"),
-            _ => Ok(()),
-        }
+impl fmt::Display for Empty {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { axis, names, .. } = self;
+        let [asks, allows] = names;
+        let unit = axis.coordinate.speed_unit();
+        let rate = |rate: f64| short(axis.rate(rate));
+        write!(
+            f,
+            "no acceleration is left at {} and {} {unit}: the {asks} requires at least {} {unit}^2, the {allows} allows at most {}",
+            axis.place(self.phi),
+            rate(self.speed),
+            rate(self.least.0),
+            rate(self.most.0)
+        )
     }
+}
 
-    /// A machine that stops on its path, and the missing torque.
-    fn stops(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+impl fmt::Display for NoMotion {
+    #[expect(clippy::too_many_lines, reason = "a message for each variant")]
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
+            Self::Machine(error) => write!(f, "the move is not possible: {error}"),
+            Self::Duty(fault) => fault.fmt(f),
+            Self::NoWay => write!(f, "start and end are the same position"),
             Self::Stops {
                 phi,
                 at_start,
@@ -76,13 +68,54 @@ impl NoMotion {
                     ),
                 }
             }
-            _ => Ok(()),
-        }
-    }
-
-    /// Why a motion that may exist is not computed.
-    fn not_computed(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
+            Self::Stiff { phi, axis } => write!(
+                f,
+                "viscous friction is so large for the inertia that the motion would need more than {MOST_STEPS} steps: it was computed up to {}",
+                axis.place(*phi)
+            ),
+            Self::RunsAway {
+                phi,
+                at_end,
+                limit,
+                name,
+                torques,
+                unit,
+                axis,
+            } => {
+                let place = axis.place(*phi);
+                let [needed, given] = told_apart(torques.map(f64::abs));
+                let unit = unit.effort_unit();
+                let what = if *at_end {
+                    "the machine cannot be stopped at"
+                } else {
+                    "the machine cannot be braked in time: it runs away at"
+                };
+                match limit {
+                    Binding::JointForce(_) => {
+                        write!(f, "{what} {place}: the {name} is in the way")
+                    }
+                    Binding::Deceleration | Binding::Acceleration => write!(
+                        f,
+                        "{what} {place}: its loads brake harder than the {name} allows"
+                    ),
+                    _ => write!(
+                        f,
+                        "{what} {place}: {needed} {unit} of braking are needed to hold its speed, the {name} is {given} {unit}"
+                    ),
+                }
+            }
+            Self::StartTooFast { most, axis } => write!(
+                f,
+                "the start is too fast: the end and the limits before it can be met from at most {} {}",
+                short(axis.rate(*most)),
+                axis.coordinate.speed_unit()
+            ),
+            Self::EndTooFast { most, axis } => write!(
+                f,
+                "the speed of the end cannot be reached: at most {} {}",
+                short(axis.rate(*most)),
+                axis.coordinate.speed_unit()
+            ),
             Self::TooLong { turns, most } => write!(
                 f,
                 "the move of {} turns is too long: for a machine that varies within a turn, the fastest motion is computed over at most {} turns",
@@ -136,13 +169,6 @@ impl NoMotion {
                 f,
                 "the gearbox is self-locking: its load cannot be braked by the motor, and the motion under it is not determined"
             ),
-            _ => Ok(()),
-        }
-    }
-
-    /// Why the search failed.
-    fn not_found(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
             Self::RmsTooLarge {
                 rms,
                 allowed,
@@ -222,95 +248,27 @@ impl NoMotion {
                     short(*bound)
                 )
             }
-            _ => Ok(()),
-        }
-    }
-}
-
-impl fmt::Display for Empty {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { axis, names, .. } = self;
-        let [asks, allows] = names;
-        let unit = axis.coordinate.speed_unit();
-        let rate = |rate: f64| short(axis.rate(rate));
-        write!(
-            f,
-            "no acceleration is left at {} and {} {unit}: the {asks} requires at least {} {unit}^2, the {allows} allows at most {}",
-            axis.place(self.phi),
-            rate(self.speed),
-            rate(self.least.0),
-            rate(self.most.0)
-        )
-    }
-}
-
-impl fmt::Display for NoMotion {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Machine(error) => write!(f, "the move is not possible: {error}"),
-            Self::Duty(fault) => fault.fmt(f),
-            Self::NoWay => write!(f, "start and end are the same position"),
-            Self::Stops { .. } => self.stops(f),
-            Self::Stiff { phi, axis } => write!(
-                f,
-                "viscous friction is so large for the inertia that the motion would need more than {MOST_STEPS} steps: it was computed up to {}",
-                axis.place(*phi)
-            ),
-            Self::RunsAway {
+            Self::JointForce {
+                joint,
                 phi,
-                at_end,
-                limit,
-                name,
-                torques,
-                unit,
+                forces: [force, limit],
+                stands,
                 axis,
             } => {
-                let place = axis.place(*phi);
-                let [needed, given] = told_apart(torques.map(f64::abs));
-                let unit = unit.effort_unit();
-                let what = if *at_end {
-                    "the machine cannot be stopped at"
+                let slowly = if *stands {
+                    "while the machine rests there in a pause; its limit is"
                 } else {
-                    "the machine cannot be braked in time: it runs away at"
+                    "in a slowly moving machine; motions that satisfy the limit only by their speed are not computed, and the limit is"
                 };
-                match limit {
-                    Binding::JointForce(_) => {
-                        write!(f, "{what} {place}: the {name} is in the way")
-                    }
-                    Binding::Deceleration | Binding::Acceleration => write!(
-                        f,
-                        "{what} {place}: its loads brake harder than the {name} allows"
-                    ),
-                    _ => write!(
-                        f,
-                        "{what} {place}: {needed} {unit} of braking are needed to hold its speed, the {name} is {given} {unit}"
-                    ),
-                }
+                write!(
+                    f,
+                    "the force in joint \"{joint}\" is {} N at {} {slowly} {} N",
+                    short(*force),
+                    axis.place(*phi),
+                    short(*limit)
+                )
             }
-            Self::StartTooFast { most, axis } => write!(
-                f,
-                "the start is too fast: the end and the limits before it can be met from at most {} {}",
-                short(axis.rate(*most)),
-                axis.coordinate.speed_unit()
-            ),
-            Self::EndTooFast { most, axis } => write!(
-                f,
-                "the speed of the end cannot be reached: at most {} {}",
-                short(axis.rate(*most)),
-                axis.coordinate.speed_unit()
-            ),
-            Self::NoTorqueLimit(_)
-            | Self::NoSpeedLimit
-            | Self::SelfLocking
-            | Self::TooLong { .. }
-            | Self::NotAccurate { .. }
-            | Self::LoadJumps { .. }
-            | Self::WindingUnknown
-            | Self::JointForceAlone => self.not_computed(f),
-            Self::RmsTooLarge { .. } | Self::TooWarm { .. } | Self::NotFound { .. } => {
-                self.not_found(f)
-            }
-            Self::JointForce { .. } | Self::Empty(_) => self.at_a_place(f),
+            Self::Empty(place) => place.fmt(f),
         }
     }
 }

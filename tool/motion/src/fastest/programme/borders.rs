@@ -1,6 +1,5 @@
 //! Borders of pieces, best placed where the active limit changes. A limit is active where the motion meets it.
 
-use super::interior::Programme as _;
 use super::limits::Margins;
 use super::mesh::{Border, SHARES};
 use super::{MeshMotion, MoveRequest, PIECES, RAMP, WarmStart};

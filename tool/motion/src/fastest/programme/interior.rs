@@ -9,6 +9,7 @@
 //! derivatives are omitted where the matrix would not be positive definite. A step is halved until its end violates limits less, or costs less, than
 //! each earlier point (a filter; Fletcher and Leyffer, 2002). The start may violate limits.
 
+use super::limits::MeshProblem;
 use super::mesh::{Local, Mesh, VALUES};
 use super::newton::{Kkt, Steps, along};
 use crate::fastest::field::Binding;
@@ -41,16 +42,6 @@ impl Term {
             weight,
         }
     }
-}
-
-/// The optimisation problem.
-pub(super) trait Programme {
-    /// The pieces.
-    fn mesh(&self) -> &Mesh;
-    /// Terms of the objective, and limits, at a point; always the same number of each. `None` if w is not positive, so that there is no motion.
-    fn at(&self, x: &[f64]) -> Option<[Vec<Term>; 2]>;
-    /// The largest share of a step after which w is still positive.
-    fn reach(&self, x: &[f64], step: &[f64]) -> f64;
 }
 
 /// A point with the multipliers of the limits.
@@ -116,11 +107,11 @@ pub(super) struct StuckStation {
 /// # Errors
 /// The method does not converge.
 pub(super) fn minimise(
-    programme: &impl Programme,
+    programme: &MeshProblem,
     start: &[f64],
     [first, last]: [f64; 2],
 ) -> Result<PrimalDual, StuckStation> {
-    let mesh = programme.mesh();
+    let mesh = programme.mesh;
     let mut mu = first;
     let nowhere = StuckStation {
         limit: None,
@@ -191,7 +182,7 @@ pub(super) fn minimise(
 
 impl Iterate {
     /// The slacks are still to be set.
-    fn new(programme: &impl Programme, x: Vec<f64>) -> Option<Self> {
+    fn new(programme: &MeshProblem, x: Vec<f64>) -> Option<Self> {
         let [terms, rows] = programme.at(&x)?;
         Some(Self {
             x,
@@ -245,14 +236,14 @@ impl Iterate {
     /// slacks and w positive. Also returns whether anything was gained.
     fn after(
         &self,
-        programme: &impl Programme,
+        programme: &MeshProblem,
         steps: &Steps,
         mu: f64,
         filter: &mut Vec<[f64; 2]>,
         as_it_is: bool,
     ) -> Option<(Self, bool)> {
         let now = self.merits(mu);
-        let slope = self.promise(programme.mesh(), steps, mu);
+        let slope = self.promise(programme.mesh, steps, mu);
         let mut share =
             longest(&self.slacks, &steps.slacks).min(programme.reach(&self.x, &steps.x));
         for halvings in 0..=HALVINGS {

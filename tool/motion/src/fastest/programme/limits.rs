@@ -8,7 +8,7 @@
 //! (√w). The jerk is limited as |g‴·w + …| ≤ t³·j/(L·√w). Every limit is divided by itself: c ≤ 0, and c = −1 where the limited quantity is zero.
 
 use super::effort::{Effort, StationState, mix};
-use super::interior::{Programme, Term};
+use super::interior::Term;
 use super::mesh::{Local, Mesh, Station, VALUES};
 use super::rate::{Rate, smooth_slopes};
 use crate::collocation::pieces::{Value, dot};
@@ -323,14 +323,9 @@ impl MeshProblem<'_> {
             costs.iter().map(|cost| cost.value).sum()
         })
     }
-}
 
-impl Programme for MeshProblem<'_> {
-    fn mesh(&self) -> &Mesh {
-        self.mesh
-    }
-
-    fn at(&self, x: &[f64]) -> Option<[Vec<Term>; 2]> {
+    /// Terms of the objective, and limits, at a point; always the same number of each. `None` if w is not positive, so that there is no motion.
+    pub(super) fn at(&self, x: &[f64]) -> Option<[Vec<Term>; 2]> {
         let stations = &self.mesh.stations;
         let mut costs = Vec::with_capacity(stations.len());
         let mut rows = Vec::with_capacity(stations.len() * 8);
@@ -354,7 +349,8 @@ impl Programme for MeshProblem<'_> {
         Some([costs, rows])
     }
 
-    fn reach(&self, x: &[f64], step: &[f64]) -> f64 {
+    /// The largest share of a step after which w is still positive.
+    pub(super) fn reach(&self, x: &[f64], step: &[f64]) -> f64 {
         let mut share = 1.0_f64;
         for station in &self.mesh.stations {
             let values = self.mesh.values(x, station.element);

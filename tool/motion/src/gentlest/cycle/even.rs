@@ -5,8 +5,9 @@ use jred::machine::motion::{End, Polynomial};
 use jred_file::model::motion::Phase;
 use jred_file::number::numerics::gauss;
 
+use crate::collocation::torque::Torque;
 use crate::moves::Move;
-use crate::path_dynamics::{PathDynamics, Place};
+use crate::path_dynamics::PathDynamics;
 
 /// Parts of a turn at constant kinetic energy.
 const PARTS: usize = 512;
@@ -17,15 +18,8 @@ pub(super) fn constant_energy(dynamics: &PathDynamics, step: &Move) -> Result<Ve
     // Inertia and its slope along the path.
     let inertia = |share: f64| -> Result<[f64; 2], Error> {
         let place = dynamics.place(step.from + distance * share)?;
-        let whole = dynamics.demand(&place, 0.0, 0.0).per_acceleration;
-        let bare = Place {
-            inertia: 0.0,
-            load: place.load,
-            ..place
-        };
-        let without = dynamics.demand(&bare, 0.0, 0.0).per_acceleration;
-        let by_load = (whole - without) / place.inertia;
-        Ok([whole, by_load * place.inertia_slope])
+        let torque = Torque::exact(dynamics, &place, 0.0, 0.0);
+        Ok([torque.by_acceleration, torque.by_load * place.inertia_slope])
     };
     let mut times = Vec::with_capacity(PARTS);
     let mut ends = Vec::with_capacity(PARTS + 1);

@@ -155,7 +155,7 @@ pub(super) fn limits(answer: &mut Answer, judged: &Assessment) {
     };
     // Warnings first; without this they would be lines of their own.
     shown.sort_by(|a, b| {
-        let by_use = b.use_of_limit().total_cmp(&a.use_of_limit());
+        let by_use = b.used.total_cmp(&a.used);
         b.verdict.cmp(&a.verdict).then(by_use)
     });
     shown.truncate(if fails > 0 { SHOWN_VIOLATED } else { SHOWN });

@@ -367,7 +367,7 @@ pub(super) const fn doubt(certainty: Certainty) -> &'static str {
 
 /// Margin in percent.
 fn margin(check: &Check) -> String {
-    match check.margin() {
+    match check.margin {
         Some(margin) if margin > -9.995 => format!("{:+.0} %", margin * 100.0),
         Some(_) => "< -999 %".to_owned(),
         None => String::new(),
