@@ -76,7 +76,7 @@ impl Example {
         Ok(all)
     }
 
-    /// What its head says after `//! KEY: `.
+    /// The rest of the line of its head that begins with `//! KEY: `.
     fn says(&self, key: &str) -> Option<&str> {
         let mut lines = self.source.lines();
         lines.find_map(|line| {

@@ -61,7 +61,7 @@ pub(crate) fn done(command: &mut Command) -> Result<()> {
     Ok(())
 }
 
-/// What a command writes to standard output; if it fails, an error with that.
+/// The standard output of a command; if it fails, an error with that output.
 pub(crate) fn output(command: &mut Command) -> Result<Vec<u8>> {
     let output = command
         .stdin(Stdio::null())

@@ -23,7 +23,7 @@ pub struct Kind {
 }
 
 impl Kind {
-    /// The value (SI) of a quantity in the source code, or of a zero without a unit; NaN if it is none.
+    /// The value (SI) of a quantity in the source code, or of a zero without a unit; NaN for any other text.
     pub(crate) fn value_of(&self, text: &str) -> f64 {
         match text {
             "0" => 0.0,
