@@ -146,7 +146,7 @@ impl<'m, F: Format, const SET: CurveSet> ImageSlot<'m, F, SET> {
 
     /// Feed-forward over the image; `None` if there is no image, or it was not checked or was refused.
     ///
-    /// Cost: nothing is checked again, so a tick can call it every time: 18 instructions on an M4F (docs/performance.md).
+    /// Cost: nothing is checked again, so a tick can call it every time: 28 instructions on an M4F (docs/performance.md).
     #[inline]
     #[must_use]
     pub fn feed_forward(&self) -> Option<FeedForward<'_, F, SET>> {
