@@ -51,6 +51,28 @@ pub(crate) fn edited(text: &str, from: &str, to: &str) -> String {
     text.replacen(from, to, 1)
 }
 
+/// The rows of a table of cases: `N` fields a line between `=>`; a line without one continues the line before, and one from
+/// `//` on is a comment. `\n` is a line break, `␣` a space at the end of a field.
+pub(crate) fn rows<const N: usize>(table: &str) -> Vec<[String; N]> {
+    let lines = table.lines().map(str::trim);
+    let mut rows: Vec<String> = Vec::new();
+    for line in lines.filter(|line| !line.is_empty() && !line.starts_with("//")) {
+        match rows.last_mut() {
+            Some(row) if !line.contains("=>") => *row += &format!(" {line}"),
+            _ => rows.push(line.to_owned()),
+        }
+    }
+    let field = |text: &str| text.trim().replace("\\n", "\n").replace('␣', " ");
+    let fields = |row: String| -> Vec<String> { row.split("=>").map(field).collect() };
+    let row = |row| fields(row).try_into().unwrap();
+    rows.into_iter().map(row).collect()
+}
+
+/// The phrases of a list with ` | ` between them.
+pub(crate) fn phrases(list: &str) -> Vec<&str> {
+    list.split(" | ").collect()
+}
+
 /// A folder of a test's own.
 pub(crate) struct Folder(tempfile::TempDir);
 

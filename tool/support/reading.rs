@@ -8,7 +8,7 @@ use jred_file::text::problem::Problem;
 use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme};
 
 use crate::reader;
-use crate::support::edited;
+use crate::support::{edited, phrases, rows};
 
 /// The folder of the tests' own files.
 pub(crate) fn data() -> PathBuf {
@@ -94,6 +94,15 @@ pub(crate) fn refuses(text: &str, words: &[&str]) {
 #[track_caller]
 pub(crate) fn refuses_edit(base: &str, from: &str, to: &str, words: &[&str]) {
     refuses(&edited(base, from, to), words);
+}
+
+/// The same for a table of edits ([`rows`]): a text, its replacement, and what the report must contain ([`phrases`]).
+#[track_caller]
+pub(crate) fn refuses_edits(base: &str, edits: &str) {
+    for [from, to, words] in rows(edits) {
+        println!("{from} => {to}");
+        refuses_edit(base, &from, &to, &phrases(&words));
+    }
 }
 
 /// Checks that a report contains every one of `words`; `SHOW_REPORTS=1` prints it.
