@@ -143,6 +143,7 @@ pub(crate) fn near(what: &str, found: f64, expected: f64, share: f64) {
 }
 
 /// Checks |found − expected| ≤ `most`.
+#[track_caller]
 pub(crate) fn within(what: &str, found: f64, expected: f64, most: f64) {
     if std::env::var_os("SHOW_AGREEMENT").is_some() {
         let relative = (found - expected) / expected.abs().max(f64::MIN_POSITIVE);
@@ -157,6 +158,12 @@ pub(crate) fn within(what: &str, found: f64, expected: f64, most: f64) {
         "{what}: found {found}, expected {expected}, off by {:e}, allowed {most:e}",
         found - expected
     );
+}
+
+/// The same for a value without a name.
+#[track_caller]
+pub(crate) fn close(found: f64, expected: f64, most: f64) {
+    within("value", found, expected, most);
 }
 
 /// Checks a column against another, to a `share` of the expected column's largest magnitude.

@@ -116,6 +116,41 @@ pub(crate) fn says(report: &str, words: &[&str]) {
     }
 }
 
+/// The text of a belt drive, whose drive link turns without end, with what follows.
+pub(crate) fn belt_drive(rest: &str) -> String {
+    format!(
+        "gravity = [\"0 m/s^2\", \"0 m/s^2\"]\n[mechanism]\ntype = \"belt\"\n\
+         driver = {{ radius = \"2 cm\", inertia = \"1 kg cm^2\" }}\n\
+         driven = {{ radius = \"5 cm\", inertia = \"6 kg cm^2\" }}\n{rest}"
+    )
+}
+
+/// The same with a motion of segments, in which `; ` is a line break.
+pub(crate) fn belt_motion(kind: &str, segments: &[&str]) -> String {
+    let segments = segments.iter();
+    let segments =
+        segments.map(|keys| format!("[[motion.segment]]\n{}\n", keys.replace("; ", "\n")));
+    let segments: String = segments.collect();
+    belt_drive(&format!("[motion]\ntype = \"{kind}\"\n{segments}"))
+}
+
+/// The text of a slider-crank of 90 mm and 300 mm in oblique gravity, with the mass of its slider and what follows.
+pub(crate) fn oblique_slider_crank(slider: &str, rest: &str) -> String {
+    format!(
+        "gravity = [\"3 m/s^2\", \"-9 m/s^2\"]\n[mechanism]\ntype = \"slider-crank\"\n\
+         crank = {{ length = \"90 mm\", mass = \"1 kg\", inertia = \"20 kg cm^2\" }}\n\
+         rod = {{ length = \"300 mm\", mass = \"0.8 kg\", inertia = \"80 kg cm^2\", com = [\"120 mm\", \"0 mm\"] }}\n\
+         slider = {{ mass = \"{slider}\" }}\n{rest}"
+    )
+}
+
+/// A file of `machines/` with another motion, in which `; ` is a line break.
+pub(crate) fn with_motion(name: &str, motion: &str) -> String {
+    let text = text_of(name);
+    let head = text.split("\n[motion]").next().unwrap();
+    format!("{head}\n[motion]\n{}\n", motion.replace("; ", "\n"))
+}
+
 /// A table of an inertia (kg·m²) and a friction (N·m) behind a pair of gears, of which 20 teeth drive so many; what is left of the stage and of the file
 /// follows.
 pub(crate) fn table_behind_gears(
