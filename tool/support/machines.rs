@@ -174,3 +174,21 @@ between = ["ground.C", "rocker"]
 on = "rocker"
 moment = "-6 N m"
 "#;
+
+/// A press without friction, with a counterbalance spring below its ram, moving freely.
+pub(crate) fn balanced_press(spring: &str) -> String {
+    let press = super::press_text();
+    let mechanism = press.split("[[load]]").next().unwrap();
+    format!(
+        "{mechanism}\n{spring}\n[simulation]\nstart_angle = \"100 deg\"\nstart_speed = \"500 rpm\"\nduration = \"2 s\"\n\
+         output_step = \"10 ms\"\ntorque = \"0 N m\"\ntolerance = 1e-12\n"
+    )
+}
+
+/// The spring.
+pub(crate) const COUNTERBALANCE: &str = r#"[[spring]]
+name = "counterbalance"
+between = ["slider", { on = "ground", at = ["400 mm", "0 mm"] }]
+stiffness = "3 N/mm"
+free_length = "330 mm"
+"#;

@@ -51,6 +51,28 @@ pub(crate) fn edited(text: &str, from: &str, to: &str) -> String {
     text.replacen(from, to, 1)
 }
 
+/// The rows of a table of cases: `N` fields a line between `=>`; a line without one continues the line before, and one from
+/// `//` on is a comment. `\n` is a line break, `␣` a space at the end of a field.
+pub(crate) fn rows<const N: usize>(table: &str) -> Vec<[String; N]> {
+    let lines = table.lines().map(str::trim);
+    let mut rows: Vec<String> = Vec::new();
+    for line in lines.filter(|line| !line.is_empty() && !line.starts_with("//")) {
+        match rows.last_mut() {
+            Some(row) if !line.contains("=>") => *row += &format!(" {line}"),
+            _ => rows.push(line.to_owned()),
+        }
+    }
+    let field = |text: &str| text.trim().replace("\\n", "\n").replace('␣', " ");
+    let fields = |row: String| -> Vec<String> { row.split("=>").map(field).collect() };
+    let row = |row| fields(row).try_into().unwrap();
+    rows.into_iter().map(row).collect()
+}
+
+/// The phrases of a list with ` | ` between them.
+pub(crate) fn phrases(list: &str) -> Vec<&str> {
+    list.split(" | ").collect()
+}
+
 /// A folder of a test's own.
 pub(crate) struct Folder(tempfile::TempDir);
 
@@ -121,6 +143,7 @@ pub(crate) fn near(what: &str, found: f64, expected: f64, share: f64) {
 }
 
 /// Checks |found − expected| ≤ `most`.
+#[track_caller]
 pub(crate) fn within(what: &str, found: f64, expected: f64, most: f64) {
     if std::env::var_os("SHOW_AGREEMENT").is_some() {
         let relative = (found - expected) / expected.abs().max(f64::MIN_POSITIVE);
@@ -135,6 +158,12 @@ pub(crate) fn within(what: &str, found: f64, expected: f64, most: f64) {
         "{what}: found {found}, expected {expected}, off by {:e}, allowed {most:e}",
         found - expected
     );
+}
+
+/// The same for a value without a name.
+#[track_caller]
+pub(crate) fn close(found: f64, expected: f64, most: f64) {
+    within("value", found, expected, most);
 }
 
 /// Checks a column against another, to a `share` of the expected column's largest magnitude.

@@ -91,6 +91,16 @@ pub(crate) fn slider_speed(phi: f64) -> f64 {
     -R * sin - R * R * sin * cos / (L * L - R * R * sin * sin).sqrt()
 }
 
+/// x_B and its first two derivatives.
+pub(crate) fn slider_derivatives(phi: f64) -> [f64; 3] {
+    let (sin, cos) = phi.sin_cos();
+    let q = (L * L - R * R * sin * sin).sqrt();
+    // q·q′ = −r²·sin φ·cos φ
+    let slope = -R * R * sin * cos / q;
+    let bend = (-R * R * (cos * cos - sin * sin) - slope * slope) / q;
+    [R * cos + q, -R * sin + slope, -R * cos + bend]
+}
+
 /// J_red without the drive train: twice the kinetic energy at ω = 1.
 pub(crate) fn inertia(phi: f64) -> f64 {
     FLYWHEEL + shares(phi).iter().sum::<f64>()

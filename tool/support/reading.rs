@@ -8,7 +8,7 @@ use jred_file::text::problem::Problem;
 use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme};
 
 use crate::reader;
-use crate::support::edited;
+use crate::support::{edited, phrases, rows};
 
 /// The folder of the tests' own files.
 pub(crate) fn data() -> PathBuf {
@@ -96,6 +96,15 @@ pub(crate) fn refuses_edit(base: &str, from: &str, to: &str, words: &[&str]) {
     refuses(&edited(base, from, to), words);
 }
 
+/// The same for a table of edits ([`rows`]): a text, its replacement, and what the report must contain ([`phrases`]).
+#[track_caller]
+pub(crate) fn refuses_edits(base: &str, edits: &str) {
+    for [from, to, words] in rows(edits) {
+        println!("{from} => {to}");
+        refuses_edit(base, &from, &to, &phrases(&words));
+    }
+}
+
 /// Checks that a report contains every one of `words`; `SHOW_REPORTS=1` prints it.
 #[track_caller]
 pub(crate) fn says(report: &str, words: &[&str]) {
@@ -105,6 +114,41 @@ pub(crate) fn says(report: &str, words: &[&str]) {
     for word in words {
         assert!(report.contains(word), "{word:?} is not in\n{report}");
     }
+}
+
+/// The text of a belt drive, whose drive link turns without end, with what follows.
+pub(crate) fn belt_drive(rest: &str) -> String {
+    format!(
+        "gravity = [\"0 m/s^2\", \"0 m/s^2\"]\n[mechanism]\ntype = \"belt\"\n\
+         driver = {{ radius = \"2 cm\", inertia = \"1 kg cm^2\" }}\n\
+         driven = {{ radius = \"5 cm\", inertia = \"6 kg cm^2\" }}\n{rest}"
+    )
+}
+
+/// The same with a motion of segments, in which `; ` is a line break.
+pub(crate) fn belt_motion(kind: &str, segments: &[&str]) -> String {
+    let segments = segments.iter();
+    let segments =
+        segments.map(|keys| format!("[[motion.segment]]\n{}\n", keys.replace("; ", "\n")));
+    let segments: String = segments.collect();
+    belt_drive(&format!("[motion]\ntype = \"{kind}\"\n{segments}"))
+}
+
+/// The text of a slider-crank of 90 mm and 300 mm in oblique gravity, with the mass of its slider and what follows.
+pub(crate) fn oblique_slider_crank(slider: &str, rest: &str) -> String {
+    format!(
+        "gravity = [\"3 m/s^2\", \"-9 m/s^2\"]\n[mechanism]\ntype = \"slider-crank\"\n\
+         crank = {{ length = \"90 mm\", mass = \"1 kg\", inertia = \"20 kg cm^2\" }}\n\
+         rod = {{ length = \"300 mm\", mass = \"0.8 kg\", inertia = \"80 kg cm^2\", com = [\"120 mm\", \"0 mm\"] }}\n\
+         slider = {{ mass = \"{slider}\" }}\n{rest}"
+    )
+}
+
+/// A file of `machines/` with another motion, in which `; ` is a line break.
+pub(crate) fn with_motion(name: &str, motion: &str) -> String {
+    let text = text_of(name);
+    let head = text.split("\n[motion]").next().unwrap();
+    format!("{head}\n[motion]\n{}\n", motion.replace("; ", "\n"))
 }
 
 /// A table of an inertia (kg·m²) and a friction (N·m) behind a pair of gears, of which 20 teeth drive so many; what is left of the stage and of the file

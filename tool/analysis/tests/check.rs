@@ -1,6 +1,6 @@
 //! Machine files whose values can be read, but whose mechanics cannot be.
 
-use crate::reading::{parse, refuses, refuses_edit, rendered};
+use crate::reading::{parse, refuses, refuses_edit, refuses_edits, rendered};
 use crate::support::machines::FOUR_BAR;
 
 const PRESS: &str = include_str!("../../file/tests/data/press.toml");
@@ -56,33 +56,24 @@ fn a_press_without_masses_is_refused() {
 
 #[test]
 fn a_roller_without_its_spring_is_refused() {
-    refuses_edit(
-        JAW,
-        "stiffness = \"2 N/mm\"",
-        "stiffness = \"0.01 N/mm\"",
-        &[
-            "joint \"cam contact\": the follower leaves the cam",
-            "closure = \"form\"",
-        ],
-    );
+    let edits = r#"
+        stiffness = "2 N/mm" => stiffness = "0.01 N/mm" =>
+            joint "cam contact": the follower leaves the cam | closure = "form"
+    "#;
+    refuses_edits(JAW, edits);
 }
 
 #[test]
 fn a_follower_that_lifts_off_is_refused() {
     let base = example(DOC);
     assert!(parse(base).is_ok());
-    refuses_edit(
-        base,
-        "\"200 rpm\"",
-        "\"900 rpm\"",
-        &[
-            "the follower leaves the cam in the prescribed motion: at φ = ",
-            "900 rpm, the contact force would be -",
-            "at constant speed: the follower lifts off at φ = ",
-            "stiffer spring, more preload, or a slower machine",
-            "closure = \"form\"",
-        ],
-    );
+    let edits = r#"
+        "200 rpm" => "900 rpm" =>
+            the follower leaves the cam in the prescribed motion: at φ =␣ | 900 rpm, the contact force would be - |
+            at constant speed: the follower lifts off at φ =␣ | stiffer spring, more preload, or a slower machine |
+            closure = "form"
+    "#;
+    refuses_edits(base, edits);
     // The speed told is the limit.
     let report = rendered(&parse(&base.replace("\"200 rpm\"", "\"900 rpm\"")).unwrap_err());
     let above = report.split("above ").nth(1).unwrap();
@@ -92,20 +83,15 @@ fn a_follower_that_lifts_off_is_refused() {
         let found = parse(&base.replace("\"200 rpm\"", &speed));
         assert_eq!(found.is_ok(), held, "{speed}");
     }
-    let spring = "[mechanism.spring]\nstiffness = \"3 N/mm\"\npreload = \"80 N\"\n";
-    refuses_edit(
-        base,
-        spring,
-        "",
-        &["at constant speed: the follower lifts off"],
-    );
+    let edits = r#"
+        [mechanism.spring]\nstiffness = "3 N/mm"\npreload = "80 N"\n => => at constant speed: the follower lifts off
+    "#;
+    refuses_edits(base, edits);
     let weightless = base.replace("-9.81", "0");
-    refuses_edit(
-        &weightless,
-        spring,
-        "",
-        &["nothing presses the follower on the cam"],
-    );
+    let edits = r#"
+        [mechanism.spring]\nstiffness = "3 N/mm"\npreload = "80 N"\n => => nothing presses the follower on the cam
+    "#;
+    refuses_edits(&weightless, edits);
     // A slow move within which it accelerates hard.
     let cycle = "[motion]\ntype = \"cycle\"\n\n[[motion.segment]]\nlaw = \"cycloidal\"\nmove = \"360 deg\"\nduration = ";
     let motion = "[motion]\ntype = \"constant-speed\"\nspeed = \"200 rpm\"";

@@ -5,7 +5,7 @@ mod refusals;
 use crate::reading::{parse, says};
 use crate::simulate::{imbalance, run, simulate};
 use crate::support::machines::SHAFTS;
-use crate::support::{budget, edited, near, near_column, within};
+use crate::support::{budget, edited, near, near_column, phrases, rows, within};
 use jred::machine::Mechanism as _;
 use jred_file::model::variator::{Adhesion, integrability_text};
 
@@ -22,6 +22,14 @@ fn refuses(base: &str, from: &str, to: &str, words: &[&str]) {
     match run(&edited(base, from, to)) {
         Err(message) => says(&message, words),
         Ok(_) => panic!("simulated, though the report should contain {words:?}"),
+    }
+}
+
+/// The same for a table of edits ([`rows`]).
+#[track_caller]
+fn refuses_all(base: &str, edits: &str) {
+    for [from, to, words] in rows(edits) {
+        refuses(base, &from, &to, &phrases(&words));
     }
 }
 

@@ -10,6 +10,7 @@ use rand::rngs::ChaCha8Rng;
 use rand::{RngExt as _, SeedableRng as _};
 
 use crate::reading::{machine_path, parse, parse_in, read, refuses, text_of};
+use crate::support::{self, edited, phrases};
 
 const CRANK: &str = r#"gravity = ["9.81 m/s^2", "0 m/s^2"]
 [mechanism]
@@ -31,56 +32,20 @@ fn warns(text: &str, words: &[&str]) {
 #[test]
 fn wrong_units_are_implausible() {
     warns(CRANK, &[]);
-    let edited = |from: &str, to: &str| {
-        assert!(CRANK.contains(from), "{from}");
-        CRANK.replacen(from, to, 1)
-    };
-    for (from, to, words) in [
+    let cases = r#"
         // √(300/6.5) m for a rod of 180 mm.
-        (
-            "0.03 kg m^2",
-            "300 kg m^2",
-            &["rod has 300 kg m^2 at 6.5 kg", "6.794 m", "0.18 m long"][..],
-        ),
-        (
-            "0.03 kg m^2",
-            "0.03 kg mm^2",
-            &["the rod has", "are the units right"],
-        ),
-        (
-            "0.03 kg m^2",
-            "0 kg m^2",
-            &[
-                "rod has a mass of 6.5 kg and no moment of inertia",
-                "0.018 kg m^2",
-            ],
-        ),
-        ("9.81 m/s^2", "981 m/s^2", &["gravity is 981 m/s^2"]),
-        ("9.81 m/s^2", "9.81 mm/s^2", &["gravity is 0.00981 m/s^2"]),
-        (
-            "[\"55 mm\"",
-            "[\"900 m\"",
-            &["centre of mass of the rod is 900 m away"],
-        ),
-        (
-            "42 kg",
-            "0.003 g",
-            &["has a mass of 9 kg", "slider with 3.000e-6 kg"],
-        ),
-    ] {
-        let text = edited(from, to);
-        let found = warnings(&read(&text)).unwrap().join("\n");
-        for word in words {
-            assert!(found.contains(word), "{to}: {word:?} is not in {found:?}");
-        }
+        0.03 kg m^2 => 300 kg m^2 => rod has 300 kg m^2 at 6.5 kg | 6.794 m | 0.18 m long
+        0.03 kg m^2 => 0.03 kg mm^2 => the rod has | are the units right
+        0.03 kg m^2 => 0 kg m^2 => rod has a mass of 6.5 kg and no moment of inertia | 0.018 kg m^2
+        9.81 m/s^2 => 981 m/s^2 => gravity is 981 m/s^2
+        9.81 m/s^2 => 9.81 mm/s^2 => gravity is 0.00981 m/s^2
+        ["55 mm" => ["900 m" => centre of mass of the rod is 900 m away
+        "180 mm" => "400 m" => has a length of 400 m, 13330 times
+        42 kg => 0.003 g => has a mass of 9 kg | slider with 3.000e-6 kg
+    "#;
+    for [from, to, words] in support::rows(cases) {
+        warns(&edited(CRANK, &from, &to), &phrases(&words));
     }
-    let text = CRANK.replace("\"180 mm\"", "\"400 m\"");
-    assert!(
-        warnings(&read(&text))
-            .unwrap()
-            .join("\n")
-            .contains("has a length of 400 m, 13330 times")
-    );
 }
 
 /// A way of 500 mm in a microsecond; one in 5 ms reaches 188 m/s, one in 10 ms 29 km/s² at the most.

@@ -7,7 +7,7 @@ mod together;
 use std::path::Path;
 
 use crate::support::catalogue::{FIRST, HEADER, SECOND};
-use crate::support::{Folder, Run, jred, press_file};
+use crate::support::{Folder, Run, jred, jred_of, press_file};
 use jred_sizing::catalogue::Catalogue;
 
 fn built_in() -> Catalogue {
@@ -18,14 +18,7 @@ fn size_with(motors: impl AsRef<[u8]>) -> Run {
     let folder = Folder::new();
     let file = folder.file("m.csv", motors);
     // A short path, because messages are wrapped at a fixed width.
-    jred([
-        &"size",
-        &press_file(),
-        &"--motors",
-        &file,
-        &"--steps",
-        &"16",
-    ])
+    jred_of("size {} --motors {} --steps 16", [&press_file(), &file])
 }
 
 /// `place` is line and column as the message shows them.
@@ -216,16 +209,10 @@ fn own_catalogues_are_the_only_candidates() {
 fn a_catalogue_beside_the_built_in_one() {
     let folder = Folder::new();
     folder.file("motors.csv", format!("{HEADER}\n{FIRST}\n"));
-    let run = jred([
-        &"size",
-        &press_file(),
-        &"--catalogue",
-        &folder.path(""),
-        &"--catalogue",
-        &"built-in",
-        &"--steps",
-        &"16",
-    ]);
+    let run = jred_of(
+        "size {} --catalogue {} --catalogue built-in --steps 16",
+        [&press_file(), &folder.path("")],
+    );
     let built_in = built_in();
     let all = (built_in.motors.len() + 1) * (built_in.gearboxes.len() + 1);
     assert!(run.out.contains(&format!(" of {all} ")), "{}", run.out);
@@ -237,14 +224,7 @@ fn remarks_go_to_the_standard_error() {
     let folder = Folder::new();
     let header = HEADER.replace("[kg cm^2]", "[g cm^2]");
     let file = folder.file("motors.csv", format!("{header}\n{FIRST}\n"));
-    let run = jred([
-        &"size",
-        &press_file(),
-        &"--motors",
-        &file,
-        &"--steps",
-        &"16",
-    ]);
+    let run = jred_of("size {} --motors {} --steps 16", [&press_file(), &file]);
     assert!(run.code < 2, "{}", run.err);
     assert!(
         run.message().contains("less than for any known motor"),

@@ -12,7 +12,8 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 
 use crate::support::{
-    COMMANDS, Folder, Run, edited, edited_press, jred, jred_with, press_file, press_text,
+    COMMANDS, Folder, Run, edited, edited_press, jred, jred_of, jred_with, press_file, press_text,
+    typed,
 };
 
 fn export(file: &Path, more: &[&str], out: &Path) -> Run {
@@ -57,14 +58,8 @@ fn zero_when_everything_holds() {
         ("json", "f32"),
     ] {
         let out = folder.path("table");
-        let more = [
-            "--torque-error",
-            "0.5 N m",
-            "--format",
-            format,
-            "--type",
-            number,
-        ];
+        let line = format!("--torque-error '0.5 N m' --format {format} --type {number}");
+        let more = typed(&line);
         let done = export(&press, &more, &out).ends(0);
         done_says(
             &done,
@@ -304,17 +299,10 @@ fn top_lists_that_many() {
     let motors: std::collections::BTreeSet<_> =
         listed.iter().map(|d| d["motor"].as_str()).collect();
     assert_eq!(motors.len(), 10);
-    let all = jred([
-        &"size",
-        &press,
-        &"--all-gearboxes",
-        &"--top",
-        &"1000000",
-        &"--nearest",
-        &"0",
-        &"--format",
-        &"json",
-    ])
+    let all = jred_of(
+        "size {} --all-gearboxes --top 1000000 --nearest 0 --format json",
+        [&press],
+    )
     .json();
     let all = all["fit"].as_array().unwrap();
     assert!(
@@ -389,14 +377,7 @@ fn a_speed_above_lift_off_is_not_passed_over() {
     let out = folder.path("cam.jred");
     export(
         &cam,
-        &[
-            "--torque-error",
-            "5 N m",
-            "--omega",
-            "600 rpm",
-            "--alpha",
-            "100 rad/s^2",
-        ],
+        &typed("--torque-error '5 N m' --omega '600 rpm' --alpha '100 rad/s^2'"),
         &out,
     )
     .ends(0)

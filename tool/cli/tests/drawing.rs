@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::support::{Folder, edited_press, jred, near, press_file, within};
+use crate::support::{Folder, edited_press, jred, jred_of, near, press_file, within};
 use roxmltree::{Document, Node};
 use serde_json::Value;
 
@@ -286,15 +286,7 @@ fn without_a_motion() {
     assert!(page.contains("--speed was not given") && !page.contains("<h2>Forces</h2>"));
     assert!(page.contains("Velocity transfer functions"));
     let report = folder.path("moving.html");
-    jred([
-        &"reduce",
-        &file,
-        &"--report",
-        &report,
-        &"--speed",
-        &"60 rpm",
-    ])
-    .ends(0);
+    jred_of("reduce {} --report {} --speed '60 rpm'", [&file, &report]).ends(0);
     let page = std::fs::read_to_string(report).unwrap();
     assert!(page.contains("<h2>Forces</h2>") && page.contains("<h2>Largest forces</h2>"));
 }

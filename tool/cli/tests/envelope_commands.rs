@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::support::{Folder, budget, jred, near};
+use crate::support::{Folder, budget, jred, jred_of, near};
 use serde_json::Value;
 
 const LINEAR: &str = "\
@@ -34,17 +34,10 @@ fn a_link_that_slides_takes_a_linear_motor() {
     let linear = folder.file("linear_motors.csv", LINEAR);
     let rotary = folder.file("rotary_motors.csv", ROTARY);
     let machine = machine_path("linear-gripper.toml");
-    let run = jred([
-        &"size",
-        &machine,
-        &"--catalogue",
-        &linear,
-        &"--catalogue",
-        &rotary,
-        &"--refused",
-        &"--format",
-        &"json",
-    ]);
+    let run = jred_of(
+        "size {} --catalogue {} --catalogue {} --refused --format json",
+        [&machine, &linear, &rotary],
+    );
     assert!(run.code == 0, "{}", run.err);
     let found: Value = serde_json::from_str(&run.out).unwrap();
     let drives: Vec<&Value> = ["fit", "refused"]
@@ -117,15 +110,10 @@ fn the_supply_of_the_machine_file_moves_the_limits() {
     let limits = |supply: &str| {
         let text = crate::support::press_text() + supply;
         let machine = folder.file("press.toml", text);
-        let run = jred([
-            &"size",
-            &machine,
-            &"--motors",
-            &motors,
-            &"--refused",
-            &"--format",
-            &"json",
-        ]);
+        let run = jred_of(
+            "size {} --motors {} --refused --format json",
+            [&machine, &motors],
+        );
         assert!(run.code < 2, "{}", run.err);
         let found: Value = serde_json::from_str(&run.out).unwrap();
         let mut all = found["fit"].as_array().unwrap().clone();

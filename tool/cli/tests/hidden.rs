@@ -2,7 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::support::{Folder, edited_press, jred, jred_with, press_file, press_text};
+use crate::support::{
+    Folder, edited_press, jred, jred_of, jred_with, press_file, press_text, typed,
+};
 
 /// An input that once did harm.
 fn data(name: &str) -> PathBuf {
@@ -16,18 +18,10 @@ fn data(name: &str) -> PathBuf {
 fn a_title_does_not_become_c() {
     let folder = Folder::new();
     let out = folder.path("inj.c");
-    jred([
-        &"export",
-        &data("c-injection.toml"),
-        &"--torque-error",
-        &"50 N m",
-        &"--max-cells",
-        &"64",
-        &"--format",
-        &"c",
-        &"-o",
-        &out,
-    ])
+    jred_of(
+        "export {} --torque-error '50 N m' --max-cells 64 --format c -o {}",
+        [&data("c-injection.toml"), &out],
+    )
     .ends(2)
     .says(&[
         "the text of `title` contains U+000D, an end of line",
@@ -42,14 +36,10 @@ fn a_title_does_not_become_c() {
 fn a_name_does_not_become_rust() {
     let folder = Folder::new();
     let out = folder.path("m.rs");
-    jred([
-        &"size",
-        &press_file(),
-        &"--motors",
-        &data("rust-injection-motors.csv"),
-        &"--meter",
-        &out,
-    ])
+    jred_of(
+        "size {} --motors {} --meter {}",
+        [&press_file(), &data("rust-injection-motors.csv"), &out],
+    )
     .ends(2)
     .says(&[
         "row 1: the cell in column 1 contains U+000A, an end of line",
@@ -146,14 +136,8 @@ fn hidden_characters_of_arguments_are_escaped() {
     // As a title, in C, Rust, CSV, a page, the terminal.
     for (k, form) in ["c", "rust", "json"].iter().enumerate() {
         let out = folder.path(&format!("{k}"));
-        let error = [
-            "--torque-error",
-            "50 N m",
-            "--max-cells",
-            "64",
-            "--format",
-            form,
-        ];
+        let line = format!("--torque-error '50 N m' --max-cells 64 --format {form}");
+        let error = typed(&line);
         let machine = machine.to_str().unwrap();
         let run = jred_with(
             &[
@@ -198,16 +182,10 @@ fn no_cell_is_a_formula() {
     let table = "key,maker,model,rated_torque [N m],rated_speed [rpm],peak_torque [N m],rotor_inertia [kg cm^2],source\n\
                  =cmd|' /C calc'!A0,M,M,20,3000,60,10,S\n";
     let table = folder.file("motors.csv", table);
-    let run = jred([
-        &"size",
-        &press_file(),
-        &"--motors",
-        &table,
-        &"--direct-only",
-        &"--all",
-        &"--format",
-        &"csv",
-    ]);
+    let run = jred_of(
+        "size {} --motors {} --direct-only --all --format csv",
+        [&press_file(), &table],
+    );
     assert!(run.out.contains(",'=cmd|' /C calc'!A0,"), "{}", run.out);
     let text = edited_press(
         "title = \"Servo press, 60 mm stroke, 10 kN\"",
@@ -259,12 +237,10 @@ fn long_values_are_cut() {
     runs.push(jred_with(&["tolerance", press, "--tolerance", &long]));
     for column in ["key", "kind", "rated_torque [N m]", &long] {
         let table = format!("key,maker,model,{column}\n{long},M,M,{long}\n");
-        runs.push(jred([
-            &"size",
-            &press,
-            &"--motors",
-            &folder.file("motors.csv", table),
-        ]));
+        runs.push(jred_of(
+            "size {} --motors {}",
+            [&press, &folder.file("motors.csv", table)],
+        ));
     }
     for run in runs {
         let run = run.ends(2);

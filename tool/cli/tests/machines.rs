@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use crate::support::machines::{LIFT, LIFT_MOTION, SCREW, SHAFTS};
-use crate::support::{Folder, jred};
+use crate::support::{Folder, jred, jred_of};
 
 fn machine(name: &str) -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR"))
@@ -60,16 +60,10 @@ fn tables_need_as_many_cells_as_documented() {
     for (error, cells) in [("0.1", 66), ("0.01", 797)] {
         let asked = format!("{error} N m");
         let (path, out) = (machine("geneva.toml"), folder.path("table.img"));
-        let run = jred([
-            &"export",
-            &path,
-            &"--torque-error",
-            &asked,
-            &"--layout",
-            &"spline",
-            &"--out",
-            &out,
-        ])
+        let run = jred_of(
+            "export {} --torque-error {} --layout spline --out {}",
+            [&path, &asked, &out],
+        )
         .ends(0);
         assert!(run.out.contains(&format!("{cells} cells")), "{}", run.out);
         assert!(
@@ -78,16 +72,10 @@ fn tables_need_as_many_cells_as_documented() {
         );
     }
     let path = machine("geneva.toml");
-    let run = jred([
-        &"export",
-        &path,
-        &"--torque-error",
-        &"0.01 N m",
-        &"--layout",
-        &"spline",
-        &"--pieces",
-        &"auto",
-    ])
+    let run = jred_of(
+        "export {} --torque-error '0.01 N m' --layout spline --pieces auto",
+        [&path],
+    )
     .ends(0);
     assert!(run.out.contains("layout spline, 39 cells"), "{}", run.out);
     assert!(doc.contains("39 cells for 0.01 N·m in two pieces"));
@@ -156,16 +144,9 @@ fn commands_that_need_a_table_are_refused() {
     let why = ["its ratio changes with time", "jred simulate", "holonomic"];
     jred([&"reduce", &path]).ends(2).says(&why);
     jred([&"size", &path]).ends(2).says(&why);
-    jred([
-        &"export",
-        &path,
-        &"--torque-error",
-        &"1 N m",
-        &"--out",
-        &out,
-    ])
-    .ends(2)
-    .says(&why);
+    jred_of("export {} --torque-error '1 N m' --out {}", [&path, &out])
+        .ends(2)
+        .says(&why);
     let (before, _) = SHAFTS.split_once("[[variator.shift]]").unwrap();
     let constant = folder.file("constant.toml", before);
     jred([&"reduce", &constant])

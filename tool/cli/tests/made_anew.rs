@@ -1,7 +1,7 @@
 //! Parts of the file's motion that `gentlest`, `fastest` and `size --motion best` keep, and their reports about it.
 
 use crate::support::schema::faults;
-use crate::support::{Folder, Run, jred_with, squeezed};
+use crate::support::{Folder, Run, jred_with, squeezed, typed};
 use serde_json::json;
 
 fn machine(name: &str) -> String {
@@ -170,16 +170,7 @@ fn the_overshoot_of_a_law_is_no_move() {
 /// A move that ends in motion neither repeats nor holds; too fast an end is answered in the given unit.
 #[test]
 fn a_passing_move_neither_repeats_nor_stands() {
-    let passing = [
-        "--torque",
-        "20 N m",
-        "--motor-speed",
-        "300 rpm",
-        "--from",
-        "0 deg",
-        "--to",
-        "360 deg",
-    ];
+    let passing = typed("--torque '20 N m' --motor-speed '300 rpm' --from '0 deg' --to '360 deg'");
     let speeds = ["--from-speed", "20 rpm", "--to-speed", "10 rpm"];
     let run = jred("fastest", "rotary-table", &[&passing[..], &speeds].concat());
     assert!(run.out.contains("move 1"), "{}{}", run.out, run.err);

@@ -8,7 +8,7 @@ use std::{
 
 use crate::support::json::row_numbers;
 #[cfg(target_os = "linux")]
-use crate::support::{Folder, jred_with};
+use crate::support::{Folder, jred_of, jred_with, typed};
 use crate::support::{jred, press_file};
 
 /// Number of rows for a result in two parts, the second one short.
@@ -16,14 +16,10 @@ const ROWS: usize = 4100;
 
 fn reduced(format: &str) -> String {
     let (file, rows) = (press_file(), ROWS.to_string());
-    jred([
-        &"reduce",
-        &file,
-        &"--positions",
-        &rows,
-        &"--format",
-        &format,
-    ])
+    jred_of(
+        "reduce {} --positions {} --format {}",
+        [&file, &rows, &format],
+    )
     .ends(0)
     .out
 }
@@ -113,18 +109,9 @@ fn every_drive_of_a_catalogue_is_written_one_by_one() {
     let motors = folder.file("motors.csv", motors);
     let (press, motors) = (press_file(), motors.to_str().unwrap());
     let press = press.to_str().unwrap();
-    let all = |format| {
-        let fixed = [
-            "size",
-            press,
-            "--motors",
-            motors,
-            "--direct-only",
-            "--steps",
-            "200",
-        ];
-        [&fixed[..], &["--all", "--format", format]].concat()
-    };
+    let line = format!("size '{press}' --motors '{motors}' --direct-only --steps 200 --all");
+    let fixed = typed(&line);
+    let all = |format| [&fixed[..], &["--format", format]].concat();
     for format in ["json", "csv", "table"] {
         assert!(runs_within(CEILING, &all(format)), "{format}");
     }

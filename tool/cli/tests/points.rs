@@ -1,6 +1,6 @@
 //! `jred reduce --points`: golden transfer functions, closed forms of velocity and acceleration.
 
-use crate::support::{Folder, budget, jred, near_column, press_file};
+use crate::support::{Folder, budget, jred, jred_of, near_column, press_file};
 use jred_file::units::RPM;
 use serde_json::Value;
 
@@ -101,17 +101,10 @@ fn transfer_functions_are_the_golden_ones() {
 /// At constant ω, v = −r·ω·(sin φ + …): the in-line press by hand.
 #[test]
 fn velocities_and_accelerations_in_time() {
-    let found = jred([
-        &"reduce",
-        &press_file(),
-        &"--points",
-        &"--speed",
-        &"-90 rpm",
-        &"--accel",
-        &"35 rad/s^2",
-        &"--format",
-        &"csv",
-    ])
+    let found = jred_of(
+        "reduce {} --points --speed '-90 rpm' --accel '35 rad/s^2' --format csv",
+        [&press_file()],
+    )
     .ends(0)
     .columns();
     let (r, l) = (0.03f64, 0.18f64);
@@ -167,17 +160,10 @@ fn velocities_and_accelerations_in_time() {
 /// Over time the speed is the slope of the position.
 #[test]
 fn over_time_velocities_are_those_of_the_motion() {
-    let found = jred([
-        &"reduce",
-        &press_file(),
-        &"--points",
-        &"--over",
-        &"time",
-        &"--positions",
-        &"2001",
-        &"--format",
-        &"csv",
-    ])
+    let found = jred_of(
+        "reduce {} --points --over time --positions 2001 --format csv",
+        [&press_file()],
+    )
     .ends(0)
     .columns();
     let (t, x) = (found.get("t [s]"), found.get("rod com x [m]"));

@@ -9,7 +9,7 @@ use std::sync::OnceLock;
 use crate::support::numerics::{derivative, trapezoid};
 use crate::support::press::{self, Input, figures};
 use crate::support::{
-    Columns, Folder, budget, jred, largest, near, near_column, press_file, within,
+    Columns, Folder, budget, jred_of, largest, near, near_column, press_file, within,
 };
 use drives::{ONE_GEARBOX, ONE_MOTOR};
 use jred_file::units::RPM;
@@ -62,15 +62,10 @@ fn both_derivations_of_the_torque_agree() {
 
 #[test]
 fn the_reduced_link() {
-    let run = jred([
-        &"reduce",
-        &press_file(),
-        &"--positions",
-        &"720",
-        &"--links",
-        &"--format",
-        &"json",
-    ]);
+    let run = jred_of(
+        "reduce {} --positions 720 --links --format json",
+        [&press_file()],
+    );
     let columns = Columns::of_json(&run.ends(0).json());
     let angles = columns.get("phi [deg]");
     let angles: Vec<f64> = angles.iter().map(|phi| phi.to_radians()).collect();
@@ -115,16 +110,10 @@ fn the_reduced_link() {
 }
 
 fn over_time(positions: &str) -> Columns {
-    let run = jred([
-        &"reduce",
-        &press_file(),
-        &"--over",
-        &"time",
-        &"--positions",
-        &positions,
-        &"--format",
-        &"csv",
-    ]);
+    let run = jred_of(
+        "reduce {} --over time --positions {} --format csv",
+        [&press_file(), &positions],
+    );
     run.ends(0).columns()
 }
 
@@ -196,30 +185,19 @@ fn size(steps: &str, motors: Option<&str>, gearboxes: Option<&str>) -> Value {
     let folder = Folder::new();
     let file = press_file();
     let run = match (motors, gearboxes) {
-        (Some(motors), Some(gearboxes)) => jred([
-            &"size",
-            &file,
-            &"--format",
-            &"json",
-            &"--all",
-            &"--steps",
-            &steps,
-            &"--motors",
-            &folder.file("motors.csv", motors),
-            &"--gearboxes",
-            &folder.file("gearboxes.csv", gearboxes),
-        ]),
-        _ => jred([
-            &"size",
-            &file,
-            &"--format",
-            &"json",
-            &"--all",
-            &"--motor",
-            &"sgm?h-*",
-            &"--steps",
-            &steps,
-        ]),
+        (Some(motors), Some(gearboxes)) => jred_of(
+            "size {} --format json --all --steps {} --motors {} --gearboxes {}",
+            [
+                &file,
+                &steps,
+                &folder.file("motors.csv", motors),
+                &folder.file("gearboxes.csv", gearboxes),
+            ],
+        ),
+        _ => jred_of(
+            "size {} --format json --all --motor sgm?h-* --steps {}",
+            [&file, &steps],
+        ),
     };
     run.ends(0).json()
 }
@@ -289,18 +267,15 @@ fn the_duty_at_the_input_with_fine_steps() {
 /// RMS of the input torque of a press with `steps`.
 fn rms(text: &str, steps: u32) -> f64 {
     let folder = Folder::new();
-    let run = jred([
-        &"size",
-        &folder.file("press.toml", text),
-        &"--format",
-        &"json",
-        &"--steps",
-        &steps.to_string(),
-        &"--motors",
-        &folder.file("motors.csv", ONE_MOTOR),
-        &"--gearboxes",
-        &folder.file("gearboxes.csv", ONE_GEARBOX),
-    ]);
+    let run = jred_of(
+        "size {} --format json --steps {} --motors {} --gearboxes {}",
+        [
+            &folder.file("press.toml", text),
+            &steps.to_string(),
+            &folder.file("motors.csv", ONE_MOTOR),
+            &folder.file("gearboxes.csv", ONE_GEARBOX),
+        ],
+    );
     run.json()["input torque [N m]"]["rms"].as_f64().unwrap()
 }
 

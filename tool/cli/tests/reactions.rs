@@ -1,7 +1,7 @@
 //! `jred reduce --reactions` and `--energy`: every force of a slider-crank by hand, link by link, without a linear system; energies and generalised
 //! forces against the reduced curves.
 
-use crate::support::{Columns, budget, jred, near_column, press_file, within};
+use crate::support::{Columns, budget, jred_of, near_column, press_file, within};
 
 /// The press of `machines/press.toml`: lengths, masses, inertias, centres of mass, gravity along +x.
 const R: f64 = 0.03;
@@ -75,17 +75,10 @@ fn by_hand(phi: f64, omega: f64, alpha: f64, friction: f64, bearing: f64, train:
 #[test]
 fn every_force_of_the_press_by_hand() {
     let (omega, alpha) = (20.0, -150.0);
-    let found = jred([
-        &"reduce",
-        &press_file(),
-        &"--reactions",
-        &"--speed",
-        &"20 rad/s",
-        &"--accel",
-        &"-150 rad/s^2",
-        &"--format",
-        &"csv",
-    ])
+    let found = jred_of(
+        "reduce {} --reactions --speed '20 rad/s' --accel '-150 rad/s^2' --format csv",
+        [&press_file()],
+    )
     .ends(0)
     .columns();
     // 0.0006 kg m² at the driver, ratio 3, 0.03 kg m² and 0.6 kg of belt at 120 mm at the driven side.
@@ -146,32 +139,19 @@ fn every_force_of_the_press_by_hand() {
 }
 
 fn press(set: &str, over: &str, format: &str) -> crate::support::Run {
-    jred([
-        &"reduce",
-        &press_file(),
-        &set,
-        &"--over",
-        &over,
-        &"--positions",
-        &"180",
-        &"--format",
-        &format,
-    ])
+    jred_of(
+        "reduce {} {} --over {} --positions 180 --format {}",
+        [&press_file(), &set, &over, &format],
+    )
     .ends(0)
 }
 
 /// The curves over time.
 fn curves() -> Columns {
-    jred([
-        &"reduce",
-        &press_file(),
-        &"--over",
-        &"time",
-        &"--positions",
-        &"180",
-        &"--format",
-        &"csv",
-    ])
+    jred_of(
+        "reduce {} --over time --positions 180 --format csv",
+        [&press_file()],
+    )
     .ends(0)
     .columns()
 }
@@ -192,15 +172,10 @@ fn the_drive_torque_is_that_of_the_reduced_equation() {
 
 #[test]
 fn the_largest_values_are_found_between_the_rows() {
-    let few = jred([
-        &"reduce",
-        &press_file(),
-        &"--reactions",
-        &"--positions",
-        &"4",
-        &"--format",
-        &"json",
-    ])
+    let few = jred_of(
+        "reduce {} --reactions --positions 4 --format json",
+        [&press_file()],
+    )
     .ends(0)
     .json();
     let all = press("--reactions", "angle", "json").json();

@@ -7,7 +7,7 @@ mod words;
 
 use std::path::Path;
 
-use crate::support::{Folder, edited_press, jred, press_file, press_text, shipped};
+use crate::support::{Folder, edited_press, jred, jred_of, press_file, press_text, shipped};
 
 /// The elements `<svg …>…</svg>`, parsed.
 fn plots(page: &str) -> Vec<&str> {
@@ -304,14 +304,10 @@ fn names_of_the_catalogue_are_text_not_markup() {
          <i>k</i>,A<b>&B,\"M\"\"<script>\",30,3000,90,80,<img>\n",
     );
     let report = folder.path("report.html");
-    jred([
-        &"size",
-        &press_file(),
-        &"--motors",
-        &motors,
-        &"--report",
-        &report,
-    ]);
+    jred_of(
+        "size {} --motors {} --report {}",
+        [&press_file(), &motors, &report],
+    );
     let page = std::fs::read_to_string(report).unwrap();
     for markup in ["M\"<script", "<img", "<i>k", "A<b>"] {
         assert!(!page.contains(markup), "{markup}");

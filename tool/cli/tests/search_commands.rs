@@ -1,6 +1,6 @@
 //! Output of `jred size` and `jred ratio` for searches: ranking, filters, fronts, ratios.
 
-use crate::support::{jred, near, press_file, shipped, within};
+use crate::support::{jred, jred_of, near, press_file, shipped, within};
 use jred_analysis::checked;
 use jred_analysis::duty::{Duty, STEPS};
 use jred_sizing::catalogue::Catalogue;
@@ -10,17 +10,7 @@ use jred_sizing::select::ratio::{Gear, Moments};
 #[test]
 fn options_of_size() {
     let press = press_file();
-    let run = jred([
-        &"size",
-        &press,
-        &"--rank",
-        &"energy",
-        &"--motor",
-        &"sgm*",
-        &"--format",
-        &"json",
-    ])
-    .ends(0);
+    let run = jred_of("size {} --rank energy --motor sgm* --format json", [&press]).ends(0);
     let json = run.json();
     assert!(
         json["ranking"]
@@ -50,15 +40,7 @@ fn options_of_size() {
         "{}",
         listed.out
     );
-    let run = jred([
-        &"size",
-        &press,
-        &"--pareto",
-        &"power,energy",
-        &"--format",
-        &"csv",
-    ])
-    .ends(0);
+    let run = jred_of("size {} --pareto power,energy --format csv", [&press]).ends(0);
     assert!(
         run.out.starts_with(
             "motor,gearbox,amplifier,ratio,mass [kg],price,rated power [W],energy [J]\n"

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::support::{Folder, jred, press_text};
+use crate::support::{Folder, jred, jred_of, press_text, typed};
 
 const RACK: &str = include_str!("../../../machines/rack.toml");
 
@@ -11,16 +11,7 @@ const RACK: &str = include_str!("../../../machines/rack.toml");
 fn the_command_lists_quantities() {
     let folder = Folder::new();
     let rack = folder.file("rack.toml", RACK);
-    let run = jred([
-        &"sensitivity",
-        &rack,
-        &"--steps",
-        &"64",
-        &"--most",
-        &"5",
-        &"--format",
-        &"csv",
-    ]);
+    let run = jred_of("sensitivity {} --steps 64 --most 5 --format csv", [&rack]);
     let names = run.out.lines().next().unwrap();
     assert!(
         names.starts_with("quantity,value,unit,affects most,slope [% of limit per +1 %]"),
@@ -55,16 +46,10 @@ fn the_table_leaves_out_what_moves_nothing() {
         + "\n[tolerance]\n\"rack.mass\" = \"2 kg\"\n";
     let rack = folder.file("rack.toml", text);
     let out = |format: &str| {
-        let run = jred([
-            &"sensitivity",
-            &rack,
-            &"--steps",
-            &"64",
-            &"--most",
-            &"5",
-            &"--format",
-            &format,
-        ]);
+        let run = jred_of(
+            "sensitivity {} --steps 64 --most 5 --format {}",
+            [&rack, &format],
+        );
         run.ends(0).out
     };
     let (table, csv) = (out("table"), out("csv"));
@@ -120,14 +105,9 @@ fn the_command_sums_up_shares_as_one_run() {
     let [whole, merged] = ["whole.csv", "merged.csv"].map(|name| folder.path(name));
     let run = |out: &Path, more: &[&str], code: i32| {
         let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_jred"));
-        command.arg("tolerance").arg(&press).args([
-            "--samples",
-            "60",
-            "--steps",
-            "64",
-            "--tolerance",
-            "drive_train.1.belt_mass=10%",
-        ]);
+        command.arg("tolerance").arg(&press).args(typed(
+            "--samples 60 --steps 64 --tolerance drive_train.1.belt_mass=10%",
+        ));
         let output = command.args(more).arg("--out").arg(out).output().unwrap();
         assert!(
             output.status.code() == Some(code) || code < 0,
@@ -178,20 +158,7 @@ fn draws_that_cannot_be_built_are_counted_apart() {
     let press = folder.file("press.toml", press_text());
     let out = folder.path("rows.csv");
     // A crank longer than the rod cannot turn.
-    let run = jred([
-        &"tolerance",
-        &press,
-        &"--steps",
-        &"64",
-        &"--samples",
-        &"80",
-        &"--seed",
-        &"3",
-        &"--tolerance",
-        &"crank.length=normal:100mm",
-        &"--out",
-        &out,
-    ])
+    let run = jred_of("tolerance {} --steps 64 --samples 80 --seed 3 --tolerance crank.length=normal:100mm --out {}", [&press, &out])
     .ends(1);
     let text = std::fs::read_to_string(&out).unwrap();
     let refused = text
@@ -224,18 +191,10 @@ fn draws_that_cannot_be_built_are_counted_apart() {
     for word in ["95 %", "use at", "machines", "interval"] {
         assert!(header.contains(word), "{word}: {header}");
     }
-    let csv = jred([
-        &"tolerance",
-        &press,
-        &"--steps",
-        &"16",
-        &"--samples",
-        &"2",
-        &"--tolerance",
-        &"slider.mass=5%",
-        &"--format",
-        &"csv",
-    ]);
+    let csv = jred_of(
+        "tolerance {} --steps 16 --samples 2 --tolerance slider.mass=5% --format csv",
+        [&press],
+    );
     assert!(csv.out.starts_with("rule,machines that hold it [%],surely above [%],surely below [%],5 % of machines use at most,"), "{}", csv.out);
     for line in run.out.lines().skip(1).take(16) {
         assert!(line.chars().count() <= 120, "{line}");

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use crate::support::schema::faults;
 use crate::support::{
-    Folder, budget, edited_press, jred, jred_with, press_file, sizeable_machines,
+    Folder, budget, edited_press, jred, jred_of, jred_with, press_file, sizeable_machines,
 };
 use serde_json::{Value, json};
 
@@ -38,15 +38,10 @@ fn answers_follow_the_schema() {
         ("ball-screw.toml", "sgmph-*"),
         ("geneva.toml", "sgmuh-*"),
     ] {
-        let run = jred([
-            &"size",
-            &machine(name),
-            &"--motor",
-            &motors,
-            &"--all",
-            &"--format",
-            &"json",
-        ]);
+        let run = jred_of(
+            "size {} --motor {} --all --format json",
+            [&machine(name), &motors],
+        );
         let answer = run.json();
         check(&answer);
         for list in ["fit", "refused"] {
@@ -94,16 +89,10 @@ fn the_schema_refuses_what_is_wrong() {
     if let Some(gearbox) = best["fit"][0]["gearbox"].as_str() {
         name = format!("{name}+{gearbox}");
     }
-    let run = jred([
-        &"size",
-        &press_file(),
-        &"--top",
-        &"1",
-        &"--why",
-        &name,
-        &"--format",
-        &"json",
-    ]);
+    let run = jred_of(
+        "size {} --top 1 --why {} --format json",
+        [&press_file(), &name],
+    );
     let answer = run.ends(0).json();
     check(&answer);
     assert_eq!(answer["asked"]["rank"], 1);
@@ -128,15 +117,7 @@ fn the_schema_refuses_what_is_wrong() {
 #[test]
 fn a_drive_can_be_named() {
     let named = |name: &str, code: i32| {
-        jred([
-            &"size",
-            &press_file(),
-            &"--why",
-            &name,
-            &"--format",
-            &"json",
-        ])
-        .ends(code)
+        jred_of("size {} --why {} --format json", [&press_file(), &name]).ends(code)
     };
     let answer = jred([&"size", &press_file(), &"--format", &"json"]).json();
     let refused = &answer["refused"][0];
@@ -321,14 +302,7 @@ fn every_figure_is_that_of_a_smaller_tolerance() {
     for file in sizeable_machines() {
         let name = file.display().to_string();
         let size = |tolerance: &str| {
-            let run = jred([
-                &"size",
-                &file,
-                &"--format",
-                &"json",
-                &"--tolerance",
-                &tolerance,
-            ]);
+            let run = jred_of("size {} --format json --tolerance {}", [&file, &tolerance]);
             run.json()
         };
         figures += compare(&name, &size("1e-9"), &size("1e-12"), 0.0);

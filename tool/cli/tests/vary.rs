@@ -6,7 +6,7 @@ mod store;
 
 use std::collections::HashMap;
 
-use crate::support::{Folder, jred, press_file, press_text};
+use crate::support::{Folder, jred, jred_of, press_file, press_text};
 
 /// The rows of a CSV file by column.
 fn rows(text: &str) -> Vec<HashMap<String, String>> {
@@ -38,16 +38,10 @@ fn csv_reader(text: &str) -> Vec<Vec<String>> {
 #[test]
 fn a_row_is_what_sizing_the_changed_file_gives() {
     let folder = Folder::new();
-    let run = jred([
-        &"vary",
-        &press_file(),
-        &"--vary",
-        &"slider.mass=42,60kg",
-        &"--vary",
-        &"segment.1.duration=0.4,0.3s",
-        &"--format",
-        &"csv",
-    ])
+    let run = jred_of(
+        "vary {} --vary slider.mass=42,60kg --vary segment.1.duration=0.4,0.3s --format csv",
+        [&press_file()],
+    )
     .ends(0);
     let rows = rows(&run.out);
     assert_eq!(rows.len(), 4);
@@ -98,14 +92,10 @@ fn a_row_is_what_sizing_the_changed_file_gives() {
 /// Machines that cannot be built are rows with the reason.
 #[test]
 fn a_machine_that_is_refused_is_a_row() {
-    let run = jred([
-        &"vary",
-        &press_file(),
-        &"--vary",
-        &"rod.length=25,180mm",
-        &"--format",
-        &"json",
-    ])
+    let run = jred_of(
+        "vary {} --vary rod.length=25,180mm --format json",
+        [&press_file()],
+    )
     .ends(0);
     let rows: Vec<serde_json::Value> = run
         .out
@@ -139,18 +129,10 @@ fn one_when_no_machine_has_a_drive() {
     assert!(none.contains("0 of 2 machines have a drive"), "{none}");
     let one = vary("load.pressing force.force.1=-900,-10kN", 0);
     assert!(one.contains("1 of 2 machines has a drive"), "{one}");
-    jred([
-        &"vary",
-        &press,
-        &"--vary",
-        &"load.pressing force.force.1=-900,-800kN",
-        &"--steps",
-        &"64",
-        &"--shard",
-        &"0/2",
-        &"--out",
-        &out.path("share.csv"),
-    ])
+    jred_of(
+        "vary {} --vary 'load.pressing force.force.1=-900,-800kN' --steps 64 --shard 0/2 --out {}",
+        [&press, &out.path("share.csv")],
+    )
     .ends(0);
     let help = jred([&"vary", &"--help"]).ends(0).out;
     assert!(help.contains("1 no machine has one"), "{help}");
@@ -206,37 +188,23 @@ fn what_cannot_be_varied_is_said() {
         says(&format!("slider.mass={values}"), &words);
     }
     says("slider.mass=30..60kilos:3", &["unknown unit \"kilos\""]);
-    let twice = jred([
-        &"vary",
-        &press,
-        &"--vary",
-        &"slider.mass=30,40kg",
-        &"--vary",
-        &"mechanism.slider.mass=50kg",
-    ]);
+    let twice = jred_of(
+        "vary {} --vary slider.mass=30,40kg --vary mechanism.slider.mass=50kg",
+        [&press],
+    );
     twice
         .ends(2)
         .says(&["mechanism.slider.mass is varied twice"]);
-    let many = jred([
-        &"vary",
-        &press,
-        &"--vary",
-        &"slider.mass=30..60kg:100000",
-        &"--vary",
-        &"rod.mass=5..6kg:100000",
-    ]);
+    let many = jred_of(
+        "vary {} --vary slider.mass=30..60kg:100000 --vary rod.mass=5..6kg:100000",
+        [&press],
+    );
     many.ends(2)
         .says(&["100000 × 100000 machines are too many", "at most 100000000"]);
-    let shard = jred([
-        &"vary",
-        &press,
-        &"--vary",
-        &"slider.mass=30,40kg",
-        &"--shard",
-        &"2/2",
-        &"--out",
-        &out.path("x"),
-    ]);
+    let shard = jred_of(
+        "vary {} --vary slider.mass=30,40kg --shard 2/2 --out {}",
+        [&press, &out.path("x")],
+    );
     shard.ends(2).says(&["there is no share 2 of 2"]);
 }
 

@@ -16,7 +16,7 @@ mod sizings;
 use std::fmt::Write as _;
 use std::path::Path;
 
-use crate::support::{Folder, press_text};
+use crate::support::{Folder, Run, jred_in, press_text, typed};
 
 /// A small catalogue: two motors, two gearboxes, with all figures of the built-in tables.
 const MOTORS: [&str; 2] = ["sgmsh-15a", "sgmsh-30a"];
@@ -69,41 +69,23 @@ impl Desk {
     }
 
     /// The command as typed, its output, and its exit code if not 0.
-    fn run(&self, arguments: &[&str]) -> String {
-        let output = assert_cmd::Command::new(env!("CARGO_BIN_EXE_jred"))
-            .current_dir(self.0.path(""))
-            .env("NO_COLOR", "1")
-            .env("JRED_PROGRESS", "never")
-            .env_remove("CLICOLOR_FORCE")
-            .env_remove("FORCE_COLOR")
-            .args(arguments)
-            .output()
-            .unwrap();
-        let mut text = String::from("$ jred");
-        for argument in arguments {
-            let quote = if argument.contains([' ', '*']) {
-                "'"
-            } else {
-                ""
-            };
-            write!(text, " {quote}{argument}{quote}").unwrap();
-        }
-        text.push('\n');
-        text += std::str::from_utf8(&output.stdout).unwrap();
-        let err = std::str::from_utf8(&output.stderr).unwrap();
-        assert!(!err.contains("panicked"), "{err}");
+    fn run(&self, command: &str) -> String {
+        let Run { code, out, err } = jred_in(&self.0.path(""), &typed(command));
+        let mut text = format!("$ jred {command}\n{out}");
         if !err.is_empty() {
             write!(text, "--- stderr\n{err}").unwrap();
         }
-        if output.status.code() != Some(0) {
-            writeln!(text, "--- exit code {}", output.status.code().unwrap()).unwrap();
+        if code != 0 {
+            writeln!(text, "--- exit code {code}").unwrap();
         }
         text
     }
 
-    /// All `commands` in order.
-    fn runs(&self, commands: &[&[&str]]) -> String {
-        let texts: Vec<String> = commands.iter().map(|command| self.run(command)).collect();
+    /// The commands of the lines in order.
+    fn runs(&self, commands: &str) -> String {
+        let commands = commands.lines().map(str::trim);
+        let commands = commands.filter(|command| !command.is_empty());
+        let texts: Vec<String> = commands.map(|command| self.run(command)).collect();
         texts.join("\n")
     }
 }

@@ -10,7 +10,7 @@ mod trains;
 mod values;
 mod wheels;
 
-use crate::reading::{parse, read, refuses, refuses_edit};
+use crate::reading::{parse, read, refuses, refuses_edit, refuses_edits};
 use crate::support::machines::FOUR_BAR;
 
 #[track_caller]

@@ -6,7 +6,9 @@ mod profiles;
 mod refusals;
 mod values;
 
-use crate::reading::{data, parse, parse_as, refuses, refuses_edit, rendered, rendered_in};
+use crate::reading::{
+    data, parse, parse_as, refuses, refuses_edit, refuses_edits, rendered, rendered_in,
+};
 
 const PRESS: &str = include_str!("data/press.toml");
 const GEARS: &str = include_str!("data/gear-train.toml");

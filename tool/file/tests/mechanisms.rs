@@ -16,7 +16,7 @@ mod scotch_yoke;
 mod six_link;
 mod toggle_press;
 
-use crate::reading::{machine, parse, refuses, refuses_edit, rendered};
+use crate::reading::{machine, parse, refuses, refuses_edit, refuses_edits, rendered};
 
 /// The one whole example of a document.
 fn example(document: &'static str) -> &'static str {

@@ -12,7 +12,7 @@ use jred_file::model::schedule::ScheduleInstant;
 use jred_file::number::columns::Columns;
 
 use super::duty;
-use crate::support::{near, within};
+use crate::support::{near, rows, within};
 
 const MASS: f64 = 3.0;
 
@@ -376,25 +376,18 @@ fn contradictions_are_refused() {
             reader::parse("machine.toml", &text, Path::new("")).unwrap_err()
         )
     };
-    for (from, to, words) in [
-        (
-            "duration = \"0.35 s\"",
-            "duration = \"0.5 s\"",
-            "lasts 1.05 s",
-        ),
-        ("move = \"-130 mm\"", "move = \"-120 mm\"", "10 mm"),
-        (
-            "move = \"130 mm\"",
-            "move = \"145 mm\"",
-            "ends at s = 155 mm",
-        ),
-        ("on = \"rod\"", "on = \"rot\"", "rod"),
-        ("type = \"cycle\"", "type = \"constant-speed\"", "cycle"),
-        ("mass = \"3 kg\"", "mass = \"0 kg\"", "mass"),
-        ("duration = \"0.45 s\"", "", "[[carriage.motion.segment]]"),
-    ] {
-        let found = refused(from, to);
-        assert!(found.contains(words), "{from}: {found}");
+    let cases = r#"
+        duration = "0.35 s" => duration = "0.5 s" => lasts 1.05 s
+        move = "-130 mm" => move = "-120 mm" => 10 mm
+        move = "130 mm" => move = "145 mm" => ends at s = 155 mm
+        on = "rod" => on = "rot" => rod
+        type = "cycle" => type = "constant-speed" => cycle
+        mass = "3 kg" => mass = "0 kg" => mass
+        duration = "0.45 s" => => [[carriage.motion.segment]]
+    "#;
+    for [from, to, words] in rows(cases) {
+        let found = refused(&from, &to);
+        assert!(found.contains(&words), "{from}: {found}");
     }
     // Its message names no key of loads.
     let why = parse(&rod(LEANING))

@@ -2,7 +2,7 @@
 
 use super::{J, imbalance, run, simulate, turntable};
 use crate::reading::{parse, says};
-use crate::support::{budget, edited, near, within};
+use crate::support::{budget, edited, near, phrases, rows, within};
 use jred::friction::{Arrangement, Contact, Drive, Flow, Shaft, Stage, State};
 use jred::mechanism::TrainOutput;
 use jred_analysis::duty::Duty;
@@ -249,41 +249,17 @@ fn wrong_branches_are_refused() {
         FAN,
         "duration = \"1 s\"\noutput_step = \"0.1 s\"\ntorque = \"1 N m\"",
     );
-    let edits: [(&str, &str, &[&str]); 6] = [
-        (
-            "type = \"friction\"",
-            "type = \"rack\"",
-            &["\"rack\"", "\"friction\""],
-        ),
-        (
-            "ratio = -2",
-            "ratio = 0",
-            &["`ratio`", "is 0, too close to zero"],
-        ),
-        (
-            "slip = \"4 %\"",
-            "slip = \"100 %\"",
-            &["must be below 100 %"],
-        ),
-        (
-            "inertia = \"0.003 kg m^2\"\n",
-            "inertia = \"-1 kg m^2\"\n",
-            &["`inertia`", "negative"],
-        ),
-        (
-            "name = \"first roller\"",
-            "at = \"middle\"",
-            &["\"middle\"", "\"driven\", \"driver\""],
-        ),
-        (
-            "opposing_moment = \"0.5 N m\"",
-            "moment = \"0.5 N m\"",
-            &["unknown key `moment`", "[[drive_train.branch]]"],
-        ),
-    ];
-    for (from, to, words) in edits {
-        match run(&edited(&table, from, to)) {
-            Err(message) => says(&message, words),
+    let cases = r#"
+        type = "friction" => type = "rack" => "rack" | "friction"
+        ratio = -2 => ratio = 0 => `ratio` | is 0, too close to zero
+        slip = "4 %" => slip = "100 %" => must be below 100 %
+        inertia = "0.003 kg m^2"\n => inertia = "-1 kg m^2"\n => `inertia` | negative
+        name = "first roller" => at = "middle" => "middle" | "driven", "driver"
+        opposing_moment = "0.5 N m" => moment = "0.5 N m" => unknown key `moment` | [[drive_train.branch]]
+    "#;
+    for [from, to, words] in rows(cases) {
+        match run(&edited(&table, &from, &to)) {
+            Err(message) => says(&message, &phrases(&words)),
             Ok(_) => panic!("simulated, though the report should contain {words:?}"),
         }
     }

@@ -3,7 +3,8 @@
 use serde_json::Value;
 
 use crate::support::{
-    Folder, Run, budget, edited_press, jred, jred_with, near, press_file, press_text, squeezed,
+    Folder, Run, budget, edited_press, jred, jred_of, jred_with, near, press_file, press_text,
+    squeezed,
 };
 
 pub(super) const SUPPLY: &str = r#"
@@ -267,16 +268,10 @@ source = "Sheet"
     let file = folder.file("press.toml", press_text() + SUPPLY);
     let run = |least: &str| {
         let catalogue = catalogue(least);
-        jred([
-            &"bus",
-            &file,
-            &"--catalogue",
-            &catalogue,
-            &"--drive",
-            &"1=m",
-            &"--steps",
-            &"200",
-        ])
+        jred_of(
+            "bus {} --catalogue {} --drive 1=m --steps 200",
+            [&file, &catalogue],
+        )
     };
     let low = run("60 Ohm").ends(1);
     says(&low, &["brake resistance 47 against 60 Ohm: FAIL"]);

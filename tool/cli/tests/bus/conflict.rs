@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use serde_json::Value;
 
 use super::cures::{Keys, keys, mend, run};
-use crate::support::{Folder, jred};
+use crate::support::{Folder, jred_of};
 
 /// A motor with a bus voltage, and an amplifier with further figures if given.
 fn catalogue(folder: &Folder, amplifier: &str) -> PathBuf {
@@ -158,16 +158,10 @@ brake_resistor = {{ resistance = "{resistance}", power = "1 kW" }}
 "#
         );
         let file = folder.file("conveyor.toml", text);
-        jred([
-            &"bus",
-            &file,
-            &"--catalogue",
-            &path,
-            &"--drive",
-            &"1=m",
-            &"--steps",
-            &"100",
-        ])
+        jred_of(
+            "bus {} --catalogue {} --drive 1=m --steps 100",
+            [&file, &path],
+        )
     };
     let text = conveyor("20 Ohm").ends(1).out;
     let (_, cures) = text

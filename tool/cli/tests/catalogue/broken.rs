@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use super::{refuses, size_with};
 use crate::support::catalogue::{FIRST, HEADER};
-use crate::support::{Folder, jred, press_file};
+use crate::support::{Folder, jred, jred_of, press_file};
 
 #[test]
 fn each_with_its_place() {
@@ -34,15 +34,10 @@ fn each_with_its_place() {
     );
     let folder = Folder::new();
     let file = folder.file("m.csv", text);
-    let run = jred([
-        &"size",
-        &press_file(),
-        &"--motors",
-        &file,
-        &"--skip-broken-rows",
-        &"--steps",
-        &"16",
-    ]);
+    let run = jred_of(
+        "size {} --motors {} --skip-broken-rows --steps 16",
+        [&press_file(), &file],
+    );
     assert!(
         run.message()
             .contains("13 broken rows of the catalogue skipped"),
@@ -115,14 +110,10 @@ fn files_and_folders_that_hold_nothing() {
     refused(&folder.path(""), &["is empty", "motors"]);
     // A table with an unknown name is reported as ignored.
     folder.file("motors.csv", format!("{HEADER}\n{FIRST}\n"));
-    let run = jred([
-        &"size",
-        &press_file(),
-        &"--catalogue",
-        &folder.path(""),
-        &"--steps",
-        &"16",
-    ]);
+    let run = jred_of(
+        "size {} --catalogue {} --steps 16",
+        [&press_file(), &folder.path("")],
+    );
     assert!(
         run.message().contains("drives.csv was ignored"),
         "{}",

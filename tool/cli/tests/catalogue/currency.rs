@@ -3,22 +3,14 @@
 use std::path::Path;
 
 use crate::support::catalogue::{FIRST, HEADER, SECOND};
-use crate::support::{Folder, Run, jred, press_file};
+use crate::support::{Folder, Run, jred, jred_of, press_file};
 
 fn size(folder: &Path, more: [&str; 2]) -> Run {
     let [option, value] = more;
-    jred([
-        &"size",
-        &press_file(),
-        &"--steps",
-        &"16",
-        &"--catalogue",
-        &"built-in",
-        &"--catalogue",
-        &folder,
-        &option,
-        &value,
-    ])
+    jred_of(
+        "size {} --steps 16 --catalogue built-in --catalogue {} {} {}",
+        [&press_file(), &folder, &option, &value],
+    )
 }
 
 fn priced(header: &str, row: &str, key: &str) -> String {

@@ -3,7 +3,7 @@
 
 use super::{refuses, size_with};
 use crate::support::catalogue::{FIRST, HEADER, SECOND};
-use crate::support::{Folder, jred, press_file, shipped};
+use crate::support::{Folder, jred, jred_of, press_file, shipped};
 
 const GEARBOX: &str = "key,maker,model,ratio,rated_output_torque [N m],peak_output_torque [N m],max_input_speed [rpm],\
                        input_inertia [kg cm^2],efficiency [%],source\n";
@@ -15,15 +15,7 @@ fn every_fault_of_a_row() {
         "g.csv",
         format!("{GEARBOX}g1,M,G,three,50,60,6000,-1,120,S\n"),
     );
-    let run = jred([
-        &"size",
-        &press_file(),
-        &"--gearboxes",
-        &file,
-        &"--steps",
-        &"16",
-    ])
-    .ends(2);
+    let run = jred_of("size {} --gearboxes {} --steps 16", [&press_file(), &file]).ends(2);
     run.says(&[
         "1 row of the catalogue cannot be used, for 3 faults",
         "ratio of \"g1\" is \"three\"",
@@ -43,15 +35,7 @@ fn every_fault_of_a_row() {
         "g.csv",
         format!("{GEARBOX}g1,M,G,3,50,40,6000,1,97,S\ng2,M,G,0,50,40,6000,1,97,S\n"),
     );
-    let run = jred([
-        &"size",
-        &press_file(),
-        &"--gearboxes",
-        &file,
-        &"--steps",
-        &"16",
-    ])
-    .ends(2);
+    let run = jred_of("size {} --gearboxes {} --steps 16", [&press_file(), &file]).ends(2);
     run.says(&[
         "2 rows of the catalogue cannot be used",
         "peak_output_torque of \"g1\" is below",
@@ -67,14 +51,10 @@ fn every_fault_of_a_row() {
                 max_input_speed = 6000\n";
     let folder = Folder::new();
     folder.file("list.toml", format!("{toml}{toml}"));
-    let run = jred([
-        &"size",
-        &press_file(),
-        &"--catalogue",
-        &folder.path(""),
-        &"--steps",
-        &"16",
-    ]);
+    let run = jred_of(
+        "size {} --catalogue {} --steps 16",
+        [&press_file(), &folder.path("")],
+    );
     run.ends(2).says(&[
         "2 rows of the catalogue cannot be used, for 7 faults",
         "unknown key \"ratios\"",
@@ -114,15 +94,10 @@ fn keys_that_clash_are_found_beside_broken_rows() {
     let mended = FIRST.replace("m1", "m3");
     let folder = Folder::new();
     let file = folder.file("m.csv", format!("{HEADER}\n{broken}\n{mended}\n"));
-    let run = jred([
-        &"size",
-        &press_file(),
-        &"--motors",
-        &file,
-        &"--skip-broken-rows",
-        &"--steps",
-        &"16",
-    ]);
+    let run = jred_of(
+        "size {} --motors {} --skip-broken-rows --steps 16",
+        [&press_file(), &file],
+    );
     assert!(
         run.message()
             .contains("1 broken row of the catalogue skipped"),
@@ -143,16 +118,10 @@ fn given_twice() {
             .join(folder.path("").file_name().unwrap()),
     );
     let size = |a: &std::path::Path, b: &std::path::Path| {
-        jred([
-            &"size",
-            &press_file(),
-            &"--steps",
-            &"16",
-            &"--catalogue",
-            &a,
-            &"--catalogue",
-            &b,
-        ])
+        jred_of(
+            "size {} --steps 16 --catalogue {} --catalogue {}",
+            [&press_file(), &a, &b],
+        )
     };
     for (a, b) in [
         (&plain, &plain),

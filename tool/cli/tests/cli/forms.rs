@@ -4,7 +4,7 @@ use std::collections::HashSet;
 
 use super::run;
 use crate::support::json::row_numbers;
-use crate::support::{Columns, Folder, jred, press_file};
+use crate::support::{Columns, Folder, jred, jred_of, press_file, typed};
 
 /// Two servo amplifiers.
 pub(super) const AMPLIFIERS: &str = "\
@@ -52,25 +52,9 @@ fn csv_and_json_carry_every_digit() {
 #[test]
 fn sizes_agree_between_csv_and_json() {
     let press = press_file();
-    let csv = jred([
-        &"size",
-        &press,
-        &"--motor",
-        &"sgmsh*",
-        &"--all",
-        &"--format",
-        &"csv",
-    ]);
+    let csv = jred_of("size {} --motor sgmsh* --all --format csv", [&press]);
     let csv = csv.ends(0).out;
-    let json = jred([
-        &"size",
-        &press,
-        &"--motor",
-        &"sgmsh*",
-        &"--all",
-        &"--format",
-        &"json",
-    ]);
+    let json = jred_of("size {} --motor sgmsh* --all --format json", [&press]);
     let json = json.ends(0).json();
     let drives = json["fit"].as_array().unwrap().iter();
     let drives = drives.chain(json["refused"].as_array().unwrap());
@@ -144,14 +128,10 @@ fn every_column_has_a_unit() {
 fn positions_and_times() {
     let press = press_file();
     for positions in [2usize, 7, 36] {
-        let run = jred([
-            &"reduce",
-            &press,
-            &"--format",
-            &"csv",
-            &"--positions",
-            &positions.to_string(),
-        ]);
+        let run = jred_of(
+            "reduce {} --format csv --positions {}",
+            [&press, &positions.to_string()],
+        );
         let phi = run.ends(0).columns().get("phi [deg]");
         assert_eq!(phi.len(), positions);
         for (k, phi) in phi.iter().enumerate() {
@@ -159,16 +139,7 @@ fn positions_and_times() {
             assert!((phi - expected).abs() < 1e-12, "{phi} and {expected}");
         }
     }
-    let run = jred([
-        &"reduce",
-        &press,
-        &"--over",
-        &"time",
-        &"--positions",
-        &"6",
-        &"--format",
-        &"csv",
-    ]);
+    let run = jred_of("reduce {} --over time --positions 6 --format csv", [&press]);
     let times = run.ends(0).columns().get("t [s]");
     assert_eq!(times.len(), 6);
     for (k, t) in times.iter().enumerate() {
@@ -223,15 +194,7 @@ fn every_command_writes_csv_that_reads_back() {
         &["ratio", press, "--steps", "64"],
         &["rules"],
         &["rules", "general"],
-        &[
-            "split",
-            "--ratio",
-            "20",
-            "--stages",
-            "2",
-            "--pinion",
-            "1 kg cm^2",
-        ],
+        &typed("split --ratio 20 --stages 2 --pinion '1 kg cm^2'"),
     ] {
         let text = run(&[arguments, &["--format", "csv"]].concat()).out;
         let mut reader = csv::ReaderBuilder::new()

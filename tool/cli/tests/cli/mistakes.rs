@@ -1,7 +1,7 @@
 //! Messages about mistakes.
 
 use super::{export, run};
-use crate::support::{Folder, jred, press_file, press_text};
+use crate::support::{Folder, jred, phrases, press_file, press_text, rows, typed};
 
 #[test]
 fn two_for_bad_input() {
@@ -57,14 +57,7 @@ fn what_a_command_needs_is_named() {
         .says(&["has no [motion]", "give --omega"]);
     export(
         &no_motion,
-        &[
-            "--torque-error",
-            "1 N m",
-            "--omega",
-            "90 rpm",
-            "--alpha",
-            "50 rad/s^2",
-        ],
+        &typed("--torque-error '1 N m' --omega '90 rpm' --alpha '50 rad/s^2'"),
         &out,
     )
     .ends(0);
@@ -74,63 +67,29 @@ fn what_a_command_needs_is_named() {
 
 #[test]
 fn wrong_command_lines() {
-    let press = press_file();
-    let press = press.to_str().unwrap();
-    for (arguments, words) in [
-        (&[] as &[&str], &["Usage"] as &[&str]),
-        (&["weigh", press], &["unrecognized subcommand", "Usage"]),
-        (&["size"], &["<FILE>"]),
-        (
-            &["size", press, "--fromat", "csv"],
-            &["--fromat", "--format"],
-        ),
-        (&["size", press, "--steps", "15"], &["15", "16"]),
-        (&["size", press, "--steps", "1e3"], &["invalid"]),
-        (&["size", press, "--top", "-1"], &["-1"]),
-        (&["reduce", press, "--positions", "1"], &["1", "2"]),
-        (&["reduce", press, "--positions", "1000001"], &["1000000"]),
-        (
-            &["reduce", press, "--format", "xml"],
-            &["xml", "table", "csv", "json"],
-        ),
-        (
-            &["reduce", press, "--over", "space"],
-            &["space", "angle", "time"],
-        ),
-        (
-            &["export", press, "--out", "x"],
-            &["--torque-error", "--max-bytes"],
-        ),
-        (
-            &["export", press, "--torque-error", "1 N m", "--type", "q31"],
-            &["q31", "f32", "i32", "i16"],
-        ),
-        (
-            &[
-                "export",
-                press,
-                "--torque-error",
-                "1 N m",
-                "--layout",
-                "linear",
-            ],
-            &["linear", "auto", "spline16", "quadratic"],
-        ),
-        (
-            &[
-                "export",
-                press,
-                "--torque-error",
-                "1 N m",
-                "--reciprocal",
-                "maybe",
-            ],
-            &["maybe", "yes", "no"],
-        ),
-        (&["export", press, "--max-bytes", "-1"], &["-1"]),
-    ] {
-        let done = run(arguments).ends(2);
-        done.says(words);
+    let press = format!("'{}'", press_file().display());
+    let cases = r#"
+        => Usage
+        weigh PRESS => unrecognized subcommand | Usage
+        size => <FILE>
+        size PRESS --fromat csv => --fromat | --format
+        size PRESS --steps 15 => 15 | 16
+        size PRESS --steps 1e3 => invalid
+        size PRESS --top -1 => -1
+        reduce PRESS --positions 1 => 1 | 2
+        reduce PRESS --positions 1000001 => 1000000
+        reduce PRESS --format xml => xml | table | csv | json
+        reduce PRESS --over space => space | angle | time
+        export PRESS --out x => --torque-error | --max-bytes
+        export PRESS --torque-error '1 N m' --type q31 => q31 | f32 | i32 | i16
+        export PRESS --torque-error '1 N m' --layout linear => linear | auto | spline16 | quadratic
+        export PRESS --torque-error '1 N m' --reciprocal maybe => maybe | yes | no
+        export PRESS --max-bytes -1 => -1
+    "#;
+    for [arguments, words] in rows(cases) {
+        let arguments = arguments.replace("PRESS", &press);
+        let done = run(&typed(&arguments)).ends(2);
+        done.says(&phrases(&words));
         assert!(done.out.is_empty(), "{}", done.out);
     }
 }
@@ -140,34 +99,35 @@ fn wrong_quantities_on_the_command_line() {
     let folder = Folder::new();
     let out = folder.path("out");
     let ok = ["--torque-error", "1 N m", "--omega", "90 rpm"];
-    for (option, value, words) in [
-        ("--torque-error", "0.5", &["no unit", "N m"] as &[&str]),
-        ("--torque-error", "-1 N m", &["greater than zero"]),
-        ("--torque-error", "0 N m", &["greater than zero"]),
-        ("--torque-error", "nan N m", &["--torque-error"]),
-        ("--torque-error", "NaN", &["--torque-error"]),
-        ("--torque-error", "inf N m", &["--torque-error"]),
-        ("--torque-error", "1e999 N m", &["--torque-error"]),
-        ("--torque-error", "1 N", &["N m"]),
-        ("--torque-error", "1 kg m^2", &["N m"]),
-        ("--torque-error", "", &["--torque-error"]),
-        ("--omega", "90", &["no unit", "rpm"]),
-        ("--omega", "-90 rpm", &["greater than zero"]),
-        ("--omega", "90 Hz", &["rpm"]),
-        ("--omega", "90 N m", &["rpm"]),
-        ("--alpha", "fast", &["--alpha", "fast"]),
-        ("--max-cells", "3", &["4"]),
-        ("--max-cells", "65536", &["65535"]),
-        ("--max-bytes", "many", &["many", "--max-bytes"]),
-    ] {
+    let cases = r#"
+        --torque-error => 0.5 => no unit | N m
+        --torque-error => -1 N m => greater than zero
+        --torque-error => 0 N m => greater than zero
+        --torque-error => nan N m => --torque-error
+        --torque-error => NaN => --torque-error
+        --torque-error => inf N m => --torque-error
+        --torque-error => 1e999 N m => --torque-error
+        --torque-error => 1 N => N m
+        --torque-error => 1 kg m^2 => N m
+        --torque-error => => --torque-error
+        --omega => 90 => no unit | rpm
+        --omega => -90 rpm => greater than zero
+        --omega => 90 Hz => rpm
+        --omega => 90 N m => rpm
+        --alpha => fast => --alpha | fast
+        --max-cells => 3 => 4
+        --max-cells => 65536 => 65535
+        --max-bytes => many => many | --max-bytes
+    "#;
+    for [option, value, words] in rows(cases) {
         let mut more: Vec<String> = ok.map(String::from).into();
-        if let Some(at) = more.iter().position(|o| o == option) {
+        if let Some(at) = more.iter().position(|o| *o == option) {
             more.drain(at..=at + 1);
         }
         more.push(format!("{option}={value}"));
         let more: Vec<&str> = more.iter().map(String::as_str).collect();
         let done = export(&press_file(), &more, &out).ends(2);
-        done.says(words);
+        done.says(&phrases(&words));
         assert!(!out.exists());
     }
     // A negative number is a value, not an unknown option.

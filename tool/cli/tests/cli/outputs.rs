@@ -2,23 +2,17 @@
 
 use serde_json::Value;
 
-use crate::support::{Folder, jred, jred_with, press_file};
+use crate::support::{Folder, jred, jred_of, jred_with, press_file};
 
 /// The built-in catalogue has no masses of motors: a filter by mass leaves nothing, and no page is written.
 #[test]
 fn a_filter_that_leaves_nothing_is_an_error() {
     let folder = Folder::new();
     let page = folder.path("r.html");
-    let run = jred([
-        &"size",
-        &press_file(),
-        &"--steps",
-        &"64",
-        &"--max-mass",
-        &"0.05kg",
-        &"--report",
-        &page,
-    ])
+    let run = jred_of(
+        "size {} --steps 64 --max-mass 0.05kg --report {}",
+        [&press_file(), &page],
+    )
     .ends(2);
     run.says(&[
         "possible drives passes the filter",
@@ -58,15 +52,7 @@ fn the_front_refuses_what_it_does_not_do() {
 #[test]
 fn the_front_names_what_is_known_of_none() {
     let press = press_file();
-    let run = jred([
-        &"size",
-        &press,
-        &"--steps",
-        &"64",
-        &"--pareto",
-        &"price,energy",
-    ])
-    .ends(2);
+    let run = jred_of("size {} --steps 64 --pareto price,energy", [&press]).ends(2);
     let json = jred([&"size", &press, &"--steps", &"64", &"--format", &"json"])
         .ends(0)
         .json();
@@ -142,15 +128,7 @@ fn outputs_are_files_of_their_own() {
         let run = jred([&"size", &press, &option, &"-"]).ends(2);
         run.says(&[option, "stdout is used for the result", "name a file"]);
     }
-    let run = jred([
-        &"export",
-        &press,
-        &"--torque-error",
-        &"1 N m",
-        &"--out",
-        &"-",
-    ])
-    .ends(2);
+    let run = jred_of("export {} --torque-error '1 N m' --out -", [&press]).ends(2);
     run.says(&["stdout is used for the result"]);
 }
 

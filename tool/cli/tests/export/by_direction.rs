@@ -5,7 +5,7 @@ use jred::table::{AccelerationOf, Format, SpeedOf, TorqueOf};
 use jred::{CurveSet, Image, Phase, Rows16, Spline, curves};
 
 use super::{export_of, words_of};
-use crate::support::{Folder, shipped};
+use crate::support::{Folder, shipped, typed};
 
 const TABLE: &str = include_str!("friction_by_direction.toml");
 /// A motion in both directions.
@@ -64,14 +64,7 @@ fn a_joint_has_its_friction_in_both_directions() {
         |_: f64, omega: f64, alpha: f64| INERTIA * alpha + if omega > 0.0 { 2.0 } else { -3.0 };
     let image = |kind: &str, layout: &str| {
         let out = folder.path("joint.jred");
-        let more = [
-            "--torque-error",
-            "0.01 N m",
-            "--omega",
-            "4 rad/s",
-            "--alpha",
-            "20 rad/s^2",
-        ];
+        let more = typed("--torque-error '0.01 N m' --omega '4 rad/s' --alpha '20 rad/s^2'");
         let kind = ["--type", kind, "--layout", layout];
         let run = export_of(&file, &[&more[..], &kind].concat(), Some(&out)).ends(0);
         assert!(run.out.contains("loads by direction: "), "{}", run.out);
@@ -106,16 +99,8 @@ fn a_slider_has_its_friction_in_both_directions() {
         .replace("type = \"constant-speed\"\nspeed = \"240 rpm\"", BOTH_WAYS);
     std::fs::write(&file, text).unwrap();
     let out = folder.path("slider.jred");
-    let more = [
-        "--torque-error",
-        "0.01 N m",
-        "--layout",
-        "cubic",
-        "--omega",
-        "2 rad/s",
-        "--alpha",
-        "1 rad/s^2",
-    ];
+    let more =
+        typed("--torque-error '0.01 N m' --layout cubic --omega '2 rad/s' --alpha '1 rad/s^2'");
     export_of(&file, &more, Some(&out)).ends(0);
     // Slowly: ½·J′·ω² is below 1e-6 N·m.
     let (radius, length) = (0.025_f64, 0.14_f64);
@@ -129,16 +114,9 @@ fn a_slider_has_its_friction_in_both_directions() {
     let found = worst::<jred::Cubic<f32>, SLIDER>(&words_of(&out), [1e-3, 0.0], exact);
     assert!(found < 0.01, "{found}");
     // The closed form has only one friction.
-    let more = [
-        "--torque-error",
-        "0.01 N m",
-        "--layout",
-        "slider-crank",
-        "--omega",
-        "2 rad/s",
-        "--alpha",
-        "1 rad/s^2",
-    ];
+    let more = typed(
+        "--torque-error '0.01 N m' --layout slider-crank --omega '2 rad/s' --alpha '1 rad/s^2'",
+    );
     export_of(&file, &more, None)
         .ends(2)
         .says(&["loads go by the direction of travel"]);

@@ -6,7 +6,7 @@ use jred::{CurveSet, Image, ImageError, Phase, SliderCrankForm, Spline, curves};
 
 use super::images::{errors, machine};
 use super::{export_of, feeder_form, number_after, words_of};
-use crate::support::{Folder, press_file, shipped};
+use crate::support::{Folder, press_file, shipped, typed};
 
 const SET: CurveSet = curves::LOAD
     | curves::VISCOUS
@@ -83,14 +83,7 @@ fn a_plain_slider_crank_is_taken_as_its_form() {
 fn the_rust_file_of_a_form_is_a_program() {
     let folder = Folder::new();
     let out = folder.path("feeder_form.rs");
-    let more = [
-        "--torque-error",
-        "0.1 N m",
-        "--layout",
-        "slider-crank",
-        "--format",
-        "rust",
-    ];
+    let more = typed("--torque-error '0.1 N m' --layout slider-crank --format rust");
     export_of(&shipped("shaking-feeder.toml"), &more, Some(&out)).ends(0);
     let here = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/export/feeder_form.rs");
     let [written, expected] =
@@ -119,14 +112,7 @@ fn the_c_file_names_the_functions_of_the_form() {
         let (file, out) = (folder.file("machine.toml", text), folder.path("machine.h"));
         export_of(
             &file,
-            &[
-                "--torque-error",
-                "0.1 N m",
-                "--layout",
-                "slider-crank",
-                "--format",
-                "c",
-            ],
+            &typed("--torque-error '0.1 N m' --layout slider-crank --format c"),
             Some(&out),
         )
         .ends(0);

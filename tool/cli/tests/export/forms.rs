@@ -4,7 +4,7 @@ use jred::Image;
 
 use super::{KINDS, export, export_of, image, press_table, words_of};
 use crate::support::skip::skip;
-use crate::support::{Folder, edited_press, press_file};
+use crate::support::{Folder, edited_press, press_file, typed};
 
 /// The hexadecimal words of the rows in a source text; the identifier of the machine before them is on a line of its own.
 fn words_in(source: &str) -> Vec<u32> {
@@ -21,14 +21,8 @@ fn words_in(source: &str) -> Vec<u32> {
 fn source_texts_hold_the_image() {
     let folder = Folder::new();
     for (number, layout) in KINDS {
-        let kind = [
-            "--type",
-            number,
-            "--layout",
-            layout,
-            "--torque-error",
-            "0.5 N m",
-        ];
+        let line = format!("--type {number} --layout {layout} --torque-error '0.5 N m'");
+        let kind = typed(&line);
         let of = |form: &str| {
             let out = folder.path(&format!("press.{form}"));
             export_of(
@@ -94,16 +88,7 @@ fn source_texts_hold_the_image() {
 fn the_rust_file_is_a_program() {
     let folder = Folder::new();
     let out = folder.path("press_table.rs");
-    let more = [
-        "--torque-error",
-        "2 N m",
-        "--type",
-        "i32",
-        "--layout",
-        "spline16",
-        "--format",
-        "rust",
-    ];
+    let more = typed("--torque-error '2 N m' --type i32 --layout spline16 --format rust");
     export_of(&press_file(), &more, Some(&out)).ends(0);
     let here = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/export/press_table.rs");
     let [written, expected] =
@@ -126,14 +111,7 @@ fn the_c_file_is_c_and_cpp() {
     let folder = Folder::new();
     let edges = ["--pieces", "auto"];
     for (pieces, table) in [(&[][..], "table_words"), (&edges[..], "table_tables")] {
-        let options = [
-            "--format",
-            "c",
-            "--torque-error",
-            "2 N m",
-            "--max-cells",
-            "200",
-        ];
+        let options = typed("--format c --torque-error '2 N m' --max-cells 200");
         export_of(
             &press_file(),
             &[&options, pieces].concat(),
@@ -213,16 +191,8 @@ fn two_tables_of_one_name_do_not_compile() {
     let folder = Folder::new();
     let four_bar = crate::support::shipped("four-bar.toml");
     let write = |file: &std::path::Path, out: &str, more: &[&str]| {
-        let fixed = [
-            "--format",
-            "c",
-            "--torque-error",
-            "2 N m",
-            "--omega",
-            "10 rad/s",
-            "--alpha",
-            "10 rad/s^2",
-        ];
+        let fixed =
+            typed("--format c --torque-error '2 N m' --omega '10 rad/s' --alpha '10 rad/s^2'");
         export_of(file, &[&fixed[..], more].concat(), Some(&folder.path(out))).ends(0);
     };
     // Machine files with one name in two folders; two tables of one machine.
@@ -332,14 +302,7 @@ fn a_title_stays_in_its_comment() {
 #[test]
 fn json_says_everything() {
     let folder = Folder::new();
-    let more = [
-        "--type",
-        "i32",
-        "--torque-error",
-        "0.5 N m",
-        "--reciprocal",
-        "yes",
-    ];
+    let more = typed("--type i32 --torque-error '0.5 N m' --reciprocal yes");
     let (run, path) = export(&folder, &more);
     run.ends(0);
     let words = words_of(&path);

@@ -11,7 +11,7 @@ use jred_file::model::machine::MachineFile;
 use jred_file::model::mechanism::AnyMechanism;
 
 use super::{KINDS, export, export_of, image, number_after, words_of};
-use crate::support::{Folder, budget, press_file, shipped};
+use crate::support::{Folder, budget, press_file, shipped, typed};
 
 /// The curves of the press.
 const SET: CurveSet = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
@@ -284,14 +284,8 @@ fn no_smaller_table_would_do() {
     let folder = Folder::new();
     for (number, layout) in KINDS {
         let of = |most: &str| {
-            let more = [
-                "--type",
-                number,
-                "--layout",
-                layout,
-                "--torque-error",
-                "0.5 N m",
-            ];
+            let line = format!("--type {number} --layout {layout} --torque-error '0.5 N m'");
+            let more = typed(&line);
             export(&folder, &[&more[..], &["--max-cells", most]].concat())
         };
         let (run, path) = of("4096");

@@ -14,7 +14,7 @@ use jred_file::model::machine::MachineFile;
 
 use super::images::{errors, machine};
 use super::{KINDS, export_of, press_pieces};
-use crate::support::{Folder, Run, budget, edited_press, press_file, shipped};
+use crate::support::{Folder, Run, budget, edited_press, press_file, shipped, typed};
 
 /// The curves of the press.
 const SET: CurveSet = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
@@ -170,16 +170,7 @@ fn steep_edges_that_are_no_whole_phases_hold_their_error() {
     let text = text.replace("ramp = \"15 deg\"", "ramp = \"0.006 deg\"");
     let text = text.replace("\"-10 kN\"", "\"-10 MN\"");
     let file = folder.file("steep.toml", text);
-    let arguments = [
-        "--pieces",
-        "auto",
-        "--torque-error",
-        "0.1 N m",
-        "--layout",
-        "spline",
-        "--format",
-        "json",
-    ];
+    let arguments = typed("--pieces auto --torque-error '0.1 N m' --layout spline --format json");
     let run = export_of(&file, &arguments, None).ends(0);
     let stated = run.json()["torque_error"].as_f64().unwrap();
     let file = jred_analysis::checked::read(&file).unwrap();
@@ -198,14 +189,8 @@ fn a_single_piece_begins_at_its_edge() {
     // With the turn from the edge rounded up, and not.
     for degrees in [60, 104] {
         let edge = format!("{degrees} deg");
-        let arguments = [
-            "--pieces",
-            &edge,
-            "--torque-error",
-            "2 N m",
-            "--layout",
-            "spline",
-        ];
+        let line = format!("--pieces '{edge}' --torque-error '2 N m' --layout spline");
+        let arguments = typed(&line);
         let run = export_of(
             &press_file(),
             &[&arguments[..], &["--format", "json"]].concat(),
@@ -239,14 +224,7 @@ fn a_single_piece_begins_at_its_edge() {
         export_of(&press_file(), &arguments, None).ends(0);
     }
     let out = folder.path("table.rs");
-    let arguments = [
-        "--pieces",
-        "60 deg",
-        "--torque-error",
-        "2 N m",
-        "--format",
-        "rust",
-    ];
+    let arguments = typed("--pieces '60 deg' --torque-error '2 N m' --format rust");
     export_of(&press_file(), &arguments, Some(&out)).ends(0);
     assert!(
         std::fs::read_to_string(out)
@@ -255,14 +233,7 @@ fn a_single_piece_begins_at_its_edge() {
     );
 
     let gripper = shipped("linear-gripper.toml");
-    let ends = [
-        "--torque-error",
-        "2 N",
-        "--pieces",
-        "120 mm, 200 mm",
-        "--format",
-        "json",
-    ];
+    let ends = typed("--torque-error '2 N' --pieces '120 mm, 200 mm' --format json");
     assert!(export_of(&gripper, &ends, None).ends(0).json()["words"].is_array());
 }
 
@@ -270,16 +241,9 @@ fn a_single_piece_begins_at_its_edge() {
 #[test]
 fn a_stroke_in_pieces_holds_its_error() {
     let gripper = shipped("linear-gripper.toml");
-    let arguments = [
-        "--torque-error",
-        "2 N",
-        "--layout",
-        "spline",
-        "--pieces",
-        "150 mm, 172.5 mm, 130 mm",
-        "--format",
-        "json",
-    ];
+    let arguments = typed(
+        "--torque-error '2 N' --layout spline --pieces '150 mm, 172.5 mm, 130 mm' --format json",
+    );
     let value = export_of(&gripper, &arguments, None).ends(0).json();
     let pieces = value["pieces"].as_array().unwrap();
     assert_eq!(pieces[0]["start"], 0);
@@ -359,16 +323,7 @@ fn a_narrow_load_has_its_curve_and_its_units() {
 fn the_source_text_is_a_program() {
     let folder = Folder::new();
     let out = folder.path("press_pieces.rs");
-    let more = [
-        "--torque-error",
-        "2 N m",
-        "--layout",
-        "spline",
-        "--pieces",
-        "auto",
-        "--format",
-        "rust",
-    ];
+    let more = typed("--torque-error '2 N m' --layout spline --pieces auto --format rust");
     export_of(&press_file(), &more, Some(&out)).ends(0);
     let here = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/export/press_pieces.rs");
     let (written, expected) = [out.as_path(), here.as_ref()]
@@ -389,16 +344,7 @@ fn the_source_text_is_a_program() {
     assert!((0.5..=2.0).contains(&torque), "{torque}");
 
     let out = folder.path("press_pieces.c");
-    let more = [
-        "--torque-error",
-        "2 N m",
-        "--layout",
-        "spline",
-        "--pieces",
-        "auto",
-        "--format",
-        "c",
-    ];
+    let more = typed("--torque-error '2 N m' --layout spline --pieces auto --format c");
     export_of(&press_file(), &more, Some(&out)).ends(0);
     let text = std::fs::read_to_string(out).unwrap();
     for (k, table) in [&press_pieces::TABLE_1[..], &press_pieces::TABLE_2[..]]

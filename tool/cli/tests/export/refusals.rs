@@ -1,7 +1,7 @@
 //! Messages of `jred export` without a table, verbatim.
 
 use super::{export_of, number_after};
-use crate::support::{Folder, edited_press, press_file, shipped};
+use crate::support::{Folder, edited_press, press_file, shipped, typed};
 
 /// Parts that follow the motion cannot be in a table over the position.
 #[test]
@@ -17,24 +17,8 @@ fn what_goes_by_the_motion_is_refused() {
 /// A request that the table is too coarse for fails with the number of cells that meets it; the machine is valid.
 #[test]
 fn a_table_too_coarse_names_the_cells() {
-    let coarse = [
-        "--type",
-        "i16",
-        "--max-cells",
-        "4",
-        "--torque-error",
-        "50 N m",
-    ];
-    let reciprocal = [
-        "--type",
-        "i16",
-        "--reciprocal",
-        "yes",
-        "--max-cells",
-        "8",
-        "--torque-error",
-        "50 N m",
-    ];
+    let coarse = typed("--type i16 --max-cells 4 --torque-error '50 N m'");
+    let reciprocal = typed("--type i16 --reciprocal yes --max-cells 8 --torque-error '50 N m'");
     for (name, asked) in [
         ("four-bar.toml", &coarse[..]),
         ("cam-translating.toml", &reciprocal),
@@ -69,14 +53,7 @@ fn a_table_too_coarse_names_the_cells() {
 
 #[test]
 fn too_few_cells_name_the_load_and_the_cures() {
-    let more = [
-        "--torque-error",
-        "0.5 N m",
-        "--max-cells",
-        "60",
-        "--layout",
-        "spline",
-    ];
+    let more = typed("--torque-error '0.5 N m' --max-cells 60 --layout spline");
     let run = export_of(&press_file(), &more, None).ends(1);
     run.says(&[
         "no table meets a torque error of 0.5 N m: type f32, up to 60 cells",
@@ -96,14 +73,8 @@ fn too_few_cells_name_the_load_and_the_cures() {
     let message = run.message();
     let cells = message.split_once("--max-cells ").unwrap().1;
     let cells: String = cells.chars().take_while(char::is_ascii_digit).collect();
-    let more = [
-        "--torque-error",
-        "0.5 N m",
-        "--max-cells",
-        &cells,
-        "--layout",
-        "spline",
-    ];
+    let line = format!("--torque-error '0.5 N m' --max-cells {cells} --layout spline");
+    let more = typed(&line);
     export_of(&press_file(), &more, None).ends(0);
 }
 
@@ -115,14 +86,7 @@ fn the_ramp_is_a_cure() {
         "ramp.toml",
         edited_press("ramp = \"15 deg\"", "ramp = \"22 deg\""),
     );
-    let more = [
-        "--torque-error",
-        "0.5 N m",
-        "--max-cells",
-        "96",
-        "--layout",
-        "spline",
-    ];
+    let more = typed("--torque-error '0.5 N m' --max-cells 96 --layout spline");
     export_of(&press_file(), &more, None).ends(1);
     export_of(&longer, &more, None).ends(0);
 }
@@ -159,14 +123,7 @@ fn the_floor_of_single_precision_is_named_with_what_is_below_it() {
 
 #[test]
 fn another_layout_is_offered_where_it_does() {
-    let more = [
-        "--torque-error",
-        "0.5 N m",
-        "--layout",
-        "quadratic",
-        "--max-cells",
-        "120",
-    ];
+    let more = typed("--torque-error '0.5 N m' --layout quadratic --max-cells 120");
     let run = export_of(&press_file(), &more, None).ends(1);
     run.says(&[
         "quadratic: ",
@@ -180,14 +137,7 @@ fn another_layout_is_offered_where_it_does() {
 #[test]
 fn a_kink_of_the_mechanism_is_named() {
     let geneva = shipped("geneva.toml");
-    let more = [
-        "--torque-error",
-        "0.0001 N m",
-        "--omega",
-        "60 rpm",
-        "--max-cells",
-        "200",
-    ];
+    let more = typed("--torque-error '0.0001 N m' --omega '60 rpm' --max-cells 200");
     let run = export_of(&geneva, &more, None).ends(1);
     // The pin enters a slot at ±60 degrees, and the wheel's acceleration jumps.
     let message = run.message();
@@ -264,14 +214,8 @@ fn a_layout_that_the_type_has_not() {
         ("i16", "spline"),
         ("i32", "rows"),
     ] {
-        let more = [
-            "--torque-error",
-            "1 N m",
-            "--type",
-            number,
-            "--layout",
-            layout,
-        ];
+        let line = format!("--torque-error '1 N m' --type {number} --layout {layout}");
+        let more = typed(&line);
         let run = export_of(&press_file(), &more, None).ends(2);
         run.says(&[
             &format!("{number} tables have no layout {layout}"),

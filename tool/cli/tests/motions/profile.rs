@@ -3,7 +3,7 @@
 use serde_json::Value;
 
 use super::{PRESS_DRIVE, run};
-use crate::support::{Folder, edited, press_text};
+use crate::support::{Folder, edited, press_text, typed};
 
 /// The press with a rest of 1.5 s after each stroke.
 fn rested() -> String {
@@ -82,18 +82,10 @@ fn an_axis_is_spoken_of_in_its_own_words() {
     let axis = axis.to_str().unwrap();
     let profile = folder.path("p.csv");
     let profile = profile.to_str().unwrap();
-    let plain = [
-        "fastest",
-        axis,
-        "--torque",
-        "500 N m",
-        "--motor-speed",
-        "6000 rpm",
-        "--max-speed",
-        "1 m/s",
-        "--max-acceleration",
-        "10 m/s^2",
-    ];
+    let line = format!(
+        "fastest '{axis}' --torque '500 N m' --motor-speed '6000 rpm' --max-speed '1 m/s' --max-acceleration '10 m/s^2'"
+    );
+    let plain = typed(&line);
     let with = |more: &[&'static str]| [&plain[..], more].concat();
     let way = ["--from", "0 mm", "--to", "600 mm"];
     let made = run(&with(&way)).ends(0).out;
@@ -219,14 +211,8 @@ fn size_accepts_a_gearbox_with_shock_factors() {
     let profile = folder.path("fast.csv");
     let profile = profile.to_str().unwrap();
     let drive = ["--catalogue", catalogue, "--drive", "sm100bb+g115-16 on a6"];
-    let asked = [
-        "--reserve",
-        "rules",
-        "--max-rms",
-        "s1",
-        "--profile",
-        profile,
-    ];
+    let line = format!("--reserve rules --max-rms s1 --profile '{profile}'");
+    let asked = typed(&line);
     let made = run(&[
         &["fastest", table][..],
         &drive,

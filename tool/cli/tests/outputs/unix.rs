@@ -6,6 +6,7 @@ use std::os::unix::process::CommandExt as _;
 use std::process::{Command, Stdio};
 
 use super::*;
+use crate::support::jred_of;
 
 const EXPORT: [&str; 4] = ["--torque-error", "50 N m", "--max-cells", "64"];
 
@@ -54,14 +55,10 @@ fn two_outputs_are_two_files() {
     let [soft, hard] = ["soft.html", "hard.html"].map(|name| folder.path(name));
     symlink("b.html", &soft).unwrap();
     let refused = |[one, other]: [&Path; 2]| {
-        jred([
-            &"size",
-            &press_file(),
-            &"--report",
-            &one,
-            &"--meter",
-            &other,
-        ])
+        jred_of(
+            "size {} --report {} --meter {}",
+            [&press_file(), &one, &other],
+        )
         .ends(2)
         .says(&["--report and --meter both name one file", "two different"]);
     };

@@ -1,7 +1,7 @@
 //! Pages about motions: fastest, gentlest, steady.
 
 use super::{check_nesting, check_plots, check_self_contained, plots};
-use crate::support::{Folder, jred_with, press_file};
+use crate::support::{Folder, jred_with, press_file, typed};
 
 /// The page that a command writes.
 fn page(arguments: &[&str]) -> String {
@@ -24,17 +24,9 @@ fn page(arguments: &[&str]) -> String {
 /// The phase plane names every active limit, in a colour of its own, and the speeds that cannot be exceeded.
 #[test]
 fn the_phase_plane_names_the_limits() {
-    let page = page(&[
-        "fastest",
-        "--torque",
-        "50 N m",
-        "--motor-speed",
-        "3000 rpm",
-        "--max-speed",
-        "28 rad/s",
-        "--max-acceleration",
-        "220 rad/s^2",
-    ]);
+    let page = page(&typed(
+        "fastest --torque '50 N m' --motor-speed '3000 rpm' --max-speed '28 rad/s' --max-acceleration '220 rad/s^2'",
+    ));
     check_plots(&page, 5);
     let plane = plots(&page)[0];
     let limits = [

@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 
 use super::{charts, plain};
-use crate::support::{Folder, jred, press_file, shipped, within};
+use crate::support::{Folder, jred, jred_of, press_file, shipped, within};
 
 const LINEAR: &str = "\
 key,kind,maker,model,rated_force [N],rated_speed [m/s],standstill_force [N],peak_force [N],max_speed [m/s],moving_mass [kg],source
@@ -17,16 +17,10 @@ fn a_page_of_a_linear_motor_speaks_of_masses() {
     let motors = folder.file("motors.csv", LINEAR);
     let machine = shipped("linear-gripper.toml");
     let path = folder.path("report.html");
-    let run = jred([
-        &"size",
-        &machine,
-        &"--motors",
-        &motors,
-        &"--report",
-        &path,
-        &"--explain",
-        &"--full",
-    ]);
+    let run = jred_of(
+        "size {} --motors {} --report {} --explain --full",
+        [&machine, &motors, &path],
+    );
     assert!(run.code < 2, "{}", run.err);
     let page = std::fs::read_to_string(&path).unwrap();
     for chart in charts(&page) {

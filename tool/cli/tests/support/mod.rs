@@ -46,6 +46,18 @@ pub(crate) fn jred<const N: usize>(arguments: [&dyn AsRef<std::ffi::OsStr>; N]) 
     jred_with(&arguments)
 }
 
+/// Runs `jred` as typed; each `{}` in the line is one of `files`, in order.
+pub(crate) fn jred_of<const N: usize>(line: &str, files: [&dyn AsRef<std::ffi::OsStr>; N]) -> Run {
+    let mut files = files.into_iter();
+    let argument = |part| match part {
+        "{}" => files.next().unwrap().as_ref(),
+        part => std::ffi::OsStr::new(part),
+    };
+    let arguments: Vec<_> = typed(line).into_iter().map(argument).collect();
+    assert!(files.next().is_none(), "{line}");
+    jred_with(&arguments)
+}
+
 /// The same with any number of arguments.
 pub(crate) fn jred_with(arguments: &[impl AsRef<std::ffi::OsStr>]) -> Run {
     jred_in(std::path::Path::new("."), arguments)
@@ -74,6 +86,16 @@ pub(crate) fn jred_in(folder: &std::path::Path, arguments: &[impl AsRef<std::ffi
     };
     assert!(!run.message().contains("panicked"), "{}", run.err);
     run
+}
+
+/// The arguments of a line as typed: between spaces, or within quotes `'…'`.
+pub(crate) fn typed(line: &str) -> Vec<&str> {
+    let mut quoted = false;
+    let parts = line.split(move |c| {
+        quoted ^= c == '\'';
+        c == '\'' || (c == ' ' && !quoted)
+    });
+    parts.filter(|part| !part.is_empty()).collect()
 }
 
 /// A listing with single spaces between columns.

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::support::{Folder, jred, press_file};
+use crate::support::{Folder, jred, jred_of, press_file};
 
 const STUDY: [&str; 4] = [
     "--vary",
@@ -314,13 +314,15 @@ fn scripts_for_clusters() {
         cluster(command, &folder, &task);
     }
     let part = |name: &str, k: u32| folder.path(&format!("{name}.part-{k}.csv"));
-    jred([
-        &"merge",
-        &folder.path("slurm.csv"),
-        &part("slurm", 0),
-        &part("slurm", 1),
-        &part("slurm", 2),
-    ])
+    jred_of(
+        "merge {} {} {} {}",
+        [
+            &folder.path("slurm.csv"),
+            &part("slurm", 0),
+            &part("slurm", 1),
+            &part("slurm", 2),
+        ],
+    )
     .ends(0);
     assert_eq!(read(&folder, "slurm.csv"), whole);
 
@@ -341,12 +343,14 @@ fn scripts_for_clusters() {
         ];
         cluster(command, &folder, &task);
     }
-    jred([
-        &"merge",
-        &folder.path("job.csv"),
-        &part("press", 0),
-        &part("press", 1),
-    ])
+    jred_of(
+        "merge {} {} {}",
+        [
+            &folder.path("job.csv"),
+            &part("press", 0),
+            &part("press", 1),
+        ],
+    )
     .ends(0);
     assert_eq!(read(&folder, "job.csv"), whole);
 }

@@ -19,16 +19,7 @@ fn faults(name: &str, catalogues: &[&[(&str, String)]]) {
             desk = desk.with(&format!("own/{file}"), contents);
             writeln!(text, "{file}:\n{}", contents.trim_end()).unwrap();
         }
-        let message = desk.run(&[
-            "size",
-            "press.toml",
-            "--catalogue",
-            "own",
-            "--steps",
-            "16",
-            "--top",
-            "0",
-        ]);
+        let message = desk.run("size press.toml --catalogue own --steps 16 --top 0");
         // The message without the listing, where the catalogue can be used.
         let said = message
             .split_once("--- stderr\n")

@@ -2,16 +2,6 @@
 
 use super::{Desk, compare};
 
-const CATALOGUE: [&str; 3] = ["--catalogue", "drives", "--steps"];
-
-/// `jred` with the small catalogue and few time steps.
-pub(super) fn sized<'a>(arguments: &[&'a str]) -> Vec<&'a str> {
-    let mut all = arguments.to_vec();
-    all.extend(CATALOGUE);
-    all.push("64");
-    all
-}
-
 pub(super) fn press() -> Desk {
     Desk::new().with_machines(&["press.toml"])
 }
@@ -29,9 +19,8 @@ fn check() {
         "flying-shear.toml",
     ];
     let desk = Desk::new().with_machines(&machines);
-    let commands: Vec<[&str; 2]> = machines.map(|machine| ["check", machine]).into();
-    let commands: Vec<&[&str]> = commands.iter().map(|c| &c[..]).collect();
-    compare("check", &desk.runs(&commands));
+    let commands = machines.map(|machine| format!("check {machine}"));
+    compare("check", &desk.runs(&commands.join("\n")));
 }
 
 #[test]
@@ -42,165 +31,88 @@ fn reduce() {
         "cam-translating.toml",
         "pick-and-place.toml",
     ]);
-    let press = ["reduce", "press.toml", "--positions", "4"];
-    let with = |more: &[&'static str]| [&press[..], more].concat();
-    compare(
-        "reduce",
-        &desk.runs(&[
-            &press,
-            &with(&["--over", "time"]),
-            &with(&["--links"]),
-            &with(&["--points"]),
-            &with(&["--reactions"]),
-            &with(&["--energy", "--speed", "60 rpm"]),
-            &[
-                "reduce",
-                "press.toml",
-                "--at",
-                "30 deg, 60 rpm, 5 rad/s^2, 200 deg, 300 deg, 30 rpm",
-            ],
-            &["reduce", "pick-and-place.toml", "--positions", "3"],
-            &[
-                "reduce",
-                "pick-and-place.toml",
-                "--positions",
-                "7",
-                "--over",
-                "time",
-            ],
-            &[
-                "reduce",
-                "pick-and-place.toml",
-                "--positions",
-                "2",
-                "--format",
-                "csv",
-            ],
-            &["check", "pick-and-place.toml"],
-            &["reduce", "linear-gripper.toml", "--positions", "3"],
-            &[
-                "reduce",
-                "cam-translating.toml",
-                "--positions",
-                "3",
-                "--reactions",
-                "--speed",
-                "600 rpm",
-            ],
-        ]),
-    );
+    let commands = "
+        reduce press.toml --positions 4
+        reduce press.toml --positions 4 --over time
+        reduce press.toml --positions 4 --links
+        reduce press.toml --positions 4 --points
+        reduce press.toml --positions 4 --reactions
+        reduce press.toml --positions 4 --energy --speed '60 rpm'
+        reduce press.toml --at '30 deg, 60 rpm, 5 rad/s^2, 200 deg, 300 deg, 30 rpm'
+        reduce pick-and-place.toml --positions 3
+        reduce pick-and-place.toml --positions 7 --over time
+        reduce pick-and-place.toml --positions 2 --format csv
+        check pick-and-place.toml
+        reduce linear-gripper.toml --positions 3
+        reduce cam-translating.toml --positions 3 --reactions --speed '600 rpm'
+    ";
+    compare("reduce", &desk.runs(commands));
 }
 
 #[test]
 fn rules() {
     let desk = Desk::new();
-    compare(
-        "rules",
-        &desk.runs(&[
-            &["rules"],
-            &["rules", "general"],
-            &["rules", "fanuc"],
-            &["rules", "safety-factor-2"],
-        ]),
-    );
+    let commands = "
+        rules
+        rules general
+        rules fanuc
+        rules safety-factor-2
+    ";
+    compare("rules", &desk.runs(commands));
 }
 
 #[test]
 fn split() {
     let desk = Desk::new();
-    let split = ["split", "--ratio", "30", "--stages"];
-    let with = |more: &[&'static str]| [&split[..], more].concat();
-    compare(
-        "split",
-        &desk.runs(&[
-            &with(&["2", "--pinion", "0.2 kg cm^2", "--points", "4"]),
-            &with(&[
-                "3",
-                "--pinion",
-                "0.2 kg cm^2",
-                "--driven",
-                "2 kg cm^2",
-                "--load",
-                "0.01 kg m^2",
-                "--points",
-                "3",
-            ]),
-            &with(&["2", "--pinion", "0.2 kg cm^2", "--max-ratio", "5"]),
-            &with(&["2", "--pinion", "0.2 kg cm^2", "--min-ratio", "8"]),
-            &with(&["2", "--pinion", "0.2 kg cm^2", "--min-ratio", "-8"]),
-            &with(&["3", "--pinion", "1 kg cm^2", "--pinion", "2 kg cm^2"]),
-        ]),
-    );
+    let commands = "
+        split --ratio 30 --stages 2 --pinion '0.2 kg cm^2' --points 4
+        split --ratio 30 --stages 3 --pinion '0.2 kg cm^2' --driven '2 kg cm^2' --load '0.01 kg m^2' --points 3
+        split --ratio 30 --stages 2 --pinion '0.2 kg cm^2' --max-ratio 5
+        split --ratio 30 --stages 2 --pinion '0.2 kg cm^2' --min-ratio 8
+        split --ratio 30 --stages 2 --pinion '0.2 kg cm^2' --min-ratio -8
+        split --ratio 30 --stages 3 --pinion '1 kg cm^2' --pinion '2 kg cm^2'
+    ";
+    compare("split", &desk.runs(commands));
 }
 
 #[test]
 fn export() {
     let desk = Desk::new().with_machines(&["press.toml", "shaking-feeder.toml"]);
-    let export = ["export", "press.toml"];
-    let with = |more: &[&'static str]| [&export[..], more].concat();
-    compare(
-        "export",
-        &desk.runs(&[
-            &with(&["--torque-error", "0.5 N m"]),
-            &with(&[
-                "--torque-error",
-                "0.5 N m",
-                "--type",
-                "i32",
-                "--reciprocal",
-                "yes",
-            ]),
-            &with(&["--max-bytes", "1000", "--type", "i16", "--out", "table.bin"]),
-            &with(&["--torque-error", "0.5 N m", "--max-cells", "60"]),
-            &with(&["--torque-error", "0.02 N m", "--type", "i16"]),
-            &with(&["--torque-error", "0.5 N m", "--pieces", "auto"]),
-            &with(&[
-                "--torque-error",
-                "0.02 N m",
-                "--pieces",
-                "auto",
-                "--max-cells",
-                "20",
-            ]),
-            &with(&["--torque-error", "0.5 N m", "--max-bytes", "200"]),
-            &with(&["--max-bytes", "20"]),
-            &with(&["--torque-error", "0.5 N m", "--layout", "slider-crank"]),
-            &["export", "shaking-feeder.toml", "--torque-error", "0.5 N m"],
-        ]),
-    );
+    let commands = "
+        export press.toml --torque-error '0.5 N m'
+        export press.toml --torque-error '0.5 N m' --type i32 --reciprocal yes
+        export press.toml --max-bytes 1000 --type i16 --out table.bin
+        export press.toml --torque-error '0.5 N m' --max-cells 60
+        export press.toml --torque-error '0.02 N m' --type i16
+        export press.toml --torque-error '0.5 N m' --pieces auto
+        export press.toml --torque-error '0.02 N m' --pieces auto --max-cells 20
+        export press.toml --torque-error '0.5 N m' --max-bytes 200
+        export press.toml --max-bytes 20
+        export press.toml --torque-error '0.5 N m' --layout slider-crank
+        export shaking-feeder.toml --torque-error '0.5 N m'
+    ";
+    compare("export", &desk.runs(commands));
 }
 
 /// The first lines of CSV, and the keys of JSON.
 #[test]
 fn csv_and_json() {
     let desk = Desk::new().with_machines(&["press.toml", "variator-press.toml"]);
-    let commands: [&[&str]; 9] = [
-        &["reduce", "press.toml"],
-        &["check", "press.toml"],
-        &["size", "press.toml", "--explain"],
-        &["ratio", "press.toml"],
-        &["bus", "press.toml"],
-        &["sensitivity", "press.toml"],
-        &["simulate", "press.toml"],
-        &["rules", "general"],
-        &[
-            "split",
-            "--ratio",
-            "30",
-            "--stages",
-            "2",
-            "--pinion",
-            "1 kg cm^2",
-        ],
-    ];
+    let sized = "--catalogue drives --steps 64";
     let mut text = String::new();
-    for command in commands {
+    for (command, more) in [
+        ("reduce press.toml", ""),
+        ("check press.toml", ""),
+        ("size press.toml --explain", sized),
+        ("ratio press.toml", sized),
+        ("bus press.toml", sized),
+        ("sensitivity press.toml", sized),
+        ("simulate press.toml", ""),
+        ("rules general", ""),
+        ("split --ratio 30 --stages 2 --pinion '1 kg cm^2'", ""),
+    ] {
         for format in ["csv", "json"] {
-            let mut all = [command, &["--format", format]].concat();
-            if ["size", "ratio", "bus", "sensitivity"].contains(&command[0]) {
-                all = sized(&all);
-            }
-            let out = desk.run(&all);
+            let out = desk.run(format!("{command} --format {format} {more}").trim_end());
             let (typed, out) = out.split_once('\n').unwrap();
             text += typed;
             text.push('\n');

@@ -78,76 +78,43 @@ fn simulate() {
             "weak.toml",
             short("press.toml").replace("torque_speed = [[\"0 rpm\", \"60 N m\"], [\"500 rpm\", \"45 N m\"], [\"800 rpm\", \"0 N m\"]]", ""),
         );
-    compare(
-        "simulate",
-        &desk.runs(&[
-            &["simulate", "press.toml"],
-            &["simulate", "variator-press.toml"],
-            &["simulate", "axis.toml"],
-            &["simulate", "axis.toml", "--drive", "sgmsh-10a"],
-            &[
-                "simulate",
-                "axis.toml",
-                "--drive",
-                "sgmah-a3a",
-                "--format",
-                "json",
-            ],
-            &["simulate", "weak.toml"],
-            &[
-                "simulate",
-                "weak.toml",
-                "--drive",
-                "sgmsh-10a",
-                "--reactions",
-                "--format",
-                "csv",
-            ],
-            &["simulate", "weak.toml", "--drive", "sgmsh-10a"],
-            &["simulate", "weak.toml", "--drive", "none"],
-            &["simulate", "variator-press.toml", "--drive", "sgmsh-10a"],
-            &["steady", "weak.toml"],
-            &["simulate", "press.toml", "press.toml", "--phase", "90 deg"],
-            &["simulate", "press.toml", "press.toml", "--phase", "90"],
-            &["simulate", "press.toml", "--phase", "90 deg"],
-            &["simulate", "press.toml", "gripper.toml"],
-            &["simulate", "press.toml", "--drive", "sgm7j-a5a"],
-            &["simulate", "lift.toml"],
-            &["simulate", "never-off.toml"],
-            &["simulate", "drop.toml"],
-            &["simulate", "backwards.toml"],
-            &["simulate", "variator-punch.toml"],
-            &["steady", "lift.toml"],
-        ]),
-    );
+    let commands = "
+        simulate press.toml
+        simulate variator-press.toml
+        simulate axis.toml
+        simulate axis.toml --drive sgmsh-10a
+        simulate axis.toml --drive sgmah-a3a --format json
+        simulate weak.toml
+        simulate weak.toml --drive sgmsh-10a --reactions --format csv
+        simulate weak.toml --drive sgmsh-10a
+        simulate weak.toml --drive none
+        simulate variator-press.toml --drive sgmsh-10a
+        steady weak.toml
+        simulate press.toml press.toml --phase '90 deg'
+        simulate press.toml press.toml --phase 90
+        simulate press.toml --phase '90 deg'
+        simulate press.toml gripper.toml
+        simulate press.toml --drive sgm7j-a5a
+        simulate lift.toml
+        simulate never-off.toml
+        simulate drop.toml
+        simulate backwards.toml
+        simulate variator-punch.toml
+        steady lift.toml
+    ";
+    compare("simulate", &desk.runs(commands));
 }
 
 #[test]
 fn steady() {
     let desk = Desk::new().with_machines(&["eccentric-press.toml", "press.toml"]);
-    compare(
-        "steady",
-        &desk.runs(&[
-            &["steady", "eccentric-press.toml", "--positions", "6"],
-            &[
-                "steady",
-                "eccentric-press.toml",
-                "--delta",
-                "0.05",
-                "--positions",
-                "4",
-            ],
-            &["steady", "press.toml", "--delta", "0.9", "--positions", "4"],
-            &[
-                "steady",
-                "press.toml",
-                "--torque",
-                "-20 N m",
-                "--positions",
-                "4",
-            ],
-        ]),
-    );
+    let commands = "
+        steady eccentric-press.toml --positions 6
+        steady eccentric-press.toml --delta 0.05 --positions 4
+        steady press.toml --delta 0.9 --positions 4
+        steady press.toml --torque '-20 N m' --positions 4
+    ";
+    compare("steady", &desk.runs(commands));
 }
 
 /// Moves of a motion with a drive of the catalogue, a single move with plain limits, and impossible moves.
@@ -161,128 +128,62 @@ fn fastest() {
         "variator-press.toml",
         "line-shaft.toml",
     ]);
-    let press = ["fastest", "press.toml", "--catalogue", "drives"];
-    let plain = ["--torque", "20 N m", "--motor-speed", "3000 rpm"];
-    let way = ["--from", "180 deg", "--to", "300 deg"];
-    let with = |parts: &[&[&'static str]]| parts.concat();
-    compare(
-        "fastest",
-        &desk.runs(&[
-            &press,
-            &with(&[
-                &press,
-                &[
-                    "--drive",
-                    "sgmsh-15a+npt025mf-5",
-                    "--profile",
-                    "p.csv",
-                    "--cam",
-                    "c.csv",
-                ],
-            ]),
-            &with(&[
-                &press[..2],
-                &plain,
-                &way,
-                &["--max-speed", "100 rpm", "--max-acceleration", "80 rad/s^2"],
-            ]),
-            &with(&[
-                &press[..2],
-                &plain,
-                &way,
-                &["--format", "csv", "--instants", "2"],
-            ]),
-            &with(&[
-                &press[..2],
-                &plain,
-                &way,
-                &["--format", "json", "--instants", "2"],
-            ]),
-            &with(&[
-                &press[..2],
-                &["--torque", "0.1 N m", "--motor-speed", "3000 rpm"],
-                &way,
-            ]),
-            &with(&[
-                &["fastest", "hoist.toml"],
-                &["--torque", "2 N m", "--motor-speed", "3000 rpm"],
-            ]),
-            &with(&[&press[..2], &plain, &way, &["--from-speed", "2000 rpm"]]),
-            &with(&[&press[..2], &plain, &way, &["--to-speed", "2000 rpm"]]),
-            &with(&[&press[..2], &plain, &["--from", "10 deg", "--to", "10 deg"]]),
-            &with(&[&press[..2], &plain, &["--from", "10 deg"]]),
-            &with(&[&press[..2], &plain, &["--from", "10 mm", "--to", "20 mm"]]),
-            &with(&[&press[..2], &plain, &way, &["--from-speed=-2 rpm"]]),
-            &with(&[
-                &press[..2],
-                &["--torque", "-1 N m", "--motor-speed", "3000 rpm"],
-            ]),
-            &with(&[&press, &["--drive", "sgmsh-15b"]]),
-            &with(&[&["fastest", "conveyor.toml"], &plain]),
-            &with(&[
-                &["fastest", "conveyor.toml", "--max-jerk", "1e6 rad/s^3"],
-                &plain,
-            ]),
-            &with(&[&["fastest", "press.toml", "--ends", "zero"], &plain, &way]),
-            &with(&[&["fastest", "press.toml", "--max-rms", "s1"], &plain, &way]),
-            &with(&[
-                &["fastest", "press.toml", "--max-rms", "0.5 N m"],
-                &plain,
-                &way,
-            ]),
-            &with(&[
-                &["fastest", "press.toml", "--max-torque-rate", "3 rpm"],
-                &plain,
-                &way,
-            ]),
-            &with(&[&["fastest", "variator-press.toml"], &plain]),
-            &with(&[&["fastest", "line-shaft.toml"], &plain]),
-        ]),
-    );
+    let commands = "
+        fastest press.toml --catalogue drives
+        fastest press.toml --catalogue drives --drive sgmsh-15a+npt025mf-5 --profile p.csv --cam c.csv
+        fastest press.toml --torque '20 N m' --motor-speed '3000 rpm' --from '180 deg' --to '300 deg' --max-speed '100 rpm' \
+            --max-acceleration '80 rad/s^2'
+        fastest press.toml --torque '20 N m' --motor-speed '3000 rpm' --from '180 deg' --to '300 deg' --format csv --instants 2
+        fastest press.toml --torque '20 N m' --motor-speed '3000 rpm' --from '180 deg' --to '300 deg' --format json --instants 2
+        fastest press.toml --torque '0.1 N m' --motor-speed '3000 rpm' --from '180 deg' --to '300 deg'
+        fastest hoist.toml --torque '2 N m' --motor-speed '3000 rpm'
+        fastest press.toml --torque '20 N m' --motor-speed '3000 rpm' --from '180 deg' --to '300 deg' --from-speed '2000 rpm'
+        fastest press.toml --torque '20 N m' --motor-speed '3000 rpm' --from '180 deg' --to '300 deg' --to-speed '2000 rpm'
+        fastest press.toml --torque '20 N m' --motor-speed '3000 rpm' --from '10 deg' --to '10 deg'
+        fastest press.toml --torque '20 N m' --motor-speed '3000 rpm' --from '10 deg'
+        fastest press.toml --torque '20 N m' --motor-speed '3000 rpm' --from '10 mm' --to '20 mm'
+        fastest press.toml --torque '20 N m' --motor-speed '3000 rpm' --from '180 deg' --to '300 deg' '--from-speed=-2 rpm'
+        fastest press.toml --torque '-1 N m' --motor-speed '3000 rpm'
+        fastest press.toml --catalogue drives --drive sgmsh-15b
+        fastest conveyor.toml --torque '20 N m' --motor-speed '3000 rpm'
+        fastest conveyor.toml --max-jerk '1e6 rad/s^3' --torque '20 N m' --motor-speed '3000 rpm'
+        fastest press.toml --ends zero --torque '20 N m' --motor-speed '3000 rpm' --from '180 deg' --to '300 deg'
+        fastest press.toml --max-rms s1 --torque '20 N m' --motor-speed '3000 rpm' --from '180 deg' --to '300 deg'
+        fastest press.toml --max-rms '0.5 N m' --torque '20 N m' --motor-speed '3000 rpm' --from '180 deg' --to '300 deg'
+        fastest press.toml --max-torque-rate '3 rpm' --torque '20 N m' --motor-speed '3000 rpm' --from '180 deg' --to '300 deg'
+        fastest variator-press.toml --torque '20 N m' --motor-speed '3000 rpm'
+        fastest line-shaft.toml --torque '20 N m' --motor-speed '3000 rpm'
+    ";
+    compare("fastest", &desk.runs(commands));
 }
 
 /// A press that is slow through the work, and invalid limits of a tool.
 #[test]
 fn slow_through_the_work() {
     let desk = Desk::new().with_machines(&["press.toml"]);
-    let turn = [
-        "fastest",
-        "press.toml",
-        "--torque",
-        "500 N m",
-        "--motor-speed",
-        "90 rpm",
-        "--from",
-        "180 deg",
-        "--to",
-        "540 deg",
-        "--max-tool-speed",
-    ];
-    let with = |limit: &'static str| [turn.as_slice(), &[limit]].concat();
-    compare(
-        "fastest-tool-speed",
-        &desk.runs(&[
-            &with("slider, 60 mm/s, 300 deg, 360 deg"),
-            &with("slidr, 60 mm/s, 300 deg, 360 deg"),
-            &with("slider, 60 mm/s, 300 deg"),
-            &with("slider, 60 rpm, 300 deg, 360 deg"),
-            &with("slider, 0 mm/s, 300 deg, 360 deg"),
-            &with("slider, 60 mm/s, 300 deg, 300 deg"),
-            &with("slider, 60 mm/s, 30 deg, 300 deg"),
-            &with("slider, 60 mm/s, 300 deg, 30 deg"),
-            &[
-                with("slider, 0.2 m/s, 270 deg, 320 deg").as_slice(),
-                &["--max-tool-speed", "slider, 60 mm/s, 320 deg, 360 deg"],
-            ]
-            .concat(),
-            &[
-                &turn[..turn.len() - 1],
-                &["--max-reaction", "crank pin=4 kN"],
-                &["--max-reaction", "crank pin=5 kN"],
-            ]
-            .concat(),
-        ]),
-    );
+    let commands = "
+        fastest press.toml --torque '500 N m' --motor-speed '90 rpm' --from '180 deg' --to '540 deg' \
+            --max-tool-speed 'slider, 60 mm/s, 300 deg, 360 deg'
+        fastest press.toml --torque '500 N m' --motor-speed '90 rpm' --from '180 deg' --to '540 deg' \
+            --max-tool-speed 'slidr, 60 mm/s, 300 deg, 360 deg'
+        fastest press.toml --torque '500 N m' --motor-speed '90 rpm' --from '180 deg' --to '540 deg' \
+            --max-tool-speed 'slider, 60 mm/s, 300 deg'
+        fastest press.toml --torque '500 N m' --motor-speed '90 rpm' --from '180 deg' --to '540 deg' \
+            --max-tool-speed 'slider, 60 rpm, 300 deg, 360 deg'
+        fastest press.toml --torque '500 N m' --motor-speed '90 rpm' --from '180 deg' --to '540 deg' \
+            --max-tool-speed 'slider, 0 mm/s, 300 deg, 360 deg'
+        fastest press.toml --torque '500 N m' --motor-speed '90 rpm' --from '180 deg' --to '540 deg' \
+            --max-tool-speed 'slider, 60 mm/s, 300 deg, 300 deg'
+        fastest press.toml --torque '500 N m' --motor-speed '90 rpm' --from '180 deg' --to '540 deg' \
+            --max-tool-speed 'slider, 60 mm/s, 30 deg, 300 deg'
+        fastest press.toml --torque '500 N m' --motor-speed '90 rpm' --from '180 deg' --to '540 deg' \
+            --max-tool-speed 'slider, 60 mm/s, 300 deg, 30 deg'
+        fastest press.toml --torque '500 N m' --motor-speed '90 rpm' --from '180 deg' --to '540 deg' \
+            --max-tool-speed 'slider, 0.2 m/s, 270 deg, 320 deg' --max-tool-speed 'slider, 60 mm/s, 320 deg, 360 deg'
+        fastest press.toml --torque '500 N m' --motor-speed '90 rpm' --from '180 deg' --to '540 deg' \
+            --max-reaction 'crank pin=4 kN' --max-reaction 'crank pin=5 kN'
+    ";
+    compare("fastest-tool-speed", &desk.runs(commands));
 }
 
 /// On an axis in mm the range is in mm or in degrees, either end first; a named drive and all options are in answer and page; limits may be in
@@ -306,66 +207,44 @@ fn fastest_says_what_was_asked() {
             .replace("along = \"x\" }", "along = \"x\" }\nstart = \"0 mm\""),
         )
         .with("endless.toml", axis);
-    let motor = ["--torque", "20 N m", "--motor-speed", "2000 rpm"];
-    let turning = [["fastest", "turning.toml"].as_slice(), &motor].concat();
-    let with = |file: &'static str, limit: &'static str| {
-        let path = ["--from", "0 mm", "--to", "-300 mm"];
-        let limit = ["--max-tool-speed", limit];
-        [["fastest", file].as_slice(), &motor, &path, &limit].concat()
-    };
-    compare(
-        "fastest-asked",
-        &desk.runs(&[
-            &turning,
-            &with("axis.toml", "nut, 0.1 m/s, -200 mm, -100 mm"),
-            &with("axis.toml", "nut, 0.1 m/s, -100 mm, -200 mm"),
-            &with("axis.toml", "nut, 0.1 m/s, -7200 deg, -3600 deg"),
-            &with("axis.toml", "nut, 0.1 m/s, -100 mm, -2 m"),
-            &with("endless.toml", "nut, 0.1 m/s, -200 mm, -100 mm"),
-            &with("endless.toml", "nut, 0.1 m/s, -200 mm, 40 deg"),
-            &[
-                "fastest",
-                "press.toml",
-                "--drive",
-                "sgm7a-25a+npt025mf-4",
-                "--reserve",
-                "RULES",
-                "--max-speed",
-                "400 rpm",
-            ],
-            &[
-                turning.as_slice(),
-                &["--from", "0 deg", "--to", "90 deg", "--max-rms", "S1"],
-            ]
-            .concat(),
-        ]),
-    );
+    let commands = "
+        fastest turning.toml --torque '20 N m' --motor-speed '2000 rpm'
+        fastest axis.toml --torque '20 N m' --motor-speed '2000 rpm' --from '0 mm' --to '-300 mm' \
+            --max-tool-speed 'nut, 0.1 m/s, -200 mm, -100 mm'
+        fastest axis.toml --torque '20 N m' --motor-speed '2000 rpm' --from '0 mm' --to '-300 mm' \
+            --max-tool-speed 'nut, 0.1 m/s, -100 mm, -200 mm'
+        fastest axis.toml --torque '20 N m' --motor-speed '2000 rpm' --from '0 mm' --to '-300 mm' \
+            --max-tool-speed 'nut, 0.1 m/s, -7200 deg, -3600 deg'
+        fastest axis.toml --torque '20 N m' --motor-speed '2000 rpm' --from '0 mm' --to '-300 mm' \
+            --max-tool-speed 'nut, 0.1 m/s, -100 mm, -2 m'
+        fastest endless.toml --torque '20 N m' --motor-speed '2000 rpm' --from '0 mm' --to '-300 mm' \
+            --max-tool-speed 'nut, 0.1 m/s, -200 mm, -100 mm'
+        fastest endless.toml --torque '20 N m' --motor-speed '2000 rpm' --from '0 mm' --to '-300 mm' \
+            --max-tool-speed 'nut, 0.1 m/s, -200 mm, 40 deg'
+        fastest press.toml --drive sgm7a-25a+npt025mf-4 --reserve RULES --max-speed '400 rpm'
+        fastest turning.toml --torque '20 N m' --motor-speed '2000 rpm' --from '0 deg' --to '90 deg' --max-rms S1
+    ";
+    compare("fastest-asked", &desk.runs(commands));
 }
 
 #[test]
 fn fastest_within_the_force_of_a_joint() {
     let desk = Desk::new().with_machines(&["press.toml", "scotch-yoke.toml"]);
-    let yoke = [
-        "fastest",
-        "scotch-yoke.toml",
-        "--torque",
-        "80 N m",
-        "--motor-speed",
-        "1500 rpm",
-    ];
-    let way = ["--from", "30 deg", "--to", "400 deg", "--max-reaction"];
-    let with = |more: &[&'static str]| [&yoke[..], &way, more].concat();
-    compare(
-        "fastest-joint-force",
-        &desk.runs(&[
-            &with(&["pin in the slot=1 kN"]),
-            &with(&["pin in the slot=1 kN", "--max-reaction", "guide=20 N"]),
-            &with(&["pin in the slot"]),
-            &with(&["pin=1 kN"]),
-            &with(&["guide=1 N m"]),
-            &with(&["guide=1 kN", "--max-jerk", "1e5 rad/s^3"]),
-        ]),
-    );
+    let commands = "
+        fastest scotch-yoke.toml --torque '80 N m' --motor-speed '1500 rpm' --from '30 deg' --to '400 deg' \
+            --max-reaction 'pin in the slot=1 kN'
+        fastest scotch-yoke.toml --torque '80 N m' --motor-speed '1500 rpm' --from '30 deg' --to '400 deg' \
+            --max-reaction 'pin in the slot=1 kN' --max-reaction 'guide=20 N'
+        fastest scotch-yoke.toml --torque '80 N m' --motor-speed '1500 rpm' --from '30 deg' --to '400 deg' \
+            --max-reaction 'pin in the slot'
+        fastest scotch-yoke.toml --torque '80 N m' --motor-speed '1500 rpm' --from '30 deg' --to '400 deg' \
+            --max-reaction 'pin=1 kN'
+        fastest scotch-yoke.toml --torque '80 N m' --motor-speed '1500 rpm' --from '30 deg' --to '400 deg' \
+            --max-reaction 'guide=1 N m'
+        fastest scotch-yoke.toml --torque '80 N m' --motor-speed '1500 rpm' --from '30 deg' --to '400 deg' \
+            --max-reaction 'guide=1 kN' --max-jerk '1e5 rad/s^3'
+    ";
+    compare("fastest-joint-force", &desk.runs(commands));
 }
 
 /// A motor without thermal data, and one with all, named in another case than the catalogue's.
@@ -375,67 +254,36 @@ fn fastest_with_a_warm_winding() {
     let desk = Desk::new()
         .with_machines(&["press.toml", "eccentric-press.toml"])
         .with("warm.toml", cat);
-    let press = ["fastest", "press.toml"];
-    let own = ["--catalogue", "warm.toml", "--drive", "WARM-1+Box-4"];
-    let plain = ["--torque", "20 N m", "--motor-speed", "3000 rpm"];
-    let drive = ["--drive", "sgm7a-25a+npt025mf-4"];
-    let with = |drive: &[&'static str], limit: &'static str| {
-        [&press[..], drive, &["--max-winding-temperature", limit]].concat()
-    };
     // Without a pause.
-    let turning = [
-        &["fastest", "eccentric-press.toml"],
-        &own[..],
-        &["--max-winding-temperature", "60 degC"],
-    ]
-    .concat();
-    let json = [
-        with(&own, "110 degC"),
-        vec!["--format", "json", "--instants", "2"],
-    ]
-    .concat();
-    compare(
-        "fastest-winding",
-        &desk.runs(&[
-            &with(&own, "110 degC"),
-            &json,
-            &with(&own, "250 degC"),
-            &with(&own, "30 degC"),
-            &with(&own, "-5 K"),
-            &with(&own, "110 C"),
-            &turning,
-            &with(&own, "230 degF"),
-            &with(&plain, "110 degC"),
-            &with(&drive, "110 degC"),
-        ]),
-    );
+    let commands = "
+        fastest press.toml --catalogue warm.toml --drive WARM-1+Box-4 --max-winding-temperature '110 degC'
+        fastest press.toml --catalogue warm.toml --drive WARM-1+Box-4 --max-winding-temperature '110 degC' --format json \
+            --instants 2
+        fastest press.toml --catalogue warm.toml --drive WARM-1+Box-4 --max-winding-temperature '250 degC'
+        fastest press.toml --catalogue warm.toml --drive WARM-1+Box-4 --max-winding-temperature '30 degC'
+        fastest press.toml --catalogue warm.toml --drive WARM-1+Box-4 --max-winding-temperature '-5 K'
+        fastest press.toml --catalogue warm.toml --drive WARM-1+Box-4 --max-winding-temperature '110 C'
+        fastest eccentric-press.toml --catalogue warm.toml --drive WARM-1+Box-4 --max-winding-temperature '60 degC'
+        fastest press.toml --catalogue warm.toml --drive WARM-1+Box-4 --max-winding-temperature '230 degF'
+        fastest press.toml --torque '20 N m' --motor-speed '3000 rpm' --max-winding-temperature '110 degC'
+        fastest press.toml --drive sgm7a-25a+npt025mf-4 --max-winding-temperature '110 degC'
+    ";
+    compare("fastest-winding", &desk.runs(commands));
 }
 
 #[test]
 fn gentlest() {
     let machines = ["press.toml", "vertical-axis.toml", "scotch-yoke.toml"];
     let desk = Desk::new().with_machines(&machines);
-    let with = |file: &'static str, more: &[&'static str]| {
-        [&["gentlest", file, "--steps", "500"], more].concat()
-    };
-    let drive = ["--drive", "sgmsh-30a+npt025mf-5", "--catalogue", "drives"];
-    compare(
-        "gentlest",
-        &desk.runs(&[
-            &with("press.toml", &[]),
-            &with("press.toml", &drive),
-            &with(
-                "press.toml",
-                &[&drive[..], &["--objective", "peak"]].concat(),
-            ),
-            &with("press.toml", &["--ends", "zero", "--ramp", "5 %"]),
-            &with(
-                "vertical-axis.toml",
-                &["--profile", "motion.csv", "--cam", "cam.csv"],
-            ),
-            &with("scotch-yoke.toml", &[]),
-        ]),
-    );
+    let commands = "
+        gentlest press.toml --steps 500
+        gentlest press.toml --steps 500 --drive sgmsh-30a+npt025mf-5 --catalogue drives
+        gentlest press.toml --steps 500 --drive sgmsh-30a+npt025mf-5 --catalogue drives --objective peak
+        gentlest press.toml --steps 500 --ends zero --ramp '5 %'
+        gentlest vertical-axis.toml --steps 500 --profile motion.csv --cam cam.csv
+        gentlest scotch-yoke.toml --steps 500
+    ";
+    compare("gentlest", &desk.runs(commands));
 }
 
 #[test]
@@ -449,37 +297,22 @@ fn balance() {
         .with("no-motion.toml", still)
         .with("for-a-while.toml", masses("crank", "segments = [1]\n"))
         .with("nowhere.toml", masses("wheel", ""));
-    let with = |file: &'static str, more: &[&'static str]| {
-        [&["balance", file, "--steps", "200"], more].concat()
-    };
-    let crank = ["--counterweight", "crank, 40 kg, 200 mm"];
-    compare(
-        "balance",
-        &desk.runs(&[
-            &with("press.toml", &crank),
-            &with("press.toml", &[&crank[..], &["--least", "peak"]].concat()),
-            &with(
-                "linkage-four-bar.toml",
-                &["--spring", "counterbalance", "--least", "holding"],
-            ),
-            &with(
-                "linkage-four-bar.toml",
-                &["--spring", "counterbalance", "--format", "json"],
-            ),
-            &with("press.toml", &["--counterweight", "crank, 40 kg"]),
-            &with("press.toml", &["--counterweight", "wheel, 40 kg, 200 mm"]),
-            &with("press.toml", &["--counterweight", "crank, 40 mm, 200 mm"]),
-            &with("press.toml", &[&crank[..], &crank[..]].concat()),
-            &with(
-                "press.toml",
-                &[&crank[..], &["--least", "inertia"]].concat(),
-            ),
-            &with("press.toml", &["--spring", "none"]),
-            &with("linkage-four-bar.toml", &["--spring", "none"]),
-            &with("no-motion.toml", &crank),
-            &["balance", "press.toml"],
-            &["check", "for-a-while.toml"],
-            &["check", "nowhere.toml"],
-        ]),
-    );
+    let commands = "
+        balance press.toml --steps 200 --counterweight 'crank, 40 kg, 200 mm'
+        balance press.toml --steps 200 --counterweight 'crank, 40 kg, 200 mm' --least peak
+        balance linkage-four-bar.toml --steps 200 --spring counterbalance --least holding
+        balance linkage-four-bar.toml --steps 200 --spring counterbalance --format json
+        balance press.toml --steps 200 --counterweight 'crank, 40 kg'
+        balance press.toml --steps 200 --counterweight 'wheel, 40 kg, 200 mm'
+        balance press.toml --steps 200 --counterweight 'crank, 40 mm, 200 mm'
+        balance press.toml --steps 200 --counterweight 'crank, 40 kg, 200 mm' --counterweight 'crank, 40 kg, 200 mm'
+        balance press.toml --steps 200 --counterweight 'crank, 40 kg, 200 mm' --least inertia
+        balance press.toml --steps 200 --spring none
+        balance linkage-four-bar.toml --steps 200 --spring none
+        balance no-motion.toml --steps 200 --counterweight 'crank, 40 kg, 200 mm'
+        balance press.toml
+        check for-a-while.toml
+        check nowhere.toml
+    ";
+    compare("balance", &desk.runs(commands));
 }

@@ -51,16 +51,9 @@ fn of_drives() {
         .with_machines(&["press.toml"])
         .with("heavy.toml", heavy);
     for (name, file) in [("report", "press.toml"), ("report-refused", "heavy.toml")] {
-        desk.run(&[
-            "size",
-            file,
-            "--catalogue",
-            "drives",
-            "--steps",
-            "64",
-            "--report",
-            "out.html",
-        ]);
+        desk.run(&format!(
+            "size {file} --catalogue drives --steps 64 --report out.html"
+        ));
         let html = std::fs::read_to_string(desk.0.path("out.html")).unwrap();
         compare(name, &read(&html));
     }
@@ -70,20 +63,14 @@ fn of_drives() {
 fn of_mechanisms_and_simulations() {
     let desk = Desk::new().with_machines(&["press.toml", "linkage-press.toml"]);
     for (name, command) in [
-        (
-            "report-mechanism",
-            ["reduce", "press.toml", "--report", "out.html"],
-        ),
+        ("report-mechanism", "reduce press.toml --report out.html"),
         (
             "report-linkage",
-            ["reduce", "linkage-press.toml", "--report", "out.html"],
+            "reduce linkage-press.toml --report out.html",
         ),
-        (
-            "report-simulation",
-            ["simulate", "press.toml", "--plot", "out.html"],
-        ),
+        ("report-simulation", "simulate press.toml --plot out.html"),
     ] {
-        desk.run(&command);
+        desk.run(command);
         let html = std::fs::read_to_string(desk.0.path("out.html")).unwrap();
         compare(name, &read(&html));
     }

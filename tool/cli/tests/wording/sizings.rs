@@ -1,6 +1,6 @@
 //! Output of the commands that judge drives: size, ratio, bus, vary, sensitivity, tolerance.
 
-use super::listings::{press, sized};
+use super::listings::press;
 use super::{Desk, compare};
 
 /// The press with ninety times the load.
@@ -12,57 +12,53 @@ fn heavy() -> Desk {
 #[test]
 fn size() {
     let press = press();
-    let size = |more: &[&str]| press.run(&sized(&[&["size", "press.toml"], more].concat()));
-    compare("size-screen", &size(&[]));
-    compare("size", &size(&["--full"]));
-    compare("size-explain", &size(&["--explain", "--nearest", "1"]));
-    compare("size-motion", &size(&["--motion", "best", "--top", "3"]));
-    compare("size-all", &size(&["--all"]));
     compare(
-        "size-drive",
-        &[
-            size(&["--drive", "sgmsh-30a+npt025mf-5"]),
-            size(&["--drive", "sgmsh-15a"]),
-            size(&["--drive", "sgmsh-15+npt025mf-5"]),
-            size(&["--drive", "sgmsh-15a", "--rank", "mass"]),
-        ]
-        .join("\n"),
+        "size-screen",
+        &press.runs("size press.toml --catalogue drives --steps 64"),
     );
     compare(
-        "size-why",
-        &[
-            size(&["--why", "sgmsh-30a+npt025mf-5"]),
-            size(&["--why", "sgmsh-15a"]),
-            size(&["--why", "sgmsh-15a+npt035mf-10"]),
-        ]
-        .join("\n"),
+        "size",
+        &press.runs("size press.toml --full --catalogue drives --steps 64"),
     );
     compare(
-        "size-ranked",
-        &[
-            size(&["--rank", "mass", "--max-mass", "3 kg"]),
-            size(&["--pareto", "power,energy"]),
-            size(&["--pareto", "mass,energy"]),
-            size(&["--motor", "none*"]),
-            size(&["--ratio", "500..600"]),
-        ]
-        .join("\n"),
+        "size-explain",
+        &press.runs("size press.toml --explain --nearest 1 --catalogue drives --steps 64"),
     );
+    compare(
+        "size-motion",
+        &press.runs("size press.toml --motion best --top 3 --catalogue drives --steps 64"),
+    );
+    compare(
+        "size-all",
+        &press.runs("size press.toml --all --catalogue drives --steps 64"),
+    );
+    let commands = "
+        size press.toml --drive sgmsh-30a+npt025mf-5 --catalogue drives --steps 64
+        size press.toml --drive sgmsh-15a --catalogue drives --steps 64
+        size press.toml --drive sgmsh-15+npt025mf-5 --catalogue drives --steps 64
+        size press.toml --drive sgmsh-15a --rank mass --catalogue drives --steps 64
+    ";
+    compare("size-drive", &press.runs(commands));
+    let commands = "
+        size press.toml --why sgmsh-30a+npt025mf-5 --catalogue drives --steps 64
+        size press.toml --why sgmsh-15a --catalogue drives --steps 64
+        size press.toml --why sgmsh-15a+npt035mf-10 --catalogue drives --steps 64
+    ";
+    compare("size-why", &press.runs(commands));
+    let commands = "
+        size press.toml --rank mass --max-mass '3 kg' --catalogue drives --steps 64
+        size press.toml --pareto power,energy --catalogue drives --steps 64
+        size press.toml --pareto mass,energy --catalogue drives --steps 64
+        size press.toml --motor 'none*' --catalogue drives --steps 64
+        size press.toml --ratio 500..600 --catalogue drives --steps 64
+    ";
+    compare("size-ranked", &press.runs(commands));
     let heavy = heavy();
-    compare(
-        "size-refused",
-        &heavy.runs(&[
-            &sized(&["size", "heavy.toml"]),
-            &sized(&[
-                "size",
-                "heavy.toml",
-                "--refused",
-                "--explain",
-                "--nearest",
-                "1",
-            ]),
-        ]),
-    );
+    let commands = "
+        size heavy.toml --catalogue drives --steps 64
+        size heavy.toml --refused --explain --nearest 1 --catalogue drives --steps 64
+    ";
+    compare("size-refused", &heavy.runs(commands));
 }
 
 /// Linear motors: force instead of torque, mass instead of inertia.
@@ -74,15 +70,12 @@ fn size_linear() {
     let desk = Desk::new()
         .with_machines(&["linear-gripper.toml"])
         .with("linear.csv", motors);
-    let size = ["size", "linear-gripper.toml", "--motors", "linear.csv"];
-    compare(
-        "size-linear",
-        &desk.runs(&[
-            &size,
-            &[&size[..], &["--full"]].concat(),
-            &[&size[..], &["--explain", "--why", "slide"]].concat(),
-        ]),
-    );
+    let commands = "
+        size linear-gripper.toml --motors linear.csv
+        size linear-gripper.toml --motors linear.csv --full
+        size linear-gripper.toml --motors linear.csv --explain --why slide
+    ";
+    compare("size-linear", &desk.runs(commands));
 }
 
 /// Winding data, thermal resistances and an amplifier: for the rules that small catalogues leave unchecked.
@@ -102,15 +95,10 @@ fn size_with_every_figure() {
         .with("drives/motors.csv", motors)
         .with("drives/amplifiers.csv", amplifiers)
         .with("press.toml", Desk::machine("press.toml") + supply);
-    compare(
-        "size-amplifier",
-        &desk.run(&sized(&[
-            "size",
-            "press.toml",
-            "--why",
-            "m1+npt025mf-5 on a1",
-        ])),
-    );
+    let commands = "
+        size press.toml --why 'm1+npt025mf-5 on a1' --catalogue drives --steps 64
+    ";
+    compare("size-amplifier", &desk.runs(commands));
 }
 
 /// Motors and amplifiers of several voltages with and without a mains voltage.
@@ -140,48 +128,28 @@ fn size_by_voltage() {
         .with("none.toml", &press)
         .with("200.toml", at("200"))
         .with("400.toml", at("400"));
-    let own = [
-        "--catalogue",
-        "own",
-        "--gearbox",
-        "npt025mf-5",
-        "--steps",
-        "64",
-    ];
-    compare(
-        "size-voltage",
-        &desk.runs(&[
-            &sized(&["size", "400.toml", "--refused", "--full"]),
-            &sized(&["size", "200.toml", "--top", "9"]),
-            &sized(&["size", "none.toml", "--top", "1"]),
-            &sized(&["size", "400.toml", "--why", "unknown+npt025mf-5"]),
-            &sized(&["size", "400.toml", "--why", "class200+npt025mf-5"]),
-            &sized(&["ratio", "400.toml", "--motor", "class*"]),
-            &[&["size", "400.toml", "--refused", "--full"], &own[..]].concat(),
-            &[&["size", "none.toml", "--top", "9"], &own[..]].concat(),
-        ]),
-    );
+    let commands = "
+        size 400.toml --refused --full --catalogue drives --steps 64
+        size 200.toml --top 9 --catalogue drives --steps 64
+        size none.toml --top 1 --catalogue drives --steps 64
+        size 400.toml --why unknown+npt025mf-5 --catalogue drives --steps 64
+        size 400.toml --why class200+npt025mf-5 --catalogue drives --steps 64
+        ratio 400.toml --motor 'class*' --catalogue drives --steps 64
+        size 400.toml --refused --full --catalogue own --gearbox npt025mf-5 --steps 64
+        size none.toml --top 9 --catalogue own --gearbox npt025mf-5 --steps 64
+    ";
+    compare("size-voltage", &desk.runs(commands));
 }
 
 #[test]
 fn ratio() {
-    let press = press();
-    compare(
-        "ratio",
-        &[
-            press.run(&sized(&["ratio", "press.toml"])),
-            press.run(&sized(&[
-                "ratio",
-                "press.toml",
-                "--efficiency",
-                "0.9",
-                "--top",
-                "1",
-            ])),
-            heavy().run(&sized(&["ratio", "heavy.toml"])),
-        ]
-        .join("\n"),
-    );
+    let desk = heavy().with("press.toml", Desk::machine("press.toml"));
+    let commands = "
+        ratio press.toml --catalogue drives --steps 64
+        ratio press.toml --efficiency 0.9 --top 1 --catalogue drives --steps 64
+        ratio heavy.toml --catalogue drives --steps 64
+    ";
+    compare("ratio", &desk.runs(commands));
 }
 
 #[test]
@@ -193,79 +161,54 @@ fn bus() {
         .with("press.toml", text.clone())
         .with("powered.toml", text.clone() + supply)
         .with("slow.toml", text.replacen("\"0.1 s\"", "\"0.2 s\"", 1));
-    let bus = |files: &[&str]| desk.run(&sized(&[&["bus"], files].concat()));
-    compare(
-        "bus",
-        &[
-            bus(&["press.toml"]),
-            bus(&["powered.toml", "slow.toml"]),
-            bus(&["powered.toml", "press.toml", "--in-step"]),
-            bus(&["powered.toml", "--drive", "1=sgmsh-30a+npt025mf-5"]),
-        ]
-        .join("\n"),
-    );
+    let commands = "
+        bus press.toml --catalogue drives --steps 64
+        bus powered.toml slow.toml --catalogue drives --steps 64
+        bus powered.toml press.toml --in-step --catalogue drives --steps 64
+        bus powered.toml --drive 1=sgmsh-30a+npt025mf-5 --catalogue drives --steps 64
+    ";
+    compare("bus", &desk.runs(commands));
 }
 
 #[test]
 fn vary() {
     let desk = press();
-    let vary = ["vary", "press.toml", "--vary", "slider.mass=40..400kg:3"];
-    let with = |more: &[&'static str]| sized(&[&vary[..], more].concat());
-    compare(
-        "vary",
-        &desk.runs(&[
-            &with(&[]),
-            &with(&["--format", "csv"]),
-            &with(&["--vary", "pressing force.force.1=-10,-900kN"]),
-            &with(&["--out", "a.csv", "--format", "csv", "--shard", "0/2"]),
-            &with(&["--out", "b.csv", "--format", "csv", "--shard", "1/2"]),
-            &["merge", "all.csv", "a.csv", "b.csv"],
-            &["merge", "more.csv", "a.csv"],
-            &["merge", "more.csv", "a.csv", "a.csv"],
-            &["merge", "a.csv", "a.csv", "b.csv"],
-            &["merge", "all.csv", "a.csv", "b.csv"],
-            &["merge", "more.csv", "press.toml"],
-            &with(&["--out", "a.csv", "--format", "csv"]),
-            &with(&[
-                "--out", "a.csv", "--format", "csv", "--resume", "--rank", "mass",
-            ]),
-            &with(&["--out", "a.csv", "--format", "csv", "--resume"]),
-        ]),
-    );
+    let commands = "
+        vary press.toml --vary slider.mass=40..400kg:3 --catalogue drives --steps 64
+        vary press.toml --vary slider.mass=40..400kg:3 --format csv --catalogue drives --steps 64
+        vary press.toml --vary slider.mass=40..400kg:3 --vary 'pressing force.force.1=-10,-900kN' --catalogue drives --steps 64
+        vary press.toml --vary slider.mass=40..400kg:3 --out a.csv --format csv --shard 0/2 --catalogue drives --steps 64
+        vary press.toml --vary slider.mass=40..400kg:3 --out b.csv --format csv --shard 1/2 --catalogue drives --steps 64
+        merge all.csv a.csv b.csv
+        merge more.csv a.csv
+        merge more.csv a.csv a.csv
+        merge a.csv a.csv b.csv
+        merge all.csv a.csv b.csv
+        merge more.csv press.toml
+        vary press.toml --vary slider.mass=40..400kg:3 --out a.csv --format csv --catalogue drives --steps 64
+        vary press.toml --vary slider.mass=40..400kg:3 --out a.csv --format csv --resume --rank mass --catalogue drives \
+            --steps 64
+        vary press.toml --vary slider.mass=40..400kg:3 --out a.csv --format csv --resume --catalogue drives --steps 64
+    ";
+    compare("vary", &desk.runs(commands));
 }
 
 #[test]
 fn sensitivity_and_tolerance() {
     let desk = press();
-    compare(
-        "sensitivity",
-        &[
-            desk.run(&sized(&["sensitivity", "press.toml"])),
-            desk.run(&sized(&[
-                "sensitivity",
-                "press.toml",
-                "--drive",
-                "sgmsh-15a",
-            ])),
-        ]
-        .join("\n"),
-    );
-    let tolerance = ["tolerance", "press.toml", "--samples", "100"];
-    let with = |more: &[&'static str]| sized(&[&tolerance[..], more].concat());
-    compare(
-        "tolerance",
-        &desk.runs(&[
-            &with(&["--tolerance", "slider.mass=5%"]),
-            &with(&[
-                "--tolerance",
-                "crank.length=normal:2%",
-                "--tolerance",
-                "segment.1.duration=10%",
-            ]),
-            &with(&[]),
-            &with(&["--tolerance", "slider.mass"]),
-            &with(&["--tolerance", "slider.mas=5%"]),
-            &with(&["--tolerance", "slider.mass=5mm"]),
-        ]),
-    );
+    let commands = "
+        sensitivity press.toml --catalogue drives --steps 64
+        sensitivity press.toml --drive sgmsh-15a --catalogue drives --steps 64
+    ";
+    compare("sensitivity", &desk.runs(commands));
+    let commands = "
+        tolerance press.toml --samples 100 --tolerance slider.mass=5% --catalogue drives --steps 64
+        tolerance press.toml --samples 100 --tolerance crank.length=normal:2% --tolerance segment.1.duration=10% \
+            --catalogue drives --steps 64
+        tolerance press.toml --samples 100 --catalogue drives --steps 64
+        tolerance press.toml --samples 100 --tolerance slider.mass --catalogue drives --steps 64
+        tolerance press.toml --samples 100 --tolerance slider.mas=5% --catalogue drives --steps 64
+        tolerance press.toml --samples 100 --tolerance slider.mass=5mm --catalogue drives --steps 64
+    ";
+    compare("tolerance", &desk.runs(commands));
 }

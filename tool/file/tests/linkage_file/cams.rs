@@ -3,7 +3,7 @@
 use jred::machine::{Jointed as _, Mechanism as _};
 use jred::mechanism::cam::contact_force;
 
-use super::{refuses_edit, within};
+use super::{refuses_edit, refuses_edits, within};
 use crate::reading::machine;
 
 const JAW: &str = include_str!("../../../../machines/linkage-cam-lever.toml");
@@ -84,18 +84,12 @@ joint = [
         within(plunger.y.value, 0.025, 1e-12);
     }
     assert!(cam.contacts().is_empty());
-    refuses_edit(
-        text,
-        "offset = \"5 mm\"",
-        "offset = \"6 mm\"",
-        &["slides 5 mm from the cam's axis, but its `offset` is 6 mm"],
-    );
-    refuses_edit(
-        text,
-        "\"prismatic\", between = [\"ground.G\", \"plunger\"], direction = \"180 deg\"",
-        "\"revolute\", between = [\"ground.G\", \"plunger\"]",
-        &["`angle` of body \"plunger\""],
-    );
+    let edits = r#"
+        offset = "5 mm" => offset = "6 mm" => slides 5 mm from the cam's axis, but its `offset` is 6 mm
+        "prismatic", between = ["ground.G", "plunger"], direction = "180 deg" => "revolute", between = ["ground.G", "plunger"] =>
+            `angle` of body "plunger"
+    "#;
+    refuses_edits(text, edits);
 }
 
 #[test]
@@ -103,16 +97,11 @@ fn cams_are_refused_with_their_cure() {
     let refuses = |from: &str, to: &str, words: &[&str]| refuses_edit(JAW, from, to, words);
     // The whole rise within 20 degrees.
     let waits = JAW.replace("dwell = \"60 deg\"", "dwell = \"150 deg\"");
-    refuses_edit(
-        &waits,
-        "angle = \"110 deg\"",
-        "angle = \"20 deg\"",
-        &[
-            "`base_radius` in [[mechanism.joint]] number 6 is too small",
-            "undercut at φ = ",
-            "make the base radius greater than",
-        ],
-    );
+    let edits = r#"
+        angle = "110 deg" => angle = "20 deg" =>
+            `base_radius` in [[mechanism.joint]] number 6 is too small | undercut at φ =␣ | make the base radius greater than
+    "#;
+    refuses_edits(&waits, edits);
     refuses(
         "axis = \"ground.O\"",
         "axis = \"ground.A\"",

@@ -5,7 +5,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use jred::machine::Reducible as _;
 use jred::machine::{Jointed as _, Mechanism as _};
 
-use super::{read, refuses_edit};
+use super::{read, refuses_edits};
 use crate::reading::machine;
 
 const ELLIPTIC: &str = include_str!("../../../../machines/elliptic-drive.toml");
@@ -93,49 +93,20 @@ fn a_folded_slider_crank_goes_through_the_axis() {
 
 #[test]
 fn a_change_point_that_nobody_asked_for_is_named_with_its_cure() {
-    refuses_edit(
-        FOLDED,
-        "keep_branch = true",
-        "keep_branch = false",
-        &[
-            "is in line at φ = 90 deg and φ = 270 deg, a change point",
-            "write keep_branch = true",
-        ],
-    );
-    refuses_edit(
-        ELLIPTIC,
-        "keep_branch = true ",
-        "",
-        &[
-            "φ = 0 deg and φ = 180 deg, a change point",
-            "go on in two ways",
-        ],
-    );
-    refuses_edit(
-        ELLIPTIC,
-        "{ O = [\"0 mm\", \"0 mm\"], C = [\"240 mm\"",
-        "{ O = [\"0 mm\", \"0 mm\"], C = [\"235 mm\"",
-        &["locks", "dead point"],
-    );
-    refuses_edit(
-        FOLDED,
-        "B = [\"100 mm\"",
-        "B = [\"250 mm\"",
-        &[
-            "there is no change point to pass",
-            "leave `keep_branch` out",
-        ],
-    );
-    refuses_edit(
-        FOLDED,
-        "drawn_at = \"30 deg\"",
-        "drawn_at = \"90 deg\"",
-        &["in the drawing itself, at φ = 90 deg", "drawn_at"],
-    );
-    refuses_edit(
-        FOLDED,
-        "keep_branch = true",
-        "keep_branch = \"yes\"",
-        &["`keep_branch`", "true or false"],
-    );
+    let edits = r#"
+        keep_branch = true => keep_branch = false =>
+            is in line at φ = 90 deg and φ = 270 deg, a change point | write keep_branch = true
+    "#;
+    refuses_edits(FOLDED, edits);
+    let edits = r#"
+        keep_branch = true␣ => => φ = 0 deg and φ = 180 deg, a change point | go on in two ways
+        { O = ["0 mm", "0 mm"], C = ["240 mm" => { O = ["0 mm", "0 mm"], C = ["235 mm" => locks | dead point
+    "#;
+    refuses_edits(ELLIPTIC, edits);
+    let edits = r#"
+        B = ["100 mm" => B = ["250 mm" => there is no change point to pass | leave `keep_branch` out
+        drawn_at = "30 deg" => drawn_at = "90 deg" => in the drawing itself, at φ = 90 deg | drawn_at
+        keep_branch = true => keep_branch = "yes" => `keep_branch` | true or false
+    "#;
+    refuses_edits(FOLDED, edits);
 }

@@ -3,7 +3,7 @@
 use jred::machine::Mechanism as _;
 use jred::machine::Reducible as _;
 
-use super::{FOUR_BAR, read, refuses, refuses_edit, within};
+use super::{FOUR_BAR, read, refuses, refuses_edits, within};
 use crate::support::press_text;
 
 /// The four-bar with a spring from its rocker to the ground, one in torsion and two dampers.
@@ -133,68 +133,21 @@ fn a_library_mechanism_names_its_points() {
 #[test]
 fn elements_that_make_no_sense() {
     let text = balanced_press(COUNTERBALANCE);
-    let edits: [(&str, &str, &[&str]); 10] = [
-        (
-            "\"3 N/mm\"",
-            "\"-3 N/mm\"",
-            &[
-                "`stiffness` in [[spring]] number 1 is -3 N/mm",
-                "greater than zero",
-            ],
-        ),
-        (
-            "\"3 N/mm\"",
-            "\"3 N\"",
-            &["must be a stiffness", "is a force", "N/mm"],
-        ),
-        ("\"3 N/mm\"", "\"3 N m/rad\"", &["is a torsional stiffness"]),
-        (
-            "free_length = \"330 mm\"\n",
-            "",
-            &[
-                "`free_length` in [[spring]] number 1 is missing",
-                "free_angle",
-            ],
-        ),
-        (
-            "free_length = \"330 mm\"",
-            "free_length = \"330 mm\"\nfree_angle = \"0 deg\"",
-            &["both `free_length` and `free_angle`"],
-        ),
-        (
-            "[\"slider\", ",
-            "[\"slidr\", ",
-            &[
-                "is \"slidr\", which is no body and no point",
-                "did you mean \"slider\"?",
-                "\"crank.A\"",
-            ],
-        ),
-        (
-            "[\"slider\", { on = \"ground\", at = [\"400 mm\", \"0 mm\"] }]",
-            "[\"slider\", \"B\"]",
-            &["names one body twice"],
-        ),
-        (
-            "[\"slider\", { on = \"ground\", at = [\"400 mm\", \"0 mm\"] }]",
-            "[\"slider\"]",
-            &["must have two ends, but has 1"],
-        ),
+    let edits = r#"
+        "3 N/mm" => "-3 N/mm" => `stiffness` in [[spring]] number 1 is -3 N/mm | greater than zero
+        "3 N/mm" => "3 N" => must be a stiffness | is a force | N/mm
+        "3 N/mm" => "3 N m/rad" => is a torsional stiffness
+        free_length = "330 mm"\n => => `free_length` in [[spring]] number 1 is missing | free_angle
+        free_length = "330 mm" => free_length = "330 mm"\nfree_angle = "0 deg" => both `free_length` and `free_angle`
+        ["slider",␣ => ["slidr",␣ => is "slidr", which is no body and no point | did you mean "slider"? | "crank.A"
+        ["slider", { on = "ground", at = ["400 mm", "0 mm"] }] => ["slider", "B"] => names one body twice
+        ["slider", { on = "ground", at = ["400 mm", "0 mm"] }] => ["slider"] => must have two ends, but has 1
         // The ram passes through the point 180 mm from the crank.
-        (
-            "at = [\"400 mm\", \"0 mm\"]",
-            "at = [\"180 mm\", \"0 mm\"]",
-            &["has ends that coincide at φ = ", "aside slightly"],
-        ),
-        (
-            "[\"slider\", { on = \"ground\", at = [\"400 mm\", \"0 mm\"] }]\nstiffness = \"3 N/mm\"\nfree_length = \"330 mm\"",
-            "[\"crank\", \"ground\"]\nstiffness = \"3 N m/rad\"\nfree_angle = \"0 deg\"",
-            &["is wound up by", "does not repeat"],
-        ),
-    ];
-    for (from, to, words) in edits {
-        refuses_edit(&text, from, to, words);
-    }
+        at = ["400 mm", "0 mm"] => at = ["180 mm", "0 mm"] => has ends that coincide at φ =␣ | aside slightly
+        ["slider", { on = "ground", at = ["400 mm", "0 mm"] }]\nstiffness = "3 N/mm"\nfree_length = "330 mm" => ["crank", "ground"]\nstiffness = "3 N m/rad"\nfree_angle = "0 deg" =>
+            is wound up by | does not repeat
+    "#;
+    refuses_edits(&text, edits);
     let numbered =
         |k: u32| COUNTERBALANCE.replace("\"counterbalance\"", &format!("\"spring {k}\""));
     let nine: String = (0..9).map(numbered).collect();

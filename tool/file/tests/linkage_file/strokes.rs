@@ -4,7 +4,7 @@ use jred::Domain;
 use jred::machine::{Mechanism as _, Reducible as _};
 use jred_file::model::coordinate::Coordinate;
 
-use super::{FOUR_BAR, parse, read, refuses, refuses_edit, within};
+use super::{FOUR_BAR, parse, read, refuses, refuses_edits, within};
 use crate::reading::{parse_in, rendered, says};
 use crate::support::Folder;
 use crate::support::machines::{LIFT, LIFT_MOTION, SCREW};
@@ -53,41 +53,15 @@ fn loads_in_a_part_of_the_stroke() {
     ] {
         within(part(s), expected, 1e-10);
     }
-    let edits: [(&str, &str, &[&str]); 6] = [
-        (
-            "ramp = \"20 mm\"",
-            "ramp = \"60 mm\"",
-            &["too long for the range of 100 mm", "at most 50 mm"],
-        ),
-        (
-            "ramp = \"20 mm\"",
-            "ramp = \"20 deg\"",
-            &["must be a length", "is an angle"],
-        ),
-        (
-            "ramp = \"20 mm\"",
-            "",
-            &["`ramp` in [[load]] number 1 is missing"],
-        ),
-        (
-            "[\"500 mm\", \"600 mm\"]",
-            "[\"600 mm\", \"500 mm\"]",
-            &["runs from 600 mm to 500 mm", "the larger one"],
-        ),
-        (
-            "[\"500 mm\", \"600 mm\"]",
-            "[\"900 mm\", \"1000 mm\"]",
-            &["is outside the stroke, 400 mm to 800 mm"],
-        ),
-        (
-            "between = [\"500 mm\", \"600 mm\"]",
-            "",
-            &["`between` in [[load]] number 1 is missing"],
-        ),
-    ];
-    for (from, to, words) in edits {
-        refuses_edit(&text, from, to, words);
-    }
+    let edits = r#"
+        ramp = "20 mm" => ramp = "60 mm" => too long for the range of 100 mm | at most 50 mm
+        ramp = "20 mm" => ramp = "20 deg" => must be a length | is an angle
+        ramp = "20 mm" => => `ramp` in [[load]] number 1 is missing
+        ["500 mm", "600 mm"] => ["600 mm", "500 mm"] => runs from 600 mm to 500 mm | the larger one
+        ["500 mm", "600 mm"] => ["900 mm", "1000 mm"] => is outside the stroke, 400 mm to 800 mm
+        between = ["500 mm", "600 mm"] => => `between` in [[load]] number 1 is missing
+    "#;
+    refuses_edits(&text, edits);
 }
 
 #[test]
@@ -99,78 +73,32 @@ fn motions_of_a_sliding_drive() {
     within(motion.at(3.5).phi, 0.75, 1e-15);
     within(motion.at(1.5).omega, 1.875 * 0.3 / 3.0, 1e-13);
 
-    let edits: [(&str, &str, &[&str]); 9] = [
-        (
-            "move = \"300 mm\"",
-            "move = \"400 mm\"",
-            &[
-                "[[motion.segment]] number 1 ends at s = 850 mm, outside the stroke, 400 mm to 800 mm",
-                "leaves the stroke",
-            ],
-        ),
-        (
-            "move = \"300 mm\"",
-            "move = \"300 deg\"",
-            &["must be a length", "is an angle"],
-        ),
-        (
-            "move = \"-300 mm\"",
-            "move = \"-290 mm\"",
-            &["add up to 10 mm", "a move of -10 mm", "point-to-point"],
-        ),
-        (
-            "start = \"450 mm\"",
-            "start = \"300 mm\"",
-            &["is 300 mm, outside the stroke, 400 mm to 800 mm"],
-        ),
-        (
-            "start = \"450 mm\"",
-            "start = \"45 deg\"",
-            &["must be a length"],
-        ),
-        (
-            "type = \"cycle\"",
-            "type = \"constant-speed\"\nspeed = \"0.1 m/s\"",
-            &["cannot move on forever", "moves forth and back"],
-        ),
-        (
-            "[motion]",
-            "[[drive_train]]\ntype = \"belt\"\ndriver = { radius = \"30 mm\", inertia = \"2 kg cm^2\" }\ndriven = { radius = \"60 mm\", inertia = \"2 kg cm^2\" }\n[motion]",
-            &[
-                "every stage of [[drive_train]] turns",
-                "ball-screw",
-                "radius = \"30 mm\"",
-            ],
-        ),
-        (
-            "[motion]",
-            "[[drive_train]]\ntype = \"rack\"\nradius = \"30 mm\"\ninertia = \"2 kg cm^2\"\n[[drive_train]]\ntype = \"belt\"\n[motion]",
-            &["comes after a rack, whose output slides", "the last stage"],
-        ),
-        (
-            "[motion]",
-            "[[drive_train]]\ntype = \"ball-screw\"\nlead = \"0 mm\"\ninertia = \"2 kg cm^2\"\n[motion]",
-            &["`lead`", "greater than zero"],
-        ),
-    ];
-    for (from, to, words) in edits {
-        refuses_edit(&text, from, to, words);
-    }
-    refuses_edit(
-        LIFT,
-        "drive = \"cylinder\"",
-        "drive = \"cylinder\"\nflywheel = \"1 kg m^2\"",
-        &[
-            "`flywheel` in [mechanism] is for a rotating drive link",
-            "slides",
-        ],
-    );
-    refuses_edit(
-        FOUR_BAR,
-        "[[load]]",
-        "[[drive_train]]\ntype = \"rack\"\nradius = \"30 mm\"\ninertia = \"2 kg cm^2\"\n[[load]]",
-        &["the drive link of this mechanism turns"],
-    );
+    let edits = r#"
+        move = "300 mm" => move = "400 mm" =>
+            [[motion.segment]] number 1 ends at s = 850 mm, outside the stroke, 400 mm to 800 mm | leaves the stroke
+        move = "300 mm" => move = "300 deg" => must be a length | is an angle
+        move = "-300 mm" => move = "-290 mm" => add up to 10 mm | a move of -10 mm | point-to-point
+        start = "450 mm" => start = "300 mm" => is 300 mm, outside the stroke, 400 mm to 800 mm
+        start = "450 mm" => start = "45 deg" => must be a length
+        type = "cycle" => type = "constant-speed"\nspeed = "0.1 m/s" => cannot move on forever | moves forth and back
+        [motion] => [[drive_train]]\ntype = "belt"\ndriver = { radius = "30 mm", inertia = "2 kg cm^2" }\ndriven = { radius = "60 mm", inertia = "2 kg cm^2" }\n[motion] =>
+            every stage of [[drive_train]] turns | ball-screw | radius = "30 mm"
+        [motion] => [[drive_train]]\ntype = "rack"\nradius = "30 mm"\ninertia = "2 kg cm^2"\n[[drive_train]]\ntype = "belt"\n[motion] =>
+            comes after a rack, whose output slides | the last stage
+        [motion] => [[drive_train]]\ntype = "ball-screw"\nlead = "0 mm"\ninertia = "2 kg cm^2"\n[motion] =>
+            `lead` | greater than zero
+    "#;
+    refuses_edits(&text, edits);
+    let edits = r#"
+        drive = "cylinder" => drive = "cylinder"\nflywheel = "1 kg m^2" =>
+            `flywheel` in [mechanism] is for a rotating drive link | slides
+    "#;
+    refuses_edits(LIFT, edits);
+    let edits = r#"
+        [[load]] => [[drive_train]]\ntype = "rack"\nradius = "30 mm"\ninertia = "2 kg cm^2"\n[[load]] =>
+            the drive link of this mechanism turns
+    "#;
+    refuses_edits(FOUR_BAR, edits);
 }
 
 #[test]
@@ -201,31 +129,13 @@ fn free_motions_of_a_sliding_drive() {
         "{LIFT}\n[simulation]\nstart_position = \"500 mm\"\nstart_speed = \"0.3 m/s\"\nduration = \"0.05 s\"\n\
          output_step = \"5 ms\"\nforce = \"0 N\"\ntolerance = 1e-12\n"
     );
-    let edits: [(&str, &str, &[&str]); 4] = [
-        (
-            "start_position = \"500 mm\"",
-            "start_angle = \"50 deg\"",
-            &["`start_position` in [simulation]", "start_angle"],
-        ),
-        (
-            "start_position = \"500 mm\"",
-            "start_position = \"900 mm\"",
-            &["is 900 mm, outside the stroke"],
-        ),
-        (
-            "start_speed = \"0.3 m/s\"",
-            "start_speed = \"3 rpm\"",
-            &["must be a speed"],
-        ),
-        (
-            "force = \"0 N\"",
-            "torque = \"0 N m\"",
-            &["unknown key `torque` in [simulation]", "force, force_speed"],
-        ),
-    ];
-    for (from, to, words) in edits {
-        refuses_edit(&free, from, to, words);
-    }
+    let edits = r#"
+        start_position = "500 mm" => start_angle = "50 deg" => `start_position` in [simulation] | start_angle
+        start_position = "500 mm" => start_position = "900 mm" => is 900 mm, outside the stroke
+        start_speed = "0.3 m/s" => start_speed = "3 rpm" => must be a speed
+        force = "0 N" => torque = "0 N m" => unknown key `torque` in [simulation] | force, force_speed
+    "#;
+    refuses_edits(&free, edits);
     // With a screw the motor turns, and the drive link itself can be pushed.
     let screw = free.replace(
         "force = \"0 N\"",
@@ -257,18 +167,11 @@ fn a_crank_that_swings() {
         70f64.to_radians(),
         1e-12,
     );
-    refuses_edit(
-        &text,
-        "\"-50 deg\"",
-        "\"-10 deg\"",
-        &["ends at φ = 110 deg, outside the stroke, -60 deg to 90 deg"],
-    );
-    refuses_edit(
-        &text,
-        "move = \"-120 deg\"",
-        "move = \"-100 deg\"",
-        &["add up to 20 deg"],
-    );
+    let edits = r#"
+        "-50 deg" => "-10 deg" => ends at φ = 110 deg, outside the stroke, -60 deg to 90 deg
+        move = "-120 deg" => move = "-100 deg" => add up to 20 deg
+    "#;
+    refuses_edits(&text, edits);
     refuses(
         &text.replace(
             "moment = \"-6 N m\"",
@@ -281,16 +184,9 @@ fn a_crank_that_swings() {
 /// The stroke is shown as it is written, in its unit; the core's error has a wider range, in rad or m.
 #[test]
 fn a_stroke_far_from_the_drawing_is_shown_as_it_is_written() {
-    let from = "drive = \"crank bearing\"";
-    let to = "drive = \"crank bearing\"\nstroke = [\"900 deg\", \"910 deg\"]";
-    refuses_edit(
-        FOUR_BAR,
-        from,
-        to,
-        &[
-            "the drawing shows the drive at",
-            "deg, far from its range from 900 deg to 910 deg",
-            "[\"900 deg\", \"910 deg\"]",
-        ],
-    );
+    let edits = r#"
+        drive = "crank bearing" => drive = "crank bearing"\nstroke = ["900 deg", "910 deg"] =>
+            the drawing shows the drive at | deg, far from its range from 900 deg to 910 deg | ["900 deg", "910 deg"]
+    "#;
+    refuses_edits(FOUR_BAR, edits);
 }

@@ -3,7 +3,7 @@
 use jred::machine::Mechanism as _;
 use jred::machine::Reducible as _;
 
-use super::{read, refuses, refuses_edit, within};
+use super::{read, refuses, refuses_edits, within};
 
 #[test]
 fn wheels_that_do_not_fit() {
@@ -22,15 +22,12 @@ joint = [
   { name = "teeth", type = "gears", between = ["small", "large"], radii = ["30 mm", "80 mm"] },
 ]
 "#;
-    refuses_edit(
-        gears,
-        "com = [\"5 mm\", \"0 mm\"]",
-        "com = [\"0 mm\", \"0 mm\"]",
-        &[
-            "joint \"teeth\": the gears' radii 30 mm and 80 mm require a centre distance of 110 mm, but it is 120 mm",
-            "32.7273 mm and 87.2727 mm",
-        ],
-    );
+    let edits = r#"
+        com = ["5 mm", "0 mm"] => com = ["0 mm", "0 mm"] =>
+            joint "teeth": the gears' radii 30 mm and 80 mm require a centre distance of 110 mm, but it is 120 mm |
+            32.7273 mm and 87.2727 mm
+    "#;
+    refuses_edits(gears, edits);
     let fitting = gears.replace("\"80 mm\"", "\"90 mm\"");
     refuses(
         &fitting,
@@ -40,24 +37,12 @@ joint = [
             "give a `stroke` over all of them, or drive the slowest shaft",
         ],
     );
-    refuses_edit(
-        &fitting,
-        "radii = [\"30 mm\", \"90 mm\"]",
-        "radii = [\"30 mm\", \"30 mm\"], mesh = \"internal\"",
-        &["are equal", "larger pitch radius"],
-    );
-    refuses_edit(
-        &fitting,
-        "radii = [\"30 mm\", \"90 mm\"]",
-        "radii = [\"30 mm\", \"90 mm\"], carrier = \"small\"",
-        &["\"small\", which is one of the gears"],
-    );
-    refuses_edit(
-        &fitting,
-        "between = [\"small\", \"large\"]",
-        "between = [\"small\", \"ground.P\"]",
-        &["`carrier`", "one of these gears is the ground"],
-    );
+    let edits = r#"
+        radii = ["30 mm", "90 mm"] => radii = ["30 mm", "30 mm"], mesh = "internal" => are equal | larger pitch radius
+        radii = ["30 mm", "90 mm"] => radii = ["30 mm", "90 mm"], carrier = "small" => "small", which is one of the gears
+        between = ["small", "large"] => between = ["small", "ground.P"] => `carrier` | one of these gears is the ground
+    "#;
+    refuses_edits(&fitting, edits);
     // Three bodies: the belt's second pulley rides on the first.
     let riding = fitting
         .replace("[\"ground.P\", \"large\"]", "[\"small.P\", \"large\"]")
@@ -93,12 +78,11 @@ joint = [
             "joint \"teeth\": the pinion has a radius of 30 mm, but its centre is 0 mm from the rack's pitch line",
         ],
     );
-    refuses_edit(
-        rack,
-        ", direction = \"0 deg\" },\n  { name = \"teeth\"",
-        " },\n  { name = \"teeth\"",
-        &["`direction`", "the guide's direction on the first body"],
-    );
+    let edits = r#"
+        , direction = "0 deg" },\n  { name = "teeth" => ␣},\n  { name = "teeth" =>
+            `direction` | the guide's direction on the first body
+    "#;
+    refuses_edits(rack, edits);
     let slides = rack
         .replace(
             "drive = \"bearing\"\nstroke = [\"0 deg\", \"90 deg\"]",

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use jred::machine::Mechanism as _;
 use jred::machine::Reducible as _;
 
-use super::{close, example, machine, parse, refuses_edit};
+use super::{close, example, machine, parse, refuses_edits};
 
 const DOC: &str = include_str!("../../../../docs/mechanisms/ball-screw.md");
 
@@ -41,21 +41,12 @@ fn the_documented_example_is_read() {
 #[test]
 fn wrong_entries_are_refused_with_their_cure() {
     let base = example(DOC);
-    let edits: [(&str, &str, &[&str]); 4] = [
-        (
-            "\"20 mm\"",
-            "\"0 mm\"",
-            &["`lead` in [mechanism] is 0 mm", "per turn"],
-        ),
-        ("\"20 mm\"", "\"20 mm/rad\"", &["`lead` in [mechanism]"]),
-        ("lead =", "pitch =", &["`lead` in [mechanism] is missing"]),
-        (
-            "inertia = \"6.4 kg cm^2\"",
-            "inertia = \"6.4 kg cm^2\"\ncom = [\"1 mm\", \"0 mm\"]",
-            &["unknown key `com` in [mechanism.screw]", "balanced"],
-        ),
-    ];
-    for (from, to, words) in edits {
-        refuses_edit(base, from, to, words);
-    }
+    let edits = r#"
+        "20 mm" => "0 mm" => `lead` in [mechanism] is 0 mm | per turn
+        "20 mm" => "20 mm/rad" => `lead` in [mechanism]
+        lead = => pitch = => `lead` in [mechanism] is missing
+        inertia = "6.4 kg cm^2" => inertia = "6.4 kg cm^2"\ncom = ["1 mm", "0 mm"] =>
+            unknown key `com` in [mechanism.screw] | balanced
+    "#;
+    refuses_edits(base, edits);
 }

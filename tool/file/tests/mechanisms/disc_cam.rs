@@ -4,7 +4,7 @@ use jred::machine::Mechanism as _;
 use jred::machine::motion::Law;
 use jred::mechanism::cam::contact_force;
 
-use super::{close, example, machine, parse, refuses_edit, rendered};
+use super::{close, example, machine, parse, refuses_edit, refuses_edits, rendered};
 
 const DOC: &str = include_str!("../../../../docs/mechanisms/disc-cam.md");
 
@@ -146,99 +146,25 @@ fn every_follower_is_read() {
 #[expect(clippy::too_many_lines, reason = "a list of mistakes")]
 fn wrong_entries_are_refused_with_their_cure() {
     let base = example(DOC);
-    let edits: [(&str, &str, &[&str]); 15] = [
-        (
-            "offset = \"5 mm\"",
-            "offset = \"70 mm\"",
-            &[
-                "is too small for the offset of the guide, 70 mm",
-                "greater than 55 mm",
-            ],
-        ),
-        (
-            "dwell = \"100 deg\"",
-            "dwell = \"90 deg\"",
-            &[
-                "cover 350 deg, but must cover exactly one turn",
-                "add 10 deg",
-            ],
-        ),
-        (
-            "return = \"20 mm\"",
-            "return = \"19 mm\"",
-            &[
-                "the follower is 1 mm off",
-                "change the rise in [[mechanism.segment]] number 3 by -1 mm",
-            ],
-        ),
-        (
-            "law = \"cycloidal\"",
-            "law = \"constant-velocity\"",
-            &["velocity jumps at φ = ", "polynomial-5"],
-        ),
-        (
-            "law = \"cycloidal\"",
-            "law = \"cycloid\"",
-            &["did you mean \"cycloidal\"?", "\"constant-velocity\""],
-        ),
-        (
-            "return = \"20 mm\"",
-            "return = \"20 mm\"\nrise = \"20 mm\"",
-            &["has both `rise` and `return`"],
-        ),
-        (
-            "rise = \"20 mm\"",
-            "rise = \"-20 mm\"",
-            &["greater than zero"],
-        ),
-        (
-            "rise = \"20 mm\"",
-            "rise = \"20 deg\"",
-            &["must be a length"],
-        ),
-        (
-            "dwell = \"60 deg\"",
-            "dwell = \"60 deg\"\nlaw = \"cycloidal\"",
-            &["a dwell has no law"],
-        ),
-        (
-            "angle = \"90 deg\"",
-            "angle = \"90 deg\"\nend_velocity = \"2 mm/rad\"",
-            &["`end_velocity` is for law = \"polynomial-5\""],
-        ),
-        (
-            "angle = \"90 deg\"",
-            "duration = \"90 deg\"",
-            &[
-                "unknown key `duration`",
-                "over the angle of the cam",
-                "add angle = ",
-            ],
-        ),
-        (
-            "type = \"translating-roller\"",
-            "type = \"translating-roller\"\ninertia = \"1 kg m^2\"",
-            &["does not turn"],
-        ),
-        (
-            "type = \"translating-roller\"",
-            "type = \"translating-flat-face\"",
-            &["unknown key `roller` in [mechanism]"],
-        ),
-        (
-            "type = \"translating-roller\"",
-            "type = \"oscillating-roller\"",
-            &["`pivot` in [mechanism.follower] is missing"],
-        ),
-        (
-            "stiffness = \"3 N/mm\"",
-            "stiffness = \"3 N m/rad\"",
-            &["must be a stiffness"],
-        ),
-    ];
-    for (from, to, words) in edits {
-        refuses_edit(base, from, to, words);
-    }
+    let edits = r#"
+        offset = "5 mm" => offset = "70 mm" => is too small for the offset of the guide, 70 mm | greater than 55 mm
+        dwell = "100 deg" => dwell = "90 deg" => cover 350 deg, but must cover exactly one turn | add 10 deg
+        return = "20 mm" => return = "19 mm" =>
+            the follower is 1 mm off | change the rise in [[mechanism.segment]] number 3 by -1 mm
+        law = "cycloidal" => law = "constant-velocity" => velocity jumps at φ =␣ | polynomial-5
+        law = "cycloidal" => law = "cycloid" => did you mean "cycloidal"? | "constant-velocity"
+        return = "20 mm" => return = "20 mm"\nrise = "20 mm" => has both `rise` and `return`
+        rise = "20 mm" => rise = "-20 mm" => greater than zero
+        rise = "20 mm" => rise = "20 deg" => must be a length
+        dwell = "60 deg" => dwell = "60 deg"\nlaw = "cycloidal" => a dwell has no law
+        angle = "90 deg" => angle = "90 deg"\nend_velocity = "2 mm/rad" => `end_velocity` is for law = "polynomial-5"
+        angle = "90 deg" => duration = "90 deg" => unknown key `duration` | over the angle of the cam | add angle =␣
+        type = "translating-roller" => type = "translating-roller"\ninertia = "1 kg m^2" => does not turn
+        type = "translating-roller" => type = "translating-flat-face" => unknown key `roller` in [mechanism]
+        type = "translating-roller" => type = "oscillating-roller" => `pivot` in [mechanism.follower] is missing
+        stiffness = "3 N/mm" => stiffness = "3 N m/rad" => must be a stiffness
+    "#;
+    refuses_edits(base, edits);
     // A small cam cannot drive a large roller.
     let large = base.replace("radius = \"15 mm\"", "radius = \"40 mm\"");
     let undercut: &[&str] = &[
@@ -257,15 +183,10 @@ fn wrong_entries_are_refused_with_their_cure() {
             "dwell = \"60 deg\"",
             "law = \"polynomial-5\"\nrise = \"1 mm\"\nangle = \"60 deg\"",
         );
-    refuses_edit(
-        &two,
-        "return = \"20 mm\"",
-        "return = \"21 mm\"",
-        &[
-            "needs `end_velocity`",
-            "number 2, does not give the velocity",
-        ],
-    );
+    let edits = r#"
+        return = "20 mm" => return = "21 mm" => needs `end_velocity` | number 2, does not give the velocity
+    "#;
+    refuses_edits(&two, edits);
     let reversal = two
         .replace("return = \"20 mm\"", "return = \"21 mm\"")
         .replace(

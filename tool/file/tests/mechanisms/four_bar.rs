@@ -3,7 +3,7 @@
 use jred::Domain;
 use jred::machine::Mechanism as _;
 
-use super::{close, example, machine, parse, refuses_edit, rendered};
+use super::{close, example, machine, parse, refuses_edits, rendered};
 
 const DOC: &str = include_str!("../../../../docs/mechanisms/four-bar.md");
 
@@ -76,28 +76,13 @@ fn a_swinging_crank_is_driven_over_a_stroke() {
     };
     close(from.to_degrees(), 32.0);
     close(to.to_degrees(), 80.0);
-    refuses_edit(
-        &text,
-        "pivot =",
-        "stroke = [\"32 deg\", \"90 deg\"]\npivot =",
-        &[
-            "`stroke` in [mechanism] reaches a dead point at φ = 82.82°",
-            "in line",
-            "before it",
-        ],
-    );
-    refuses_edit(
-        &text,
-        "pivot =",
-        "stroke = [\"20 deg\", \"80 deg\"]\npivot =",
-        &["`stroke`", "starts at φ = 20.00°", "cannot be connected"],
-    );
-    refuses_edit(
-        &text,
-        "pivot =",
-        "stroke = [\"80 deg\", \"32 deg\"]\npivot =",
-        &["`stroke`", "is empty", "the smaller angle first"],
-    );
+    let edits = r#"
+        pivot = => stroke = ["32 deg", "90 deg"]\npivot = =>
+            `stroke` in [mechanism] reaches a dead point at φ = 82.82° | in line | before it
+        pivot = => stroke = ["20 deg", "80 deg"]\npivot = => `stroke` | starts at φ = 20.00° | cannot be connected
+        pivot = => stroke = ["80 deg", "32 deg"]\npivot = => `stroke` | is empty | the smaller angle first
+    "#;
+    refuses_edits(&text, edits);
 }
 
 /// The trough translates on a circle: J = 2·(J₁ + m₁·r₁²) + m₂·a² + flywheel at every position, and its weight and those of the cranks'
@@ -116,76 +101,28 @@ fn a_parallelogram_is_kept_on_its_branch() {
     }
     assert_eq!(file.machine.mechanism().change_points().len(), 2);
     let text = include_str!("../../../../machines/parallel-lift.toml").to_owned();
-    refuses_edit(
-        &text,
-        "keep_branch = true ",
-        "keep_branch = false",
-        &[
-            "the crank cannot turn fully",
-            "flattens",
-            "write keep_branch = true",
-        ],
-    );
-    refuses_edit(
-        &text,
-        "[\"900 mm\", \"0 mm\"]",
-        "[\"890 mm\", \"0 mm\"]",
-        &[
-            "there is no change point to pass",
-            "0.960000 m, the other two 0.950000 m",
-            "nothing to keep",
-        ],
-    );
-    refuses_edit(
-        &text,
-        "keep_branch = true ",
-        "keep_branch = \"yes\" ",
-        &["`keep_branch`", "true or false"],
-    );
+    let edits = r#"
+        keep_branch = true␣ => keep_branch = false => the crank cannot turn fully | flattens | write keep_branch = true
+        ["900 mm", "0 mm"] => ["890 mm", "0 mm"] =>
+            there is no change point to pass | 0.960000 m, the other two 0.950000 m | nothing to keep
+        keep_branch = true␣ => keep_branch = "yes"␣ => `keep_branch` | true or false
+    "#;
+    refuses_edits(&text, edits);
 }
 
 #[test]
 fn wrong_entries_are_refused_with_their_cure() {
     let base = example(DOC);
-    let edits: [(&str, &str, &[&str]); 7] = [
-        (
-            "\"300 mm\"",
-            "\"360 mm\"",
-            &[
-                "[mechanism]: the crank cannot turn fully",
-                "crank + ground (shortest and longest) = 0.440000 m",
-                "shorten the crank or the ground",
-                "this crank",
-            ],
-        ),
-        (
-            "length = \"80 mm\"",
-            "length = \"240 mm\"",
-            &["only the shortest link can, the rocker of 0.18"],
-        ),
-        (
-            "\"300 mm\"",
-            "\"600 mm\"",
-            &[
-                "the ground of 0.600000 m is not shorter",
-                "0.510000 m",
-                "shorten it",
-            ],
-        ),
-        (
-            "pivot = [\"300 mm\", \"0 mm\"]\n",
-            "",
-            &["`pivot` in [mechanism] is missing"],
-        ),
-        (
-            "pivot =",
-            "side = \"up\"\npivot =",
-            &["\"up\"", "\"left\", \"right\""],
-        ),
-        ("\"180 mm\"", "\"-180 mm\"", &["must be greater than zero"]),
-        ("[mechanism.coupler]", "[mechanism.rod]", &["`coupler`"]),
-    ];
-    for (from, to, words) in edits {
-        refuses_edit(base, from, to, words);
-    }
+    let edits = r#"
+        "300 mm" => "360 mm" =>
+            [mechanism]: the crank cannot turn fully | crank + ground (shortest and longest) = 0.440000 m |
+            shorten the crank or the ground | this crank
+        length = "80 mm" => length = "240 mm" => only the shortest link can, the rocker of 0.18
+        "300 mm" => "600 mm" => the ground of 0.600000 m is not shorter | 0.510000 m | shorten it
+        pivot = ["300 mm", "0 mm"]\n => => `pivot` in [mechanism] is missing
+        pivot = => side = "up"\npivot = => "up" | "left", "right"
+        "180 mm" => "-180 mm" => must be greater than zero
+        [mechanism.coupler] => [mechanism.rod] => `coupler`
+    "#;
+    refuses_edits(base, edits);
 }

@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use jred::machine::Mechanism as _;
 
-use super::{close, example, machine, parse, refuses_edit};
+use super::{close, example, machine, parse, refuses_edits};
 
 const DOC: &str = include_str!("../../../../docs/mechanisms/geneva.md");
 
@@ -57,38 +57,21 @@ fn the_documented_example_is_read() {
 #[test]
 fn wrong_entries_are_refused_with_their_cure() {
     let base = example(DOC);
-    let edits: [(&str, &str, &[&str]); 6] = [
-        (
-            "slots = 6",
-            "slots = 2",
-            &["`slots` in [mechanism] is 2", "between 3 and 24"],
-        ),
-        ("slots = 6", "slots = 60", &["between 3 and 24"]),
-        ("slots = 6", "slots = 6.5", &["a whole number"]),
-        (
-            "[mechanism.crank]",
-            "[mechanism.crank]\nlength = \"80 mm\"",
-            &[
-                "unknown key `length` in [mechanism.crank]",
-                "sin(180°/slots)",
-            ],
-        ),
-        (
-            "inertia = \"1.15 kg m^2\"",
-            "inertia = \"1.15 kg m^2\"\ncom = [\"1 mm\", \"0 mm\"]",
-            &["unknown key `com` in [mechanism.wheel]", "balanced"],
-        ),
-        ("\"160 mm\"", "\"0 mm\"", &["greater than zero"]),
-    ];
-    for (from, to, words) in edits {
-        refuses_edit(base, from, to, words);
-    }
+    let edits = r#"
+        slots = 6 => slots = 2 => `slots` in [mechanism] is 2 | between 3 and 24
+        slots = 6 => slots = 60 => between 3 and 24
+        slots = 6 => slots = 6.5 => a whole number
+        [mechanism.crank] => [mechanism.crank]\nlength = "80 mm" =>
+            unknown key `length` in [mechanism.crank] | sin(180°/slots)
+        inertia = "1.15 kg m^2" => inertia = "1.15 kg m^2"\ncom = ["1 mm", "0 mm"] =>
+            unknown key `com` in [mechanism.wheel] | balanced
+        "160 mm" => "0 mm" => greater than zero
+    "#;
+    refuses_edits(base, edits);
     // A force at a place of the wheel does not repeat with the crank.
-    let load = "[[load]]\non = \"wheel\"\nforce = [\"5 N\", \"0 N\"]\nat = [\"90 mm\", \"0 mm\"]\n\n[mechanism]";
-    refuses_edit(
-        base,
-        "[mechanism]",
-        load,
-        &["acts in a fixed direction on \"wheel\"", "does not repeat"],
-    );
+    let edits = r#"
+        [mechanism] => [[load]]\non = "wheel"\nforce = ["5 N", "0 N"]\nat = ["90 mm", "0 mm"]\n\n[mechanism] =>
+            acts in a fixed direction on "wheel" | does not repeat
+    "#;
+    refuses_edits(base, edits);
 }

@@ -3,7 +3,7 @@
 use jred::machine::Mechanism as _;
 use jred::machine::Reducible as _;
 
-use super::{close, example, machine, parse, refuses_edit};
+use super::{close, example, machine, parse, refuses_edits};
 
 const DOC: &str = include_str!("../../../../docs/mechanisms/hoist.md");
 
@@ -47,30 +47,12 @@ fn the_documented_example_is_read() {
 #[test]
 fn wrong_entries_are_refused_with_their_cure() {
     let base = example(DOC);
-    let edits: [(&str, &str, &[&str]); 5] = [
-        (
-            "\"150 mm\"",
-            "\"0 mm\"",
-            &["`radius` in [mechanism.load] is 0 mm", "greater than zero"],
-        ),
-        (
-            "falls = 2",
-            "falls = 0",
-            &["`falls` in [mechanism.load] is 0", "between 1 and 24"],
-        ),
-        ("falls = 2", "fals = 2", &["did you mean \"falls\"?"]),
-        (
-            "[mechanism.load]",
-            "[mechanism.lode]",
-            &["`load` in [mechanism] is missing", "add [mechanism.load]"],
-        ),
-        (
-            "mass = \"260 kg\"",
-            "mass = \"260 kg\"\ninertia = \"1 kg m^2\"",
-            &["unknown key `inertia` in [mechanism.counterweight]"],
-        ),
-    ];
-    for (from, to, words) in edits {
-        refuses_edit(base, from, to, words);
-    }
+    let edits = r#"
+        "150 mm" => "0 mm" => `radius` in [mechanism.load] is 0 mm | greater than zero
+        falls = 2 => falls = 0 => `falls` in [mechanism.load] is 0 | between 1 and 24
+        falls = 2 => fals = 2 => did you mean "falls"?
+        [mechanism.load] => [mechanism.lode] => `load` in [mechanism] is missing | add [mechanism.load]
+        mass = "260 kg" => mass = "260 kg"\ninertia = "1 kg m^2" => unknown key `inertia` in [mechanism.counterweight]
+    "#;
+    refuses_edits(base, edits);
 }

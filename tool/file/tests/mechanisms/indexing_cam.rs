@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use jred::machine::Mechanism as _;
 use jred::machine::Reducible as _;
 
-use super::{close, machine, parse, refuses_edit};
+use super::{close, machine, parse, refuses_edits};
 
 const DOC: &str = include_str!("../../../../docs/mechanisms/indexing-cam.md");
 
@@ -64,41 +64,18 @@ fn the_documented_example_is_read() {
 
 #[test]
 fn wrong_entries_are_refused_with_their_cure() {
-    for (from, to, words) in [
-        ("stops = 8", "stops = 0", "must be between 1 and 360"),
-        ("stops = 8", "", "`stops` in [mechanism] is missing"),
-        ("\"120 deg\"", "\"0 deg\"", "greater than zero"),
-        (
-            "\"120 deg\"",
-            "\"370 deg\"",
-            "more than the 360 deg of the cam shaft",
-        ),
-        (
-            "stops = 8",
-            "stops = 8\nindexes = 4",
-            "is 120 deg, more than the 90 deg of the cam shaft",
-        ),
-        (
-            "\"modified-sine\"",
-            "\"sine\"",
-            "did you mean \"simple-sine\"?",
-        ),
-        (
-            "law = \"modified-sine\"",
-            "law = \"sine-constant-cosine\"\nsine = \"80 %\"\ncosine = \"30 %\"",
-            "`sine`, `constant` and `cosine` in [mechanism] add up to 110 % of the duration",
-        ),
-        (
-            "law = \"modified-sine\"",
-            "law = \"sine-constant-cosine\"",
-            "add up to 0 % of the duration",
-        ),
-        (
-            "cam = { inertia = \"0.02 kg m^2\" }",
-            "cam = { inertia = \"0.02 kg m^2\", com = [\"1 mm\", \"0 mm\"] }",
-            "its centre of mass is on its axis",
-        ),
-    ] {
-        refuses_edit(example(), from, to, &[words]);
-    }
+    let edits = r#"
+        stops = 8 => stops = 0 => must be between 1 and 360
+        stops = 8 => => `stops` in [mechanism] is missing
+        "120 deg" => "0 deg" => greater than zero
+        "120 deg" => "370 deg" => more than the 360 deg of the cam shaft
+        stops = 8 => stops = 8\nindexes = 4 => is 120 deg, more than the 90 deg of the cam shaft
+        "modified-sine" => "sine" => did you mean "simple-sine"?
+        law = "modified-sine" => law = "sine-constant-cosine"\nsine = "80 %"\ncosine = "30 %" =>
+            `sine`, `constant` and `cosine` in [mechanism] add up to 110 % of the duration
+        law = "modified-sine" => law = "sine-constant-cosine" => add up to 0 % of the duration
+        cam = { inertia = "0.02 kg m^2" } => cam = { inertia = "0.02 kg m^2", com = ["1 mm", "0 mm"] } =>
+            its centre of mass is on its axis
+    "#;
+    refuses_edits(example(), edits);
 }

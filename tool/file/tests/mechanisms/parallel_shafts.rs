@@ -3,7 +3,7 @@
 use jred::machine::Mechanism as _;
 use jred::machine::Reducible as _;
 
-use super::{close, example, machine, parse, refuses_edit};
+use super::{close, example, machine, parse, refuses_edit, refuses_edits};
 
 const DOC: &str = include_str!("../../../../docs/mechanisms/parallel-shafts.md");
 
@@ -42,48 +42,20 @@ fn the_documented_example_is_read() {
 fn wrong_entries_are_refused_with_their_cure() {
     let base = example(DOC);
     let (head, _) = base.split_once("[[mechanism.driven]]").unwrap();
-    let edits: [(&str, &str, &[&str]); 6] = [
-        (
-            "ratio = 1.5",
-            "ratio = 0",
-            &[
-                "`ratio` in [[mechanism.driven]] number 1 is 0",
-                "could not turn",
-            ],
-        ),
-        ("ratio = 1.5", "ratio = \"1.5\"", &["a plain number"]),
-        ("ratio = 1.5", "ratio = 1e6", &["between"]),
-        (
-            "ratio = -0.8",
-            "name = \"rollers\"\nratio = -0.8",
-            &["is \"rollers\", the name of another shaft"],
-        ),
-        (
-            "name = \"rollers\"",
-            "name = \"drive\"",
-            &["is \"drive\", the name of another shaft"],
-        ),
-        (
-            "inertia = \"0.004 kg m^2\"",
-            "",
-            &["`inertia` in [mechanism.drive] is missing"],
-        ),
-    ];
-    for (from, to, words) in edits {
-        refuses_edit(base, from, to, words);
-    }
-    refuses_edit(
-        head,
-        "[mechanism.drive]",
-        "driven = []\n[mechanism.drive]",
-        &["at least one [[mechanism.driven]]"],
-    );
-    refuses_edit(
-        head,
-        "[mechanism.drive]",
-        "[mechanism.drive]",
-        &["`driven` in [mechanism] is missing"],
-    );
+    let edits = r#"
+        ratio = 1.5 => ratio = 0 => `ratio` in [[mechanism.driven]] number 1 is 0 | could not turn
+        ratio = 1.5 => ratio = "1.5" => a plain number
+        ratio = 1.5 => ratio = 1e6 => between
+        ratio = -0.8 => name = "rollers"\nratio = -0.8 => is "rollers", the name of another shaft
+        name = "rollers" => name = "drive" => is "drive", the name of another shaft
+        inertia = "0.004 kg m^2" => => `inertia` in [mechanism.drive] is missing
+    "#;
+    refuses_edits(base, edits);
+    let edits = r#"
+        [mechanism.drive] => driven = []\n[mechanism.drive] => at least one [[mechanism.driven]]
+        [mechanism.drive] => [mechanism.drive] => `driven` in [mechanism] is missing
+    "#;
+    refuses_edits(head, edits);
     let sixteen = "[[mechanism.driven]]\nratio = 2\ninertia = \"1 kg m^2\"\n\n".repeat(16);
     refuses_edit(
         &format!("{head}{sixteen}"),

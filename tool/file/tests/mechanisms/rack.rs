@@ -3,7 +3,7 @@
 use jred::machine::Mechanism as _;
 use jred::machine::Reducible as _;
 
-use super::{close, example, machine, parse, refuses_edit};
+use super::{close, example, machine, parse, refuses_edits};
 
 const DOC: &str = include_str!("../../../../docs/mechanisms/rack-and-pinion.md");
 
@@ -31,39 +31,15 @@ fn the_documented_example_is_read() {
 #[test]
 fn wrong_entries_are_refused_with_their_cure() {
     let base = example(DOC);
-    let edits: [(&str, &str, &[&str]); 4] = [
-        (
-            "\"30 mm\"",
-            "\"0 mm\"",
-            &[
-                "`radius` in [mechanism.pinion] is 0 mm",
-                "greater than zero",
-            ],
-        ),
-        (
-            "radius",
-            "diameter",
-            &["`radius` in [mechanism.pinion] is missing"],
-        ),
-        (
-            "mass = \"85 kg\"",
-            "mass = \"85 kg\"\ninertia = \"1 kg m^2\"",
-            &["unknown key `inertia` in [mechanism.rack]", "does not turn"],
-        ),
-        (
-            "[mechanism.rack]",
-            "[mechanism.rake]",
-            &["`rack` in [mechanism] is missing"],
-        ),
-    ];
-    for (from, to, words) in edits {
-        refuses_edit(base, from, to, words);
-    }
-    let load = "[[load]]\non = \"rack\"\nmoment = \"5 N m\"\n\n[mechanism]";
-    refuses_edit(
-        base,
-        "[mechanism]",
-        load,
-        &["does nothing: \"rack\" does not turn"],
-    );
+    let edits = r#"
+        "30 mm" => "0 mm" => `radius` in [mechanism.pinion] is 0 mm | greater than zero
+        radius => diameter => `radius` in [mechanism.pinion] is missing
+        mass = "85 kg" => mass = "85 kg"\ninertia = "1 kg m^2" => unknown key `inertia` in [mechanism.rack] | does not turn
+        [mechanism.rack] => [mechanism.rake] => `rack` in [mechanism] is missing
+    "#;
+    refuses_edits(base, edits);
+    let edits = r#"
+        [mechanism] => [[load]]\non = "rack"\nmoment = "5 N m"\n\n[mechanism] => does nothing: "rack" does not turn
+    "#;
+    refuses_edits(base, edits);
 }

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use jred::machine::Mechanism as _;
 
-use super::{close, example, machine, parse, refuses_edit};
+use super::{close, example, machine, parse, refuses_edits};
 
 const DOC: &str = include_str!("../../../../docs/mechanisms/scotch-yoke.md");
 
@@ -50,44 +50,14 @@ fn the_documented_example_is_read() {
 #[test]
 fn wrong_entries_are_refused_with_their_cure() {
     let base = example(DOC);
-    let edits: [(&str, &str, &[&str]); 7] = [
-        (
-            "\"75 deg\"",
-            "\"0.5 deg\"",
-            &[
-                "`slot_angle` in [mechanism] is 0.5 deg",
-                "lock the crank",
-                "1 deg to 179 deg",
-            ],
-        ),
-        (
-            "\"75 deg\"",
-            "\"180 deg\"",
-            &["is 180 deg", "straight yoke has 90 deg"],
-        ),
-        ("\"75 deg\"", "\"75 mm\"", &["must be an angle", "a length"]),
-        (
-            "slot_angle",
-            "slot_angel",
-            &["did you mean \"slot_angle\"?"],
-        ),
-        (
-            "mass = \"6.8 kg\"",
-            "mass = \"6.8 kg\"\ninertia = \"1 kg m^2\"",
-            &["unknown key `inertia` in [mechanism.yoke]", "does not turn"],
-        ),
-        (
-            "[mechanism.yoke]",
-            "[mechanism.slider]",
-            &["`yoke` in [mechanism] is missing"],
-        ),
-        (
-            "\"60 mm\"",
-            "\"0 mm\"",
-            &["`length` in [mechanism.crank] is 0 mm", "greater than zero"],
-        ),
-    ];
-    for (from, to, words) in edits {
-        refuses_edit(base, from, to, words);
-    }
+    let edits = r#"
+        "75 deg" => "0.5 deg" => `slot_angle` in [mechanism] is 0.5 deg | lock the crank | 1 deg to 179 deg
+        "75 deg" => "180 deg" => is 180 deg | straight yoke has 90 deg
+        "75 deg" => "75 mm" => must be an angle | a length
+        slot_angle => slot_angel => did you mean "slot_angle"?
+        mass = "6.8 kg" => mass = "6.8 kg"\ninertia = "1 kg m^2" => unknown key `inertia` in [mechanism.yoke] | does not turn
+        [mechanism.yoke] => [mechanism.slider] => `yoke` in [mechanism] is missing
+        "60 mm" => "0 mm" => `length` in [mechanism.crank] is 0 mm | greater than zero
+    "#;
+    refuses_edits(base, edits);
 }

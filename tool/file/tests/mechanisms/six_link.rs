@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use jred::machine::Mechanism as _;
 
-use super::{close, example, machine, parse, refuses_edit};
+use super::{close, example, machine, parse, refuses_edits};
 
 const DOC: &str = include_str!("../../../../docs/mechanisms/six-link.md");
 
@@ -53,42 +53,13 @@ fn the_documented_example_is_read() {
 #[test]
 fn wrong_entries_are_refused_with_their_cure() {
     let base = example(DOC);
-    let edits: [(&str, &str, &[&str]); 6] = [
-        (
-            "\"200 mm\"",
-            "\"100 mm\"",
-            &[
-                "as long as the distance of the pivots, 0.1 m",
-                "for a rocker that swings",
-            ],
-        ),
-        (
-            "\"700 mm\"",
-            "\"570 mm\"",
-            &[
-                "the rod no longer reaches the guide at φ = ",
-                "make the rod longer than 0.575000 m",
-                "too short",
-            ],
-        ),
-        (
-            "centres = \"200 mm\"",
-            "",
-            &["`centres` in [mechanism] is missing"],
-        ),
-        (
-            "centres",
-            "branch = \"up\"\ncentres",
-            &["\"right\", \"left\""],
-        ),
-        (
-            "mass = \"9 kg\"",
-            "mass = \"9 kg\"\ninertia = \"1 kg m^2\"",
-            &["does not turn"],
-        ),
-        ("\"450 mm\"", "\"0 mm\"", &["must be greater than zero"]),
-    ];
-    for (from, to, words) in edits {
-        refuses_edit(base, from, to, words);
-    }
+    let edits = r#"
+        "200 mm" => "100 mm" => as long as the distance of the pivots, 0.1 m | for a rocker that swings
+        "700 mm" => "570 mm" => the rod no longer reaches the guide at φ =␣ | make the rod longer than 0.575000 m | too short
+        centres = "200 mm" => => `centres` in [mechanism] is missing
+        centres => branch = "up"\ncentres => "right", "left"
+        mass = "9 kg" => mass = "9 kg"\ninertia = "1 kg m^2" => does not turn
+        "450 mm" => "0 mm" => must be greater than zero
+    "#;
+    refuses_edits(base, edits);
 }

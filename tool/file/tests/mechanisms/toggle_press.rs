@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use jred::machine::Mechanism as _;
 
-use super::{close, example, machine, parse, refuses_edit};
+use super::{close, example, machine, parse, refuses_edits};
 
 const DOC: &str = include_str!("../../../../docs/mechanisms/toggle-press.md");
 
@@ -66,44 +66,15 @@ fn the_documented_example_is_read() {
 #[test]
 fn wrong_entries_are_refused_with_their_cure() {
     let base = example(DOC);
-    let edits: [(&str, &str, &[&str]); 7] = [
-        (
-            "\"60 mm\"",
-            "\"250 mm\"",
-            &[
-                "[mechanism]: the crank cannot turn fully",
-                "Grashof",
-                "this crank",
-            ],
-        ),
-        (
-            "[mechanism.lower]\nlength = \"250 mm\"",
-            "[mechanism.lower]\nlength = \"90 mm\"",
-            &[
-                "the lower link no longer reaches the guide at φ = ",
-                "make the lower link longer than 0.",
-                "too short",
-            ],
-        ),
-        (
-            "guide = \"400 mm\"\n",
-            "",
-            &["`guide` in [mechanism] is missing"],
-        ),
-        (
-            "pivot = [\"-250 mm\", \"400 mm\"]\n",
-            "",
-            &["`pivot` in [mechanism] is missing"],
-        ),
-        ("\"right\"", "\"up\"", &["`knee`", "\"left\", \"right\""]),
-        (
-            "mass = \"55 kg\"",
-            "mass = \"55 kg\"\ninertia = \"1 kg m^2\"",
-            &["does not turn"],
-        ),
-        ("[mechanism.ram]", "[mechanism.slider]", &["`ram`"]),
-    ];
-    for (from, to, words) in edits {
-        refuses_edit(base, from, to, words);
-    }
+    let edits = r#"
+        "60 mm" => "250 mm" => [mechanism]: the crank cannot turn fully | Grashof | this crank
+        [mechanism.lower]\nlength = "250 mm" => [mechanism.lower]\nlength = "90 mm" =>
+            the lower link no longer reaches the guide at φ =␣ | make the lower link longer than 0. | too short
+        guide = "400 mm"\n => => `guide` in [mechanism] is missing
+        pivot = ["-250 mm", "400 mm"]\n => => `pivot` in [mechanism] is missing
+        "right" => "up" => `knee` | "left", "right"
+        mass = "55 kg" => mass = "55 kg"\ninertia = "1 kg m^2" => does not turn
+        [mechanism.ram] => [mechanism.slider] => `ram`
+    "#;
+    refuses_edits(base, edits);
 }

@@ -2,7 +2,7 @@
 
 use jred_sizing::catalogue::{Catalogue, Sources};
 
-use crate::support::Folder;
+use crate::support::{Folder, rows};
 
 /// Figures typical of a servo motor of 1 kW and its gearbox.
 const MOTOR: &[(&str, &str)] = &[
@@ -65,76 +65,42 @@ fn what_is_right_is_not_remarked_upon() {
 
 #[test]
 fn units_mixed_up() {
-    for (from, to, words) in [
-        (
-            "rotor_inertia [kg cm^2]",
-            "rotor_inertia [kg m^2]",
-            "rotor_inertia of \"m1\"",
-        ),
-        (
-            "rotor_inertia [kg cm^2]",
-            "rotor_inertia [g cm^2]",
-            "less than for any known motor",
-        ),
-        (
-            "rotor_inertia [kg cm^2]",
-            "rotor_inertia [kg m^2]",
-            "solid cylinder",
-        ),
-        (
-            "rotor_inertia [kg cm^2]",
-            "rotor_inertia [kg m^2]",
-            "would reach its rated speed",
-        ),
-        ("rated_torque [N m]", "rated_torque [mN m]", "torque per kg"),
-        ("mass [kg]", "mass [g]", "torque per kg"),
-        (
-            "rated_speed [rpm],peak_torque [N m],",
-            "rated_speed [rad/s],peak_torque [N m],",
-            "\"m1\"",
-        ),
-        (
-            "rated_current [A]",
-            "rated_current [mA]",
-            "torque_constant times rated_current",
-        ),
-        (
-            "torque_constant [N m/A]",
-            "torque_constant [N m/A peak]",
-            "voltage_constant of \"m1\"",
-        ),
-        (
-            "torque_constant [N m/A]",
-            "torque_constant [N m/A peak]",
-            "torque_constant times",
-        ),
-        ("54.4", "94.2", "voltage_constant of \"m1\""),
-        ("0 rpm: 11 N m", "0 rpm: 12 N m", "peak_curve of \"m1\""),
-    ] {
-        let found = warnings(&table(MOTOR, from, to), &table(GEARBOX, "", ""));
+    let cases = r#"
+        rotor_inertia [kg cm^2] => rotor_inertia [kg m^2] => rotor_inertia of "m1"
+        rotor_inertia [kg cm^2] => rotor_inertia [g cm^2] => less than for any known motor
+        rotor_inertia [kg cm^2] => rotor_inertia [kg m^2] => solid cylinder
+        rotor_inertia [kg cm^2] => rotor_inertia [kg m^2] => would reach its rated speed
+        rated_torque [N m] => rated_torque [mN m] => torque per kg
+        mass [kg] => mass [g] => torque per kg
+        rated_speed [rpm],peak_torque [N m], => rated_speed [rad/s],peak_torque [N m], => "m1"
+        rated_current [A] => rated_current [mA] => torque_constant times rated_current
+        torque_constant [N m/A] => torque_constant [N m/A peak] => voltage_constant of "m1"
+        torque_constant [N m/A] => torque_constant [N m/A peak] => torque_constant times
+        54.4 => 94.2 => voltage_constant of "m1"
+        0 rpm: 11 N m => 0 rpm: 12 N m => peak_curve of "m1"
+    "#;
+    for [from, to, words] in rows(cases) {
+        let found = warnings(&table(MOTOR, &from, &to), &table(GEARBOX, "", ""));
         if from.starts_with("rated_speed") {
             // 3000 rad/s are 28 600 rpm, possible for a spindle.
             assert_eq!(found, [""; 0]);
             continue;
         }
-        assert!(found.iter().any(|w| w.contains(words)), "{to}: {found:?}");
+        assert!(found.iter().any(|w| w.contains(&words)), "{to}: {found:?}");
         assert!(
             found.iter().all(|w| w.contains("motors.csv:2: ")),
             "{found:?}"
         );
     }
-    for (from, to, words) in [
-        (
-            "input_inertia [kg cm^2]",
-            "input_inertia [kg m^2]",
-            "input_inertia of \"g1\"",
-        ),
-        ("backlash [arcmin]", "backlash [deg]", "backlash of \"g1\""),
-        ("97,", "0.97,", "efficiency of \"g1\""),
-        ("mass [kg]", "mass [g]", "output torque per kg"),
-    ] {
-        let found = warnings(&table(MOTOR, "", ""), &table(GEARBOX, from, to));
-        assert!(found.iter().any(|w| w.contains(words)), "{to}: {found:?}");
+    let cases = r#"
+        input_inertia [kg cm^2] => input_inertia [kg m^2] => input_inertia of "g1"
+        backlash [arcmin] => backlash [deg] => backlash of "g1"
+        97, => 0.97, => efficiency of "g1"
+        mass [kg] => mass [g] => output torque per kg
+    "#;
+    for [from, to, words] in rows(cases) {
+        let found = warnings(&table(MOTOR, "", ""), &table(GEARBOX, &from, &to));
+        assert!(found.iter().any(|w| w.contains(&words)), "{to}: {found:?}");
         assert!(
             found.iter().all(|w| w.contains("gearboxes.csv:2: ")),
             "{found:?}"

@@ -3,6 +3,7 @@
 use jred_sizing::catalogue::Catalogue;
 
 use crate::support::catalogue::HEADER;
+use crate::support::rows;
 
 /// The two rows of one gearbox that were once in the built-in catalogue: figures of one document for two clamping hubs.
 const TP050: &str = "\
@@ -87,24 +88,17 @@ fn each_form_has_its_own_words() {
             .collect::<Vec<_>>()
             .join(" ")
     };
-    for (from, to, words) in [
-        ("rated_speed", "rated_sped", "unknown key \"rated_sped\""),
-        ("source = \"S\"", "", "source of \"m\" is not given"),
-        ("source = \"S\"", "", "add source, or remove the table"),
-        (
-            "\"3 N m\"",
-            "\"0 N m\"",
-            "remove the key if the data sheet gives no value",
-        ),
-        (
-            "\"3 N m\"",
-            "\"0.5 N m\"",
-            "against the data sheet, and their units",
-        ),
-    ] {
-        assert!(toml.contains(from));
-        let said = read("own.toml", &toml.replace(from, to));
-        assert!(said.contains(words), "{words:?} is not in\n{said}");
+    let cases = r#"
+        rated_speed => rated_sped => unknown key "rated_sped"
+        source = "S" => => source of "m" is not given
+        source = "S" => => add source, or remove the table
+        "3 N m" => "0 N m" => remove the key if the data sheet gives no value
+        "3 N m" => "0.5 N m" => against the data sheet, and their units
+    "#;
+    for [from, to, words] in rows(cases) {
+        assert!(toml.contains(&from));
+        let said = read("own.toml", &toml.replace(&from, &to));
+        assert!(said.contains(&words), "{words:?} is not in\n{said}");
         for foreign in ["header", "column", "cell"] {
             assert!(!said.contains(foreign), "{foreign:?} is in\n{said}");
         }
