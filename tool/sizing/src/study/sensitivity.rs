@@ -156,7 +156,6 @@ impl Room {
     }
 }
 
-/// The figure of a rule.
 fn of_rule(all: &[(Rule, f64)], rule: Rule) -> Option<f64> {
     Some(all.iter().find(|(other, _)| *other == rule)?.1)
 }
