@@ -100,7 +100,6 @@ pub struct Heat {
     pub relative: bool,
 }
 
-/// The motor of a drive.
 struct DriveMotor<'a> {
     actuator: &'a Actuator,
     /// +1 or −1: the direction in which it drives without a controller.

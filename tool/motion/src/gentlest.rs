@@ -204,19 +204,11 @@ pub fn gentlest(
     of(dynamics, travel, objective, true)
 }
 
-/// The same without the lower bound, which takes most of the time: a motion that is not convex counts as local.
+/// The same; `prove`: with the lower bound, which takes most of the time. Without it a motion that is not convex counts as local.
 ///
 /// # Errors
 /// See [`Fault`].
-pub(crate) fn unproved(
-    dynamics: &PathDynamics,
-    travel: &Travel,
-    objective: Objective,
-) -> Result<LeastEffortMove, Fault> {
-    of(dynamics, travel, objective, false)
-}
-
-fn of(
+pub(crate) fn of(
     dynamics: &PathDynamics,
     travel: &Travel,
     objective: Objective,

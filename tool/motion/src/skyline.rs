@@ -40,7 +40,6 @@ impl Skyline {
         self.values[self.start[row] + column - self.first[row]] += value;
     }
 
-    /// The diagonal.
     pub(crate) fn diagonal(&self) -> impl Iterator<Item = f64> + '_ {
         self.start.iter().skip(1).map(|end| self.values[end - 1])
     }

@@ -217,7 +217,7 @@ fn the_front_is_what_nothing_beats() {
         let gaps = front.gaps();
         assert_eq!(gaps.len(), missing.len(), "{gaps:?}");
         for (gap, objective) in gaps.iter().zip(missing) {
-            assert!(gap.contains(objective.name()), "{gap}");
+            assert!(gap.contains(objective.word()), "{gap}");
         }
         let beaten = |own: &[f64]| {
             values.iter().any(|(_, other)| {

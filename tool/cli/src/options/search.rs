@@ -95,13 +95,11 @@ impl SelectionOptions {
                 0 => {}
                 n if n == selection.fit.len() => {
                     gaps.push(format!(
-                        "no suitable drive has data for the {}: not ranked by it",
-                        objective.name()
+                        "no suitable drive has data for the {objective}: not ranked by it"
                     ));
                 }
                 n => gaps.push(format!(
-                    "{n} suitable drives ranked last: no data for their {}",
-                    objective.name()
+                    "{n} suitable drives ranked last: no data for their {objective}"
                 )),
             }
         }

@@ -75,7 +75,6 @@ const WIDER: [f64; 3] = [1.0, 4.0, 16.0];
 const PROGRAMME_EXCESS: f64 = 2e-7;
 const WIDENED: u32 = 24;
 
-/// The request.
 pub(super) struct MoveRequest<'a> {
     pub(super) field: &'a Field<'a, 'a>,
     pub(super) ends: &'a Ends,

@@ -5,7 +5,7 @@ use jred_analysis::duty;
 use jred_file::model::machine::MachineFile;
 use jred_file::model::motion::Motion;
 
-use crate::gentlest::{self, Fault, LeastEffortMove, Optimum, Reason};
+use crate::gentlest::{Fault, LeastEffortMove, Optimum, Reason};
 use crate::moves::{self, Chain, Move, NoMoves, Part};
 use crate::path_dynamics::Actuator;
 use crate::trace::Trace;
@@ -147,7 +147,7 @@ pub fn gentlest_cycle(
 ) -> Result<GentlestResult, Obstacle> {
     let chain = moves::chain(motion, &file.process()).map_err(Obstacle::NoMoves)?;
     let asked = Comparison::new(file, motion, request, &chain);
-    let mut gentle = asked.gentlest(gentlest::gentlest)?;
+    let mut gentle = asked.gentlest(true)?;
     let laws = asked.beside()?;
     let mut best = asked.made_of(&gentle)?;
     let mut figures = asked.figures(&best)?;
@@ -203,7 +203,7 @@ pub(crate) fn alone(
 ) -> Result<Motion, Obstacle> {
     let chain = moves::chain(motion, &file.process()).map_err(Obstacle::NoMoves)?;
     let asked = Comparison::new(file, motion, request, &chain);
-    let moves = asked.gentlest(gentlest::unproved)?;
+    let moves = asked.gentlest(false)?;
     Ok(asked.made_of(&moves)?)
 }
 

@@ -179,7 +179,8 @@ impl Problem<'_> {
             let scale = if self.is_free() {
                 time * time
             } else {
-                let free = self.time_slope(&x);
+                // Slope of the time when all unknowns are scaled.
+                let free = inner(&self.gradients(&x).time, &x);
                 (1.0 + (1.0 - time) / free).clamp(0.25, 4.0)
             };
             for value in &mut x {
@@ -216,12 +217,6 @@ impl Problem<'_> {
             time += station.weight / w.sqrt();
         }
         Some(time)
-    }
-
-    /// Slope of the time when all unknowns are scaled.
-    fn time_slope(&self, x: &[f64]) -> f64 {
-        let gradients = self.gradients(x);
-        inner(&gradients.time, x)
     }
 
     /// The torque at a station, in N·m, with speed and acceleration (per s, s²).

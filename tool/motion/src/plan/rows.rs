@@ -195,7 +195,6 @@ fn joined(nodes: &mut [Node]) {
     }
 }
 
-/// Requirements of a plan.
 pub(super) struct PlanRequirements<'s> {
     /// Allowed errors of position, speed and acceleration.
     pub(super) bounds: Bounds,

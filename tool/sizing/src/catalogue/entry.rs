@@ -64,7 +64,6 @@ impl Entry {
     }
 }
 
-/// A gearbox.
 fn gearbox(row: &CatalogueRow) -> RowResult<Gearbox> {
     let efficiency = row.positive(Column::Efficiency);
     if efficiency > 1.0 {

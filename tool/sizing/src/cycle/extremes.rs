@@ -39,7 +39,6 @@ impl Stretches<'_> {
         Some(self.between(sample, c, ratio, used).unwrap_or(peak))
     }
 
-    /// The sample of the peak.
     fn sampled_peak(
         self,
         c: &Coefficients,

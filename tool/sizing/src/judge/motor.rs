@@ -73,11 +73,6 @@ pub(super) fn measure_peak(context: &Context, findings: &mut impl Record) {
     );
 }
 
-/// Records a peak torque that uses at least this share of the envelope, where only that is known.
-pub(super) fn set_peak_use(used: f64, findings: &mut impl Record) {
-    findings.set(Rule::PeakTorque, Finding::new(used, 1.0));
-}
-
 fn moves_per_minute(context: &Context) -> f64 {
     context.cycle.mechanics().move_rate * MINUTE
 }

@@ -7,12 +7,15 @@
 //! The verdicts are those of [`Context::outcome`], and so is the order of the first drives (`tests/cycle/screen.rs`).
 
 use super::outcome::Tally;
-use super::{Context, Outcome, brake, electric, gearbox, motor, site, stiffness, thermal, voltage};
+use super::{
+    Context, Outcome, Record as _, brake, electric, gearbox, motor, site, stiffness, thermal,
+    voltage,
+};
 use crate::catalogue::{Drive, DriveId, Gearbox, Motor, Resistor};
 use crate::cycle::{Cycle, PeakCheck};
 use crate::motor::envelope::MotorLimits;
 use jred_file::model::rule::Rule;
-use jred_file::model::rules::RuleSet;
+use jred_file::model::rules::{Finding, RuleSet};
 use jred_file::model::site::Site;
 
 /// Data common to all drives.
@@ -89,7 +92,8 @@ impl<'c> Screen<'c> {
         }
         match self.peak(&context) {
             PeakCheck::Below => {}
-            PeakCheck::Beyond { used } => motor::set_peak_use(used, &mut tally),
+            // Only a lower bound of the use of the envelope is known.
+            PeakCheck::Beyond { used } => tally.set(Rule::PeakTorque, Finding::new(used, 1.0)),
             PeakCheck::Open => motor::measure_peak(&context, &mut tally),
         }
         if tally.outcome.fails() {

@@ -59,9 +59,12 @@ impl Commutation {
 
 const SQRT_3: f64 = 1.732_050_807_568_877_2;
 
-/// A usable figure of a data sheet; the range is far beyond any motor's.
-fn usable(figure: Option<f64>) -> Option<f64> {
-    figure.filter(|x| (1e-15..=1e15).contains(x))
+/// Far beyond any motor, in SI units.
+pub(super) const PLAUSIBLE: std::ops::RangeInclusive<f64> = 1e-15..=1e15;
+
+/// A usable figure of a data sheet: values far beyond any motor would overflow.
+pub(super) fn usable(figure: Option<f64>) -> Option<f64> {
+    figure.filter(|x| PLAUSIBLE.contains(x))
 }
 
 impl Winding {

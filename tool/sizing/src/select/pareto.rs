@@ -105,8 +105,7 @@ impl<'c> Front<'c> {
         pairs
             .map(|(objective, n)| {
                 format!(
-                    "{n} suitable drives left out: no data for their {} in the catalogue; fill in the column, or use another objective",
-                    objective.name()
+                    "{n} suitable drives left out: no data for their {objective} in the catalogue; fill in the column, or use another objective"
                 )
             })
             .collect()
@@ -121,12 +120,8 @@ impl<'c> Front<'c> {
         let missing: Vec<String> = missing
             .filter(|(_, n)| **n > 0)
             .map(|(objective, n)| match *n {
-                n if n == self.fit => format!("none has data for the {}", objective.name()),
-                n => format!(
-                    "{} no data for the {}",
-                    counted(n, "has", "have"),
-                    objective.name()
-                ),
+                n if n == self.fit => format!("none has data for the {objective}"),
+                n => format!("{} no data for the {objective}", counted(n, "has", "have")),
             })
             .collect();
         Some(problem!(

@@ -25,18 +25,6 @@ jred_file::words! {
 }
 
 impl Objective {
-    /// Its name on the command line.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Power => "power",
-            Self::Mass => "mass",
-            Self::Price => "price",
-            Self::Energy => "energy",
-            Self::Margin => "margin",
-            Self::Temperature => "temperature",
-        }
-    }
-
     /// Name of its column, with the unit.
     pub const fn column(self) -> &'static str {
         match self {

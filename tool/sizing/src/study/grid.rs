@@ -72,7 +72,7 @@ impl RowSource for GridStudy<'_> {
         options.push(format!("filter = {}", digest(&self.filter)));
         options.push(format!(
             "rank = {}",
-            self.rank.map_or("default", Objective::name)
+            self.rank.map_or("default", Objective::word)
         ));
         Header {
             jred: "vary/4".to_owned(),

@@ -143,6 +143,23 @@ struct LimitUse {
     load: f64,
 }
 
+impl Room {
+    /// The room up to a change, from the drive after a larger one.
+    fn before(held: f64, stopped: Result<LimitUse, String>) -> Self {
+        match stopped {
+            Ok(LimitUse {
+                broken: Some(rule), ..
+            }) => Self::UpTo(held, rule),
+            Err(why) => Self::Refused(held, why),
+            Ok(LimitUse { broken: None, .. }) => Self::AtLeast(held),
+        }
+    }
+}
+
+fn of_rule(all: &[(Rule, f64)], rule: Rule) -> Option<f64> {
+    Some(all.iter().find(|(other, _)| *other == rule)?.1)
+}
+
 impl Mover<'_> {
     /// The drive after a relative change of the quantity.
     fn at(&self, change: f64) -> Result<LimitUse, String> {
@@ -183,9 +200,8 @@ impl Mover<'_> {
         let [half, quarter] = [0.5 * change, 0.25 * change];
         let middle = differences(&ends(half)?, half);
         let fine = differences(&ends(quarter)?, quarter);
-        let of = |all: &[(Rule, f64)], rule: Rule| Some(all.iter().find(|(r, _)| *r == rule)?.1);
         let slope = |(rule, fine): &(Rule, f64)| {
-            let (coarse, middle) = (of(&coarse, *rule)?, of(&middle, *rule)?);
+            let (coarse, middle) = (of_rule(&coarse, *rule)?, of_rule(&middle, *rule)?);
             let extrapolated = |d: f64, half: f64| (4.0 * half - d) / 3.0;
             let (first, second) = (extrapolated(coarse, middle), extrapolated(middle, *fine));
             Some(Slope {
@@ -244,12 +260,11 @@ impl Mover<'_> {
         let below = self.more(-1.0).map_err(|why| format!("one less: {why}"))?;
         let [same, above] = [0.0, 1.0].map(|by| self.more(by));
         let (same, above) = (same?, above.map_err(|why| format!("one more: {why}"))?);
-        let of = |judged: &LimitUse, rule: Rule| {
-            let found = judged.shares.iter().find(|(r, _)| *r == rule);
-            found.map(|(_, share)| *share)
-        };
         let slope = |(rule, above): &(Rule, f64)| {
-            let [below, same] = [of(&below, *rule)?, of(&same, *rule)?];
+            let [below, same] = [
+                of_rule(&below.shares, *rule)?,
+                of_rule(&same.shares, *rule)?,
+            ];
             Some(Slope {
                 rule: *rule,
                 refuses: self.study.nominal.rules.limit(*rule).fail.is_some(),
@@ -292,13 +307,7 @@ impl Mover<'_> {
                 stopped = (by, tried);
             }
         }
-        match stopped.1 {
-            Ok(LimitUse {
-                broken: Some(rule), ..
-            }) => Room::UpTo(share(held), rule),
-            Err(why) => Room::Refused(share(held), why),
-            Ok(LimitUse { broken: None, .. }) => Room::AtLeast(share(held)),
-        }
+        Room::before(share(held), stopped.1)
     }
 
     /// Room of the quantity in the direction of `sign`, by doubling steps, then on a [`Grid`] of the last one; `first` is the drive after the first
@@ -331,13 +340,7 @@ impl Mover<'_> {
         };
         let at = |change: f64| trial(self.at(sign * change));
         let (held, stopped) = grid.last_held(held.1 - 1.0, trial(stopped), at);
-        match stopped {
-            Ok(LimitUse {
-                broken: Some(rule), ..
-            }) => Room::UpTo(sign * held, rule),
-            Err(why) => Room::Refused(sign * held, why),
-            Ok(LimitUse { broken: None, .. }) => Room::AtLeast(sign * held),
-        }
+        Room::before(sign * held, stopped)
     }
 }
 
@@ -352,7 +355,7 @@ fn load(rules: &RuleSet, findings: &Findings) -> f64 {
 /// (u(ε) − u(−ε))/(2ε) of every rule.
 fn differences([below, above]: &[LimitUse; 2], change: f64) -> Vec<(Rule, f64)> {
     let pairs = above.shares.iter().filter_map(|(rule, above)| {
-        let below = below.shares.iter().find(|(other, _)| other == rule)?.1;
+        let below = of_rule(&below.shares, *rule)?;
         Some((*rule, (above - below) / (2.0 * change)))
     });
     pairs.collect()

@@ -10,7 +10,7 @@ use jred_sizing::cycle::Cycle;
 
 use super::even::constant_energy;
 use super::{ComparisonRow, Figures, Goal, LAWS, Obstacle, Request, law};
-use crate::gentlest::{Fault, LeastEffortMove, Objective, Travel};
+use crate::gentlest::{self, LeastEffortMove, Objective, Travel};
 use crate::moves::{Chain, EndStates, KeptMotion, Move, Part};
 use crate::path_dynamics::{BothDirections, PathDynamics};
 
@@ -25,9 +25,6 @@ pub(super) struct Comparison<'a> {
     endless: bool,
     parts: &'a [Part],
 }
-
-/// The search for a gentlest move.
-type MoveSolver = fn(&PathDynamics, &Travel, Objective) -> Result<LeastEffortMove, Fault>;
 
 impl<'a> Comparison<'a> {
     /// The request for a motion with these parts.
@@ -46,8 +43,8 @@ impl<'a> Comparison<'a> {
         }
     }
 
-    /// The gentlest motion of each move.
-    pub(super) fn gentlest(&self, search: MoveSolver) -> Result<Vec<LeastEffortMove>, Obstacle> {
+    /// The gentlest motion of each move; `prove`: with lower bounds.
+    pub(super) fn gentlest(&self, prove: bool) -> Result<Vec<LeastEffortMove>, Obstacle> {
         let Request {
             goal, copper, ramp, ..
         } = *self.request;
@@ -68,7 +65,7 @@ impl<'a> Comparison<'a> {
                 ramp,
                 ring: self.endless,
             };
-            let found = search(&self.dynamics(&step), &travel, objective);
+            let found = gentlest::of(&self.dynamics(&step), &travel, objective, prove);
             let number = moves.len() + 1;
             moves.push(found.map_err(|fault| Obstacle::Move(number, step, fault))?);
         }

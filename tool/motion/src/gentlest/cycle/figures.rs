@@ -64,7 +64,6 @@ impl Figures {
 }
 
 impl Request {
-    /// The figures of a cycle.
     pub(crate) fn figures(&self, cycle: &Cycle) -> Figures {
         let Actuator {
             coefficients,

@@ -6,7 +6,7 @@ use super::limit::{Limit, LimitPiece};
 use super::{Envelope, voltage};
 use crate::catalogue::Commutation;
 use crate::catalogue::{Amplifier, Motor, VOLTAGE_CLASS};
-use crate::motor::winding::{CurrentCurve, REFERENCE_TEMPERATURE};
+use crate::motor::winding::{CurrentCurve, PLAUSIBLE, REFERENCE_TEMPERATURE, usable};
 use jred_file::model::site::Site;
 use jred_file::units::{Sentence, Vocabulary};
 
@@ -28,17 +28,9 @@ pub(super) struct Builder<'a> {
     assumptions: Vec<Sentence>,
 }
 
-/// Whether a value is usable: values far beyond any motor would overflow.
-fn finite(figure: Option<f64>) -> Option<f64> {
-    figure.filter(|x| PLAUSIBLE.contains(x))
-}
-
-/// Far beyond any motor, in SI units.
-const PLAUSIBLE: std::ops::RangeInclusive<f64> = 1e-15..=1e15;
-
 /// A value; infinite if it is not usable.
 fn known(figure: Option<f64>) -> f64 {
-    finite(figure).unwrap_or(f64::INFINITY)
+    usable(figure).unwrap_or(f64::INFINITY)
 }
 
 /// The usable points: increasing speeds, non-increasing torques.
@@ -58,9 +50,9 @@ impl<'a> Builder<'a> {
     pub(super) fn new(motor: &'a Motor, amplifier: Option<&Amplifier>, site: &Site) -> Self {
         let mut assumptions: Vec<Sentence> = Vec::new();
         let torques = CurrentCurve::of(motor);
-        let sheet = finite(motor.figures_voltage());
+        let sheet = usable(motor.figures_voltage());
         let actual =
-            finite(site.bus_voltage).or(finite(amplifier.and_then(Amplifier::nominal_voltage)));
+            usable(site.bus_voltage).or(usable(amplifier.and_then(Amplifier::nominal_voltage)));
         let share = match (actual, sheet) {
             (Some(actual), Some(sheet)) => actual / sheet,
             _ => 1.0,
@@ -68,7 +60,7 @@ impl<'a> Builder<'a> {
         let line = circuit(motor, torques.as_ref(), actual.or(sheet));
         let mut peak = known(motor.peak_torque);
         if motor.peak_torque.is_none()
-            && let (Some(torques), Some(current)) = (torques, finite(motor.winding.peak_current))
+            && let (Some(torques), Some(current)) = (torques, usable(motor.winding.peak_current))
         {
             peak = torques.torque(current);
             assumptions.push(|Vocabulary { torque, .. }| {
@@ -117,18 +109,18 @@ impl<'a> Builder<'a> {
         let motor = self.motor;
         let points = !motor.peak_curve.is_empty();
         let figures =
-            finite(motor.corner_speed).is_some() && finite(motor.torque_at_max_speed).is_some();
+            usable(motor.corner_speed).is_some() && usable(motor.torque_at_max_speed).is_some();
         if points || figures {
             return None;
         }
         let winding = &motor.winding;
         let whole = winding.commutation == Commutation::Block
-            || (finite(winding.inductance).is_some() && finite(winding.pole_pairs).is_some());
+            || (usable(winding.inductance).is_some() && usable(winding.pole_pairs).is_some());
         let torques = self.torques?;
         let mut circuit = self.line.filter(|_| whole)?;
         let peak = self.peak.min(self.cap);
         // The corner in the data sheet shows how much of the voltage the drive uses.
-        if let Some(corner) = finite(motor.corner_speed).filter(|_| self.peak.is_finite()) {
+        if let Some(corner) = usable(motor.corner_speed).filter(|_| self.peak.is_finite()) {
             let current = torques.current(self.peak);
             let along = circuit.drop * current + circuit.flux * corner;
             circuit.voltage = self.share * along.hypot(circuit.reactance * corner * current);
@@ -192,7 +184,7 @@ impl<'a> Builder<'a> {
             |Vocabulary { torque, .. }| format!("corner of the peak {torque} not given; using peak {torque} up to the winding's voltage line")
         });
         self.assumptions
-            .push(if finite(motor.thermal.max_temperature).is_some() {
+            .push(if usable(motor.thermal.max_temperature).is_some() {
                 |_| "using the winding resistance at maximum temperature".to_owned()
             } else {
                 |_| {
@@ -240,7 +232,7 @@ impl<'a> Builder<'a> {
             });
             let corner = corner.min(stated);
             let end = if stated > corner && self.peak.is_finite() {
-                finite(motor.torque_at_max_speed).unwrap_or_else(|| {
+                usable(motor.torque_at_max_speed).unwrap_or_else(|| {
                     self.assumptions.push(
                         |Vocabulary { torque, .. }| format!("peak {torque} at maximum speed not given; using a straight line to the rated {torque}"),
                     );
@@ -350,20 +342,20 @@ fn circuit(
 ) -> Option<Circuit> {
     let winding = &motor.winding;
     let commutation = winding.commutation;
-    let hot = finite(motor.thermal.max_temperature).unwrap_or(REFERENCE_TEMPERATURE);
+    let hot = usable(motor.thermal.max_temperature).unwrap_or(REFERENCE_TEMPERATURE);
     let per_constant = commutation.torque_per_voltage_constant();
-    let flux = finite(winding.voltage_constant)
+    let flux = usable(winding.voltage_constant)
         .or_else(|| Some(torques?.torque_constant() / per_constant))?;
     let drop = commutation.drop_factor();
     let reactance = match (
         commutation,
-        finite(winding.inductance),
-        finite(winding.pole_pairs),
+        usable(winding.inductance),
+        usable(winding.pole_pairs),
     ) {
         (Commutation::Sine, Some(inductance), Some(pairs)) => drop * pairs * inductance,
         _ => 0.0,
     };
-    finite(winding.resistance)?;
+    usable(winding.resistance)?;
     Some(Circuit {
         voltage: commutation.voltage_share() * bus_voltage?,
         flux,

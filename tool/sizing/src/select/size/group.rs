@@ -96,12 +96,17 @@ impl<'c> Group<'c> {
         }
         self.near.push(drive);
         if self.near.len() == 4 * NEAR {
-            let (_, next, _) = self.near.select_nth_unstable_by_key(NEAR, |d| d.bound);
-            // No higher than before: all drives in `near` lie below the former limit.
-            self.limit = Some(next.bound);
-            self.rest
-                .extend(self.near.drain(NEAR..).map(|d| d.placed()));
+            // The limit is no higher than before: all drives in `near` lie below the former one.
+            self.keep_near(NEAR);
         }
+    }
+
+    /// Keeps the `count` drives with the lowest bounds near; the others join the rest.
+    fn keep_near(&mut self, count: usize) {
+        let (_, next, _) = self.near.select_nth_unstable_by_key(count, |d| d.bound);
+        self.limit = Some(next.bound);
+        let far = self.near.drain(count..).map(|d| d.placed());
+        self.rest.extend(far);
     }
 
     /// Joins two unsorted groups.
@@ -134,10 +139,7 @@ impl<'c> Group<'c> {
             let more = 4 * self.first.len();
             self.limit = None;
             if more < self.near.len() {
-                let (_, next, _) = self.near.select_nth_unstable_by_key(more, |d| d.bound);
-                self.limit = Some(next.bound);
-                self.rest
-                    .extend(self.near.drain(more..).map(|d| d.placed()));
+                self.keep_near(more);
             }
         }
         // Beyond the limit, drives that are not evaluated may rank between those that are.
