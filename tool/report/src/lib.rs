@@ -1,6 +1,6 @@
 //! Results as tables, listings, plots and pages.
 //!
-//! Takes the results of [`jred_file`], [`jred_sizing`] and [`jred_motion`], which are data; the command prints what it returns.
+//! Takes the results of [`jred_file`], [`jred_analysis`], [`jred_export`], [`jred_sizing`] and [`jred_motion`]; the command prints what it returns.
 //!
 //! 1. [`table`]: columns, rows and sheets as aligned tables, CSV or JSON.
 //! 2. [`answer`] and [`list`]: the answers of the commands, each built once and rendered as text, CSV, JSON and HTML.

@@ -251,16 +251,15 @@ fn machine(subject: &Subject, file: &MachineFile) -> Result<Section, Error> {
     let (what, term) = match coordinate {
         Coordinate::Angle => (
             "Reduced inertia",
-            "J_red varies, a drive that uses its mean value makes an error of ½·J′·ω²",
+            "J_red varies, a drive that uses its mean value makes an error of (J − J̄)·α + ½·J′·ω²",
         ),
         Coordinate::Length => (
             "Reduced mass",
-            "m_red varies, a drive that uses its mean value makes an error of ½·m′·v²",
+            "m_red varies, a drive that uses its mean value makes an error of (m − m̄)·a + ½·m′·v²",
         ),
     };
-    let reduced = format!(
-        "{what} with flywheel and drive train, and its derivative. Where {term} at every speed."
-    );
+    let reduced =
+        format!("{what} with flywheel and drive train, and its derivative. Where {term}.");
     let figures = vec![
         Figure::new(
             crate::drawing::still(file.machine.mechanism())?,

@@ -215,7 +215,7 @@ fn proof_holds(export: &Export) -> bool {
 }
 
 /// Largest speed and acceleration: as given, otherwise those of the motion. Without an acceleration (constant speed, or no motion) ω² is used, the
-/// acceleration that reaches ω within half a radian.
+/// acceleration that reaches ω within half a radian, or half a metre.
 fn range(given: [Option<f64>; 2], file: &MachineFile) -> Result<(f64, f64)> {
     match (given, &file.motion) {
         ([Some(omega), Some(alpha)], _) => return Ok((omega, alpha)),

@@ -7,7 +7,7 @@ use miette::{Report, Result, miette};
 use crate::commands::core_error::{core_report, duty_report};
 use crate::commands::gentlest::report;
 use crate::commands::vary::catalogue;
-use crate::commands::{Completion, print, print_answer};
+use crate::commands::{Completion, print_answer};
 use crate::options::{MotionChoice, Size};
 use crate::output;
 use crate::terminal;
@@ -147,23 +147,19 @@ fn extent(options: &Size, explained: bool) -> listing::List {
     }
 }
 
-/// The motion made for the best drive, printed before the list, and its data; `None`: the file's motion is kept.
+/// The motion made for the best drive, and its part of the answer; `None`: the file's motion is kept.
 fn suited(
     judging: &CoDesignInput,
     options: &Size,
-) -> Result<(Option<Motion>, list::suited::MotionData)> {
+) -> Result<(Option<Motion>, list::suited::MotionChoice)> {
     let suited = judging
         .best()
         .map_err(|obstacle| report(&options.file, None, judging.file, &obstacle))?;
-    let says = list::suited::words(judging.file, &suited);
-    if options.format == Format::Table {
-        let table = list::suited::table(&suited);
-        print(&format!("{says}\n\n{table}\n"))?;
-    } else {
-        terminal::say(&says);
+    let choice = list::suited::MotionChoice::new(judging.file, &suited);
+    if options.format != Format::Table {
+        terminal::say(&choice.words());
     }
-    let data = list::suited::data(judging.file, &suited);
-    Ok((suited.motion().cloned(), data))
+    Ok((suited.motion().cloned(), choice))
 }
 
 /// The Pareto front of the drives that violate no rule.

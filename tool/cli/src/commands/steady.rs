@@ -6,7 +6,6 @@ use crate::commands::simulate::{read_all, starts};
 use crate::commands::{Completion, print_answer, rate};
 use crate::options;
 use crate::output;
-use crate::terminal::print;
 use jred_analysis::checked;
 use jred_analysis::simulate::CoupledMachines;
 use jred_analysis::steady::{self, Level, MeanSpeed, SteadyRequest};
@@ -19,7 +18,6 @@ use jred_file::plain;
 use jred_file::text::key::SPEED;
 use jred_report::list;
 use jred_report::page;
-use jred_report::table::output::Format;
 
 /// Smallest number of positions per turn in the report.
 const DRAWN: usize = 360;
@@ -58,15 +56,11 @@ pub fn steady(options: &options::Steady) -> Result<Completion> {
         );
         output::write(path, page.as_bytes())?;
     }
-    print_answer(&list::steady::answer(&machines, &steady), options.format)?;
-    if let Some(path) = options
-        .report
-        .as_ref()
-        .filter(|_| options.format == Format::Table)
-    {
-        print(&format!("report written to {}\n", plain::path(path)))?;
+    let mut answer = list::steady::answer(&machines, &steady);
+    if let Some(path) = &options.report {
+        answer.sentence(format!("report written to {}", plain::path(path)));
     }
-    Ok(Completion::Holds)
+    print_answer(&answer, options.format)
 }
 
 /// The requested mean speed.

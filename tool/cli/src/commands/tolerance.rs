@@ -70,7 +70,7 @@ pub fn tolerance(options: &Options) -> Result<Completion> {
     };
     print_answer(&sheet.answer(), format)?;
     if !ended.is_complete() {
-        return stopped(ended, &plan);
+        return Ok(stopped(ended, &plan));
     }
     Ok(if summary.hold == summary.machines {
         Completion::Holds

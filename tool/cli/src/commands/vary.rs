@@ -115,7 +115,7 @@ pub fn vary(options: &Vary) -> Result<Completion> {
             plain::path(path)
         ))?;
     }
-    let done = stopped(ended, &plan)?;
+    let done = stopped(ended, &plan);
     // One share is not the full result, and a scheduler would repeat a job that ends with 1.
     Ok(
         if done == Completion::Holds && counts.fit == 0 && plan.shard.is_none() {
@@ -156,12 +156,9 @@ impl Counts {
 }
 
 /// Exit status of a finished run.
-///
-/// # Errors
-/// None at present.
-pub fn stopped(ended: RunEnd, plan: &Plan) -> Result<Completion> {
+pub fn stopped(ended: RunEnd, plan: &Plan) -> Completion {
     if ended.is_complete() {
-        return Ok(Completion::Holds);
+        return Completion::Holds;
     }
     let cure = match &plan.out {
         Some(path) => format!(
@@ -174,7 +171,7 @@ pub fn stopped(ended: RunEnd, plan: &Plan) -> Result<Completion> {
         "stopped after {} of {} rows; {cure}",
         ended.rows, ended.of
     ));
-    Ok(Completion::Stopped)
+    Completion::Stopped
 }
 
 /// Runs `jred merge`.

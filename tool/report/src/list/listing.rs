@@ -14,7 +14,7 @@ use jred_sizing::judge::Assessment;
 use jred_sizing::select::size::{Candidate, Selection};
 
 use crate::answer::Answer;
-use crate::list::suited::MotionData;
+use crate::list::suited::MotionChoice;
 use crate::table::output::Format;
 use crate::table::reading::{ColumnKind, Reading};
 use jred_sizing::study::cell::Cell;
@@ -44,7 +44,7 @@ pub struct Listing<'a> {
     /// Possible mistakes in the machine file.
     pub warnings: &'a [String],
     /// The motion that the drives are judged with, if it was computed for them.
-    pub motion: Option<&'a MotionData>,
+    pub motion: Option<&'a MotionChoice>,
     /// The drive requested by name.
     pub asked: Option<&'a Asked<'a>>,
     /// Contributions and changes.
@@ -94,6 +94,9 @@ impl<'a> Listing<'a> {
         match self.asked {
             Some(asked) => asked.blocks(answer, selection),
             None => self.others(answer, if list.full { usize::MAX } else { MOST_VIOLATED }),
+        }
+        if let Some(motion) = self.motion {
+            motion.blocks(answer);
         }
         if list.full {
             answer.heading(full::supply(&self.file.site));

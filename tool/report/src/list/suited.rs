@@ -1,7 +1,5 @@
 //! Drives with motions made for them: the head of the list of `jred size --motion best`.
 
-use std::fmt::Write as _;
-
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -12,26 +10,76 @@ use jred_motion::co_design::{CoDesign, DriveWithMotion};
 use jred_sizing::catalogue::Drive;
 use jred_sizing::study::cell::Cell;
 
+use crate::answer::Answer;
 use crate::list::kept::{self, KeptPart};
 use crate::table::reading::Reading;
 
-/// The motion of the list, and the best drive before.
-pub fn words(file: &MachineFile, suited: &CoDesign) -> String {
+/// The motion that the drives are judged with, and the drives that were tried for it.
+#[derive(Debug)]
+pub struct MotionChoice {
+    pub(crate) data: MotionData,
+    sentences: Vec<String>,
+    /// Parts of the file's motion that are kept, and those that are not, with names.
+    kept: Vec<(&'static str, String)>,
+    tried: Option<Reading>,
+}
+
+impl MotionChoice {
+    /// The result of a search.
+    pub fn new(file: &MachineFile, suited: &CoDesign) -> Self {
+        let better = suited.better().is_some();
+        Self {
+            data: data(file, suited),
+            sentences: sentences(suited),
+            kept: if better {
+                kept::all_lines(file, &suited.chain)
+            } else {
+                Vec::new()
+            },
+            tried: tried(suited),
+        }
+    }
+
+    /// In words, without the table.
+    pub fn words(&self) -> String {
+        let kept = self.kept.iter();
+        let kept = kept.map(|(name, says)| format!("  {name}: {says}"));
+        let mut lines = self.sentences.clone();
+        lines.splice(1..1, kept);
+        lines.join("\n")
+    }
+
+    pub(super) fn blocks(&self, answer: &mut Answer) {
+        answer.sentence(&self.sentences[0]);
+        for (name, says) in &self.kept {
+            answer.fact(*name, says);
+        }
+        for sentence in &self.sentences[1..] {
+            answer.sentence(sentence);
+        }
+        if let Some(tried) = &self.tried {
+            answer.table(tried.clone());
+        }
+    }
+}
+
+/// The motion of the list, the best drive before, and the drive that the list ranks first if it is another one.
+fn sentences(suited: &CoDesign) -> Vec<String> {
     let Some(best) = suited.best() else {
-        return "Motion: that of the file; with its gentlest motion none of the closest drives is suitable".to_owned();
+        return vec!["Motion: that of the file; with its gentlest motion none of the closest drives is suitable".to_owned()];
     };
     if suited.better().is_none()
         && let Some((before, _)) = &suited.before
     {
-        return stays(before, &best.drive);
+        return stays(before, &best.drive).to_vec();
     }
     let torque = best.drive.motor.kind.vocabulary().torque;
-    let says = format!(
+    let mut sentences = vec![format!(
         "Motion: the gentlest for {}, with {} less RMS {torque} than the file's; `jred gentlest` writes it",
         named(&best.drive),
         percent(saving(best))
-    );
-    let saved = match &suited.before {
+    )];
+    sentences.push(match &suited.before {
         None => "With the motion of the file no drive is suitable".to_owned(),
         Some((before, _)) if before.name() == best.drive.name() => {
             "With the motion of the file the same drive is the best one".to_owned()
@@ -40,22 +88,18 @@ pub fn words(file: &MachineFile, suited: &CoDesign) -> String {
             "With the motion of the file the best drive is {}",
             named(before)
         ),
-    };
-    let ahead = suited.ahead.as_ref().map_or_else(String::new, |ahead| {
+    });
+    sentences.extend(suited.ahead.as_ref().map(|ahead| {
         format!(
-            "\nThe list ranks {} first: with this motion it uses less of its limits than with its own gentlest one, which has the least RMS {torque} only",
+            "The list ranks {} first: with this motion it uses less of its limits than with its own gentlest one, which has the least RMS {torque} only",
             named(ahead)
         )
-    });
-    let mut kept = String::new();
-    for (name, says) in kept::all_lines(file, &suited.chain) {
-        let _ = write!(kept, "\n  {name}: {says}");
-    }
-    format!("{says}{kept}\n{saved}{ahead}")
+    }));
+    sentences
 }
 
 /// Why the motion of the file is kept.
-fn stays(before: &Drive, best: &Drive) -> String {
+fn stays(before: &Drive, best: &Drive) -> [String; 2] {
     let why = if before.name() == best.name() {
         "With its own gentlest motion the same drive is suitable as well, but with a warning"
             .to_owned()
@@ -65,10 +109,11 @@ fn stays(before: &Drive, best: &Drive) -> String {
             named(best)
         )
     };
-    format!(
-        "Motion: that of the file is kept, with which the best drive is {}\n{why}",
+    let kept = format!(
+        "Motion: that of the file is kept, with which the best drive is {}",
         named(before)
-    )
+    );
+    [kept, why]
 }
 
 /// The motion that drives are judged with.
@@ -117,8 +162,8 @@ impl From<&Drive<'_>> for NamedDrive {
     }
 }
 
-/// The same as data.
-pub fn data(file: &MachineFile, suited: &CoDesign) -> MotionData {
+/// The motion as data.
+fn data(file: &MachineFile, suited: &CoDesign) -> MotionData {
     let better = suited.better();
     let before = suited.before.as_ref();
     // With the motion of the file everything is kept.
@@ -134,10 +179,8 @@ pub fn data(file: &MachineFile, suited: &CoDesign) -> MotionData {
 }
 
 /// The tried drives, each with its own motion, and the saving.
-pub fn table(suited: &CoDesign) -> String {
-    let Some(first) = suited.tried.first() else {
-        return String::new();
-    };
+fn tried(suited: &CoDesign) -> Option<Reading> {
+    let first = suited.tried.first()?;
     let words: &Vocabulary = first.drive.motor.kind.vocabulary();
     let heads = [
         "drive, each with its own motion".to_owned(),
@@ -162,8 +205,12 @@ pub fn table(suited: &CoDesign) -> String {
             rules.into(),
         ]
     };
-    let rows: Vec<Vec<Cell>> = suited.tried.iter().map(row).collect();
-    Reading::table(&heads, &rows, 1)
+    Some(Reading {
+        columns: heads.to_vec(),
+        rows: suited.tried.iter().map(row).collect(),
+        whole: 1,
+        ..Reading::default()
+    })
 }
 
 fn saving(tried: &DriveWithMotion) -> f64 {

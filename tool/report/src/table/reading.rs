@@ -10,7 +10,7 @@ use jred_file::number::rounding::significant;
 use jred_sizing::study::cell::Cell;
 
 /// Largest width of a table; wider cells are wrapped.
-pub const WIDEST: u16 = 120;
+const WIDEST: u16 = 120;
 
 /// Least width of the only wrapped column on a screen.
 const LEAST: u16 = 24;
@@ -47,18 +47,6 @@ pub struct Reading {
 }
 
 impl Reading {
-    /// A table no wider than [`WIDEST`].
-    pub fn table(columns: &[String], rows: &[Vec<Cell>], whole: usize) -> String {
-        let (columns, rows) = (columns.to_vec(), rows.to_vec());
-        let table = Self {
-            columns,
-            rows,
-            whole,
-            ..Self::default()
-        };
-        table.text(Screen::default())
-    }
-
     /// The rows as text for reading.
     pub(crate) fn cells(&self) -> impl Iterator<Item = Vec<String>> {
         self.rows.iter().map(|row| {

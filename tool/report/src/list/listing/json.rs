@@ -289,7 +289,7 @@ pub(super) fn answer(shown: Listing) -> Answer {
             rank: asked.rank,
         }),
         explanation: shown.explanation,
-        motion: shown.motion,
+        motion: shown.motion.map(|motion| &motion.data),
     };
     let mut answer = Answer::new(&file.title, &data);
     answer.array("fit", move || {
