@@ -85,10 +85,10 @@ fn a_folded_slider_crank_goes_through_the_axis() {
 
 #[test]
 fn a_change_point_that_nobody_asked_for_is_named_with_its_cure() {
-    let edits = r#"
+    let edits = "
         keep_branch = true => keep_branch = false =>
             is in line at φ = 90 deg and φ = 270 deg, a change point | write keep_branch = true
-    "#;
+    ";
     refuses_edits(FOLDED, edits);
     let edits = r#"
         keep_branch = true␣ => => φ = 0 deg and φ = 180 deg, a change point | go on in two ways
