@@ -6,6 +6,7 @@ use jred::mechanism::BuildError;
 use jred::number::RangeError;
 use std::f64::consts::{PI, TAU};
 
+use crate::support::machines::loaded;
 use crate::support::{assert_near, budget, config, derivative, largest, link_of};
 use jred::machine::{Action, Joint, Jointed, Link, Load, Machine, Mechanism, Reducible};
 use jred::mechanism::{DimensionError, Geneva};
@@ -239,13 +240,8 @@ prop_compose! {
             link_of(mass[0], inertia[0], com.map(|c: f64| c * centres)),
             link_of(mass[1], inertia[1], [0.0, 0.0]),
         ];
-        let on = |action| Load::new(WHEEL, action).unwrap();
-        Machine::new(Geneva::new(slots, centres, links).unwrap())
-            .with_gravity([9.81 * down.cos(), 9.81 * down.sin()])
-            .and_then(|m| m.with_load(on(Action::Moment(load[0]))))
-            .and_then(|m| m.with_load(on(Action::OpposingMoment(load[1]))))
-            .and_then(|m| m.with_load(on(Action::ViscousMoment(load[2]))))
-            .unwrap()
+        let loads = [Action::Moment(load[0]), Action::OpposingMoment(load[1]), Action::ViscousMoment(load[2])];
+        loaded(Geneva::new(slots, centres, links).unwrap(), down, WHEEL, loads)
     }
 }
 

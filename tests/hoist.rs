@@ -5,8 +5,9 @@ use jred::mechanism::RopeLoad;
 use jred::number::RangeError;
 use std::f64::consts::TAU;
 
+use crate::support::machines::loaded;
 use crate::support::{assert_near, budget, config, link_of};
-use jred::machine::{Action, Link, Load, Machine, Mechanism, Reducible};
+use jred::machine::{Action, Link, Machine, Mechanism, Reducible};
 use jred::mechanism::{Hoist, Rope};
 use proptest::prelude::*;
 
@@ -139,13 +140,8 @@ prop_compose! {
         } else {
             Hoist::new(drum, hook)
         };
-        let on = |action| Load::new(Hoist::LOAD, action).unwrap();
-        Machine::new(hoist)
-            .with_gravity([9.81 * down.cos(), 9.81 * down.sin()])
-            .and_then(|m| m.with_load(on(Action::Force([0.2 * load[0], load[0]]))))
-            .and_then(|m| m.with_load(on(Action::OpposingForce(load[1]))))
-            .and_then(|m| m.with_load(on(Action::ViscousForce(load[2]))))
-            .unwrap()
+        let loads = [Action::Force([0.2 * load[0], load[0]]), Action::OpposingForce(load[1]), Action::ViscousForce(load[2])];
+        loaded(hoist, down, Hoist::LOAD, loads)
     }
 }
 

@@ -2,6 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
+use crate::support::machines::loaded;
 use crate::support::{assert_near, budget, config, largest, link_of, spoken};
 use jred::machine::motion::Law;
 use jred::machine::{Action, Jointed, Link, Load, Machine, Mechanism, PoseError, Reducible};
@@ -174,15 +175,10 @@ prop_compose! {
             link_of(mass[0], inertia[0], com),
             link_of(mass[1], inertia[1], [0.0, 0.0]),
         ];
-        let on = |action| Load::new(TABLE, action).unwrap();
         let index = index * TAU / f64::from(indexes);
         let dimensions = IndexingCamDimensions { stops, index, indexes, reverses, law };
-        Machine::new(IndexingCam::new(dimensions, links).unwrap())
-            .with_gravity([9.81 * down.cos(), 9.81 * down.sin()])
-            .and_then(|m| m.with_load(on(Action::Moment(load[0]))))
-            .and_then(|m| m.with_load(on(Action::OpposingMoment(load[1]))))
-            .and_then(|m| m.with_load(on(Action::ViscousMoment(load[2]))))
-            .unwrap()
+        let loads = [Action::Moment(load[0]), Action::OpposingMoment(load[1]), Action::ViscousMoment(load[2])];
+        loaded(IndexingCam::new(dimensions, links).unwrap(), down, TABLE, loads)
     }
 }
 

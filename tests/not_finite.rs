@@ -14,12 +14,33 @@ use jred::table::CubicSpline;
 use jred::tabulate::{Request, tabulate};
 use jred::{Domain, Scale, Spline, curves};
 
+/// A case needs the error alone.
+fn made<T, E: Into<Error>>(made: Result<T, E>) -> Result<(), Error> {
+    made.map(drop).map_err(Into::into)
+}
+
+fn link(mass: f64, inertia: f64, com: [f64; 2]) -> Result<Link, RangeError> {
+    Link::new(MassProperties { mass, inertia, com })
+}
+
+fn gears(inertias: [f64; 2]) -> Result<Stage, RangeError> {
+    Stage::gears(GearDimensions {
+        teeth: [9, 9],
+        inertias,
+        mesh: Mesh::Internal,
+    })
+}
+
+fn belt(radii: [f64; 2], inertias: [f64; 2], mass: f64) -> Result<Stage, RangeError> {
+    Stage::belt(BeltDimensions {
+        radii,
+        inertias,
+        mass,
+    })
+}
+
 fn slider_crank(r: f64, l: f64, e: f64) -> Result<SliderCrank, BuildError> {
-    let link = Link::new(MassProperties {
-        mass: 0.1,
-        inertia: 0.001,
-        com: [0.0, 0.0],
-    })?;
+    let link = link(0.1, 0.001, [0.0; 2])?;
     SliderCrank::new(
         SliderCrankDimensions {
             crank: r,
@@ -39,200 +60,48 @@ type Case = (&'static str, fn(f64) -> Result<(), Error>);
 
 /// NaN and infinity in every argument of every constructor.
 #[test]
-#[expect(clippy::too_many_lines, reason = "a table of cases")]
 fn nothing_that_is_not_finite_gets_into_a_machine() {
     let cases: &[Case] = &[
-        ("mass", |x| {
-            Link::new(MassProperties {
-                mass: x,
-                inertia: 0.0,
-                com: [0.0; 2],
-            })
-            .map(drop)
-            .map_err(Into::into)
-        }),
-        ("inertia", |x| {
-            Link::new(MassProperties {
-                mass: 0.0,
-                inertia: x,
-                com: [0.0; 2],
-            })
-            .map(drop)
-            .map_err(Into::into)
-        }),
-        ("com u", |x| {
-            Link::new(MassProperties {
-                mass: 0.0,
-                inertia: 0.0,
-                com: [x, 0.0],
-            })
-            .map(drop)
-            .map_err(Into::into)
-        }),
-        ("com v", |x| {
-            Link::new(MassProperties {
-                mass: 0.0,
-                inertia: 0.0,
-                com: [0.0, x],
-            })
-            .map(drop)
-            .map_err(Into::into)
-        }),
-        ("rotor", |x| Link::rotor(x).map(drop).map_err(Into::into)),
-        ("crank", |x| {
-            slider_crank(x, 0.3, 0.0).map(drop).map_err(Into::into)
-        }),
-        ("rod", |x| {
-            slider_crank(0.1, x, 0.0).map(drop).map_err(Into::into)
-        }),
-        ("offset", |x| {
-            slider_crank(0.1, 0.3, x).map(drop).map_err(Into::into)
-        }),
-        ("crank angle", |x| {
-            machine().reduction(x).map(drop).map_err(Into::into)
-        }),
-        ("input angle", |x| {
-            Train::new(&[])?.frames(x).map(drop).map_err(Into::into)
-        }),
-        ("ratio", |x| {
-            Stage::new(x, [0.0; 2]).map(drop).map_err(Into::into)
-        }),
-        ("driver", |x| {
-            Stage::new(1.0, [x, 0.0]).map(drop).map_err(Into::into)
-        }),
-        ("driven", |x| {
-            Stage::new(1.0, [0.0, x]).map(drop).map_err(Into::into)
-        }),
-        ("gears", |x| {
-            Stage::gears(GearDimensions {
-                teeth: [9, 9],
-                inertias: [x, 0.0],
-                mesh: Mesh::Internal,
-            })
-            .map(drop)
-            .map_err(Into::into)
-        }),
-        ("gears", |x| {
-            Stage::gears(GearDimensions {
-                teeth: [9, 9],
-                inertias: [0.0, x],
-                mesh: Mesh::Internal,
-            })
-            .map(drop)
-            .map_err(Into::into)
-        }),
-        ("pulley", |x| {
-            Stage::belt(BeltDimensions {
-                radii: [x, 0.1],
-                inertias: [0.0; 2],
-                mass: 0.0,
-            })
-            .map(drop)
-            .map_err(Into::into)
-        }),
-        ("pulley", |x| {
-            Stage::belt(BeltDimensions {
-                radii: [0.1, x],
-                inertias: [0.0; 2],
-                mass: 0.0,
-            })
-            .map(drop)
-            .map_err(Into::into)
-        }),
-        ("pulley", |x| {
-            Stage::belt(BeltDimensions {
-                radii: [0.1, 0.1],
-                inertias: [x, 0.0],
-                mass: 0.0,
-            })
-            .map(drop)
-            .map_err(Into::into)
-        }),
-        ("pulley", |x| {
-            Stage::belt(BeltDimensions {
-                radii: [0.1, 0.1],
-                inertias: [0.0, x],
-                mass: 0.0,
-            })
-            .map(drop)
-            .map_err(Into::into)
-        }),
-        ("belt", |x| {
-            Stage::belt(BeltDimensions {
-                radii: [0.1, 0.1],
-                inertias: [0.0; 2],
-                mass: x,
-            })
-            .map(drop)
-            .map_err(Into::into)
-        }),
+        ("mass", |x| made(link(x, 0.0, [0.0; 2]))),
+        ("inertia", |x| made(link(0.0, x, [0.0; 2]))),
+        ("com u", |x| made(link(0.0, 0.0, [x, 0.0]))),
+        ("com v", |x| made(link(0.0, 0.0, [0.0, x]))),
+        ("rotor", |x| made(Link::rotor(x))),
+        ("crank", |x| made(slider_crank(x, 0.3, 0.0))),
+        ("rod", |x| made(slider_crank(0.1, x, 0.0))),
+        ("offset", |x| made(slider_crank(0.1, 0.3, x))),
+        ("crank angle", |x| made(machine().reduction(x))),
+        ("input angle", |x| made(Train::new(&[])?.frames(x))),
+        ("ratio", |x| made(Stage::new(x, [0.0; 2]))),
+        ("driver", |x| made(Stage::new(1.0, [x, 0.0]))),
+        ("driven", |x| made(Stage::new(1.0, [0.0, x]))),
+        ("gears", |x| made(gears([x, 0.0]))),
+        ("gears", |x| made(gears([0.0, x]))),
+        ("pulley", |x| made(belt([x, 0.1], [0.0; 2], 0.0))),
+        ("pulley", |x| made(belt([0.1, x], [0.0; 2], 0.0))),
+        ("pulley", |x| made(belt([0.1, 0.1], [x, 0.0], 0.0))),
+        ("pulley", |x| made(belt([0.1, 0.1], [0.0, x], 0.0))),
+        ("belt", |x| made(belt([0.1, 0.1], [0.0; 2], x))),
         ("efficiency", |x| {
-            Stage::new(1.0, [0.0; 2])?
-                .with_efficiency(x)
-                .map(drop)
-                .map_err(Into::into)
+            made(Stage::new(1.0, [0.0; 2])?.with_efficiency(x))
         }),
-        ("gravity", |x| {
-            machine()
-                .with_gravity([x, 0.0])
-                .map(drop)
-                .map_err(Into::into)
-        }),
-        ("gravity", |x| {
-            machine()
-                .with_gravity([0.0, x])
-                .map(drop)
-                .map_err(Into::into)
-        }),
-        ("flywheel", |x| {
-            machine().with_flywheel(x).map(drop).map_err(Into::into)
-        }),
-        ("force", |x| {
-            Load::new(0, Action::Force([x, 0.0]))
-                .map(drop)
-                .map_err(Into::into)
-        }),
-        ("force", |x| {
-            Load::new(0, Action::Force([0.0, x]))
-                .map(drop)
-                .map_err(Into::into)
-        }),
-        ("moment", |x| {
-            Load::new(0, Action::Moment(x))
-                .map(drop)
-                .map_err(Into::into)
-        }),
+        ("gravity", |x| made(machine().with_gravity([x, 0.0]))),
+        ("gravity", |x| made(machine().with_gravity([0.0, x]))),
+        ("flywheel", |x| made(machine().with_flywheel(x))),
+        ("force", |x| made(Load::new(0, Action::Force([x, 0.0])))),
+        ("force", |x| made(Load::new(0, Action::Force([0.0, x])))),
+        ("moment", |x| made(Load::new(0, Action::Moment(x)))),
+        ("friction", |x| made(Load::new(0, Action::OpposingForce(x)))),
         ("friction", |x| {
-            Load::new(0, Action::OpposingForce(x))
-                .map(drop)
-                .map_err(Into::into)
+            made(Load::new(0, Action::OpposingMoment(x)))
         }),
-        ("friction", |x| {
-            Load::new(0, Action::OpposingMoment(x))
-                .map(drop)
-                .map_err(Into::into)
-        }),
-        ("viscous", |x| {
-            Load::new(0, Action::ViscousForce(x))
-                .map(drop)
-                .map_err(Into::into)
-        }),
-        ("viscous", |x| {
-            Load::new(0, Action::ViscousMoment(x))
-                .map(drop)
-                .map_err(Into::into)
+        ("viscous", |x| made(Load::new(0, Action::ViscousForce(x)))),
+        ("viscous", |x| made(Load::new(0, Action::ViscousMoment(x)))),
+        ("point", |x| {
+            made(Load::new(0, Action::Moment(1.0))?.at([x, 0.0]))
         }),
         ("point", |x| {
-            Load::new(0, Action::Moment(1.0))?
-                .at([x, 0.0])
-                .map(drop)
-                .map_err(Into::into)
-        }),
-        ("point", |x| {
-            Load::new(0, Action::Moment(1.0))?
-                .at([0.0, x])
-                .map(drop)
-                .map_err(Into::into)
+            made(Load::new(0, Action::Moment(1.0))?.at([0.0, x]))
         }),
     ];
     refused(cases);
@@ -241,59 +110,21 @@ fn nothing_that_is_not_finite_gets_into_a_machine() {
 #[test]
 fn nothing_that_is_not_finite_gets_into_motions_scales_and_requests() {
     let cases: &[Case] = &[
-        ("window", |x| {
-            Window::new(Domain::Turn, [x, 1.0], 0.1)
-                .map(drop)
-                .map_err(Into::into)
-        }),
-        ("window", |x| {
-            Window::new(Domain::Turn, [0.0, x], 0.1)
-                .map(drop)
-                .map_err(Into::into)
-        }),
-        ("window", |x| {
-            Window::new(Domain::Turn, [0.0, 1.0], x)
-                .map(drop)
-                .map_err(Into::into)
-        }),
+        ("window", |x| made(Window::new(Domain::Turn, [x, 1.0], 0.1))),
+        ("window", |x| made(Window::new(Domain::Turn, [0.0, x], 0.1))),
+        ("window", |x| made(Window::new(Domain::Turn, [0.0, 1.0], x))),
         ("scale", |x| scale(x, 1.0, 1.0)),
         ("scale", |x| scale(1.0, x, 1.0)),
         ("scale", |x| scale(1.0, 1.0, x)),
-        ("covering", |x| {
-            Scale::covering(&machine(), x, 1.0, 4)
-                .map(drop)
-                .map_err(Into::into)
-        }),
-        ("covering", |x| {
-            Scale::covering(&machine(), 1.0, x, 4)
-                .map(drop)
-                .map_err(Into::into)
-        }),
-        ("stroke", |x| {
-            Domain::stroke(x, 1.0).map(drop).map_err(Into::into)
-        }),
-        ("stroke", |x| {
-            Domain::stroke(0.0, x).map(drop).map_err(Into::into)
-        }),
-        ("move", |x| {
-            Move::new(Law::Cycloidal, x, 1.0, 1.0)
-                .map(drop)
-                .map_err(Into::into)
-        }),
-        ("move", |x| {
-            Move::new(Law::Cycloidal, 0.0, x, 1.0)
-                .map(drop)
-                .map_err(Into::into)
-        }),
-        ("move", |x| {
-            Move::new(Law::Cycloidal, 0.0, 1.0, x)
-                .map(drop)
-                .map_err(Into::into)
-        }),
+        ("covering", |x| made(Scale::covering(&machine(), x, 1.0, 4))),
+        ("covering", |x| made(Scale::covering(&machine(), 1.0, x, 4))),
+        ("stroke", |x| made(Domain::stroke(x, 1.0))),
+        ("stroke", |x| made(Domain::stroke(0.0, x))),
+        ("move", |x| made(Move::new(Law::Cycloidal, x, 1.0, 1.0))),
+        ("move", |x| made(Move::new(Law::Cycloidal, 0.0, x, 1.0))),
+        ("move", |x| made(Move::new(Law::Cycloidal, 0.0, 1.0, x))),
         ("move f32", |x| {
-            Move::new(Law::Cycloidal, 0.0, 1.0, x as f32)
-                .map(drop)
-                .map_err(Into::into)
+            made(Move::new(Law::Cycloidal, 0.0, 1.0, x as f32))
         }),
         ("law", |x| {
             Law::Trapezoid {
@@ -312,9 +143,7 @@ fn nothing_that_is_not_finite_gets_into_motions_scales_and_requests() {
             .map_err(Into::into)
         }),
         ("spline", |x| {
-            CubicSpline::new([0.0, 0.0, 0.0, x, 0.0, 0.0, 0.0])
-                .map(drop)
-                .map_err(Into::into)
+            made(CubicSpline::new([0.0, 0.0, 0.0, x, 0.0, 0.0, 0.0]))
         }),
         ("request", |x| request(x, 1.0, 1.0)),
         ("request", |x| request(1.0, x, 1.0)),
@@ -336,13 +165,11 @@ fn refused(cases: &[Case]) {
 }
 
 fn scale(torque: f64, speed: f64, inertia: f64) -> Result<(), Error> {
-    Scale::new(Bases {
+    made(Scale::new(Bases {
         torque: torque as f32,
         speed: speed as f32,
         inertia: inertia as f32,
-    })
-    .map(drop)
-    .map_err(Into::into)
+    }))
 }
 
 fn request(torque_error: f64, omega: f64, alpha: f64) -> Result<(), Error> {

@@ -6,6 +6,7 @@ use jred::mechanism::{BuildError, PlanetaryDimensions};
 use jred::number::RangeError;
 use std::f64::consts::TAU;
 
+use crate::support::machines::loaded;
 use crate::support::{assert_near, budget, config, link_of};
 use jred::machine::{Action, Link, Load, Machine, Mechanism, Reducible};
 use jred::mechanism::{DimensionError, Member, Planetary, PlanetaryGears};
@@ -194,13 +195,8 @@ prop_compose! {
         }
         let gear = Planetary::new(gears, input, fixed, links).unwrap();
         let output = index(gear.output());
-        let on = |action| Load::new(output, action).unwrap();
-        let machine = Machine::new(gear)
-            .with_gravity([9.81 * down.cos(), 9.81 * down.sin()])
-            .and_then(|m| m.with_load(on(Action::Moment(load[0]))))
-            .and_then(|m| m.with_load(on(Action::OpposingMoment(load[1]))))
-            .and_then(|m| m.with_load(on(Action::ViscousMoment(load[2]))));
-        Some(machine.unwrap())
+        let loads = [Action::Moment(load[0]), Action::OpposingMoment(load[1]), Action::ViscousMoment(load[2])];
+        Some(loaded(gear, down, output, loads))
     }
 }
 

@@ -5,6 +5,7 @@ use jred::mechanism::BuildError;
 use jred::number::RangeError;
 use std::f64::consts::TAU;
 
+use crate::support::machines::loaded;
 use crate::support::{assert_near, budget, config, link_of};
 use jred::machine::{Action, Link, Load, Machine, Mechanism, Reducible};
 use jred::mechanism::RackAndPinion;
@@ -107,13 +108,8 @@ prop_compose! {
             link_of(mass[0], 0.4 * mass[0] * r * r, [u1, v1]),
             link_of(mass[1], 0.0, [u2, v2]),
         ];
-        let on = |action| Load::new(RACK, action).unwrap();
-        Machine::new(RackAndPinion::new(r, links).unwrap())
-            .with_gravity([9.81 * down.cos(), 9.81 * down.sin()])
-            .and_then(|m| m.with_load(on(Action::Force([load[0], 0.3 * load[0]]))))
-            .and_then(|m| m.with_load(on(Action::OpposingForce(load[1]))))
-            .and_then(|m| m.with_load(on(Action::ViscousForce(load[2]))))
-            .unwrap()
+        let loads = [Action::Force([load[0], 0.3 * load[0]]), Action::OpposingForce(load[1]), Action::ViscousForce(load[2])];
+        loaded(RackAndPinion::new(r, links).unwrap(), down, RACK, loads)
     }
 }
 

@@ -64,9 +64,13 @@ fn motion(omega: f32, alpha: f32) -> MotionState<f32> {
 
 type Case = (&'static str, Becomes, fn(&Press<'_>, f32) -> Becomes);
 
+fn period(model: &Press<'_>) -> Period<f32> {
+    Period::new(0.001, model).unwrap()
+}
+
 fn limits(model: &Press<'_>) -> Limits<f32, 1> {
     let envelope = Envelope::new([[12.0, 8.0]], 8.0, model).unwrap();
-    let period = Period::new(0.001, model).unwrap();
+    let period = period(model);
     Limits::new(envelope, 10.0, 40.0, period, model).unwrap()
 }
 
@@ -80,7 +84,7 @@ fn made(
     deceleration: f32,
     limit: f32,
 ) -> Result<LookAhead<f32, 32>, jred::axis::AxisError> {
-    let period = Period::new(0.001, model).unwrap();
+    let period = period(model);
     let braking = Braking {
         torque,
         deceleration,
@@ -107,16 +111,22 @@ fn governed(model: &Press<'_>, motion: MotionState<f32>, commanded: f32) -> Beco
 
 fn gearbox(
     model: &Press<'_>,
-    gearbox: Gearbox,
+    gearbox: [f32; 3],
 ) -> Result<Transmission<f32>, jred::axis::AxisError> {
-    Transmission::new(gearbox, model)
+    Transmission::new(geared(gearbox), model)
 }
 
-const GEARBOX: Gearbox = Gearbox {
-    ratio: 8.0,
-    efficiency: 0.9,
-    rotor: 0.002,
-};
+/// Ratio, efficiency, rotor inertia (kg·m²).
+const GEARBOX: [f32; 3] = [8.0, 0.9, 0.002];
+
+fn geared([ratio, efficiency, rotor]: [f32; 3]) -> Gearbox {
+    Gearbox {
+        ratio,
+        efficiency,
+        rotor,
+    }
+}
+
 const STROKE: Domain = Domain::Stroke { from: 0.0, to: 0.5 };
 const SCALED: StrokeMounting = StrokeMounting {
     resolution: 1e-6,
@@ -127,6 +137,15 @@ const SCALED: StrokeMounting = StrokeMounting {
 fn followed(model: &Press<'_>, period: f32, ramp: f32) -> Becomes {
     let plan = Plan::from_bytes(include_image!("../../examples/data/press_plan.jred"), model);
     refused(PlanFollower::new(plan.unwrap(), period, ramp, model))
+}
+
+fn knot([t, position, omega, before, after]: [f64; 5]) -> Knot {
+    Knot {
+        t,
+        position,
+        omega,
+        alpha: [before, after],
+    }
 }
 
 fn encoded(knot: Knot, errors: Errors) -> Becomes {
@@ -277,31 +296,13 @@ const CASES: &[Case] = &[
         flagged(found.clipped != 0.0, &[found.torque])
     }),
     ("Transmission::new", Refused, |m, x| {
-        refused(gearbox(
-            m,
-            Gearbox {
-                ratio: x,
-                ..GEARBOX
-            },
-        ))
+        refused(gearbox(m, [x, 0.9, 0.002]))
     }),
     ("Transmission::new", Refused, |m, x| {
-        refused(gearbox(
-            m,
-            Gearbox {
-                efficiency: x,
-                ..GEARBOX
-            },
-        ))
+        refused(gearbox(m, [8.0, x, 0.002]))
     }),
     ("Transmission::new", Refused, |m, x| {
-        refused(gearbox(
-            m,
-            Gearbox {
-                rotor: x,
-                ..GEARBOX
-            },
-        ))
+        refused(gearbox(m, [8.0, 0.9, x]))
     }),
     ("Transmission::to_torque", Carried, |m, x| {
         carried(&[gearbox(m, GEARBOX).unwrap().to_torque(x).value])
@@ -320,44 +321,29 @@ const CASES: &[Case] = &[
     }),
     ("Period::new", Refused, |m, x| refused(Period::new(x, m))),
     ("Period::moved", Finite, |m, x| {
-        let moved = Period::new(0.001, m).unwrap().moved(x);
+        let moved = period(m).moved(x);
         assert!(!x.is_nan() || moved == Phase::default());
         Finite
     }),
     ("Period::gained", Carried, |m, x| {
-        carried(&[Period::new(0.001, m).unwrap().gained(x).value])
+        carried(&[period(m).gained(x).value])
     }),
     ("Period::needed", Carried, |m, x| {
-        carried(&[Period::new(0.001, m).unwrap().needed(x).value])
+        carried(&[period(m).needed(x).value])
     }),
     ("Period::later", Carried, |m, x| {
-        carried(&[Period::new(0.001, m)
-            .unwrap()
-            .later(motion(x, 1.0))
-            .value
-            .omega])
+        carried(&[period(m).later(motion(x, 1.0)).value.omega])
     }),
     ("Period::later", Carried, |m, x| {
-        carried(&[Period::new(0.001, m)
-            .unwrap()
-            .later(motion(1.0, x))
-            .value
-            .omega])
+        carried(&[period(m).later(motion(1.0, x)).value.omega])
     }),
     ("Period::between", Carried, |m, x| {
-        let found = Period::new(0.001, m)
-            .unwrap()
-            .between(Phase::default(), x, 1.0)
-            .value;
+        let found = period(m).between(Phase::default(), x, 1.0).value;
         assert!(!found.omega.is_finite() && !found.alpha.is_finite());
         Carried
     }),
     ("Period::between", Carried, |m, x| {
-        carried(&[Period::new(0.001, m)
-            .unwrap()
-            .between(Phase::default(), 1.0, x)
-            .value
-            .omega])
+        carried(&[period(m).between(Phase::default(), 1.0, x).value.omega])
     }),
     ("Tracker::new", Refused, |_, x| refused(Tracker::new(x))),
     ("Tracker::with_bandwidth", Refused, |_, x| {
@@ -406,20 +392,14 @@ const CASES: &[Case] = &[
         refused(Envelope::new([[12.0, 8.0]], x, m))
     }),
     ("Envelope::of_motor", Refused, |m, x| {
-        let gearbox = Gearbox {
-            rotor: 0.0,
-            ..GEARBOX
-        };
+        let gearbox = geared([8.0, 0.9, 0.0]);
         refused(Envelope::of_motor([[x, 8.0]], 8.0, gearbox, m))
             .max(refused(Envelope::of_motor([[12.0, x]], 8.0, gearbox, m)))
             .max(refused(Envelope::of_motor([[12.0, 8.0]], x, gearbox, m)))
             .max(refused(Envelope::of_motor(
                 [[12.0, 8.0]],
                 8.0,
-                Gearbox {
-                    ratio: x,
-                    ..gearbox
-                },
+                geared([x, 0.9, 0.0]),
                 m,
             )))
     }),
@@ -480,43 +460,16 @@ const CASES: &[Case] = &[
         refused(with_ramp(&mut words, -x.abs()))
     }),
     ("encode", Refused, |_, x| {
-        let wide = f64::from(x);
-        let (knot, none) = (
-            Knot {
-                t: 1.0,
-                ..Knot::default()
-            },
-            Errors::default(),
-        );
-        encoded(Knot { t: wide, ..knot }, none)
-            .max(encoded(
-                Knot {
-                    position: wide,
-                    ..knot
-                },
-                none,
-            ))
-            .max(encoded(
-                Knot {
-                    omega: wide,
-                    ..knot
-                },
-                none,
-            ))
-            .max(encoded(
-                Knot {
-                    alpha: [wide, 0.0],
-                    ..knot
-                },
-                none,
-            ))
-            .max(encoded(
-                Knot {
-                    alpha: [0.0, wide],
-                    ..knot
-                },
-                none,
-            ))
+        let x = f64::from(x);
+        let time = encoded(knot([x, 0.0, 0.0, 0.0, 0.0]), Errors::default());
+        let others = [
+            [1.0, x, 0.0, 0.0, 0.0],
+            [1.0, 0.0, x, 0.0, 0.0],
+            [1.0, 0.0, 0.0, x, 0.0],
+            [1.0, 0.0, 0.0, 0.0, x],
+        ];
+        let others = others.map(|values| encoded(knot(values), Errors::default()));
+        others.into_iter().fold(time, Becomes::max)
     }),
 ];
 

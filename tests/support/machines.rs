@@ -1,6 +1,6 @@
 //! Machines to test with: random slider-cranks, and a machine whose curves are plain sines.
 use jred::Domain;
-use jred::machine::{Action, Link, Load, Machine, MassProperties, Reducible, Reduction};
+use jred::machine::{Action, Link, Load, Machine, MassProperties, Mechanism, Reducible, Reduction};
 use jred::mechanism::{Branch, SliderCrank, SliderCrankDimensions};
 use proptest::prelude::*;
 
@@ -166,6 +166,21 @@ impl Reducible for Wave {
         .with_viscous(self.viscous)
         .with_coulomb(self.coulomb))
     }
+}
+
+/// A mechanism in gravity of this direction (rad), with these loads on one link.
+pub(crate) fn loaded<M: Mechanism>(
+    mechanism: M,
+    down: f64,
+    link: usize,
+    loads: [Action; 3],
+) -> Machine<M> {
+    let gravity = [9.81 * down.cos(), 9.81 * down.sin()];
+    let machine = Machine::new(mechanism).with_gravity(gravity).unwrap();
+    loads.into_iter().fold(machine, |machine, action| {
+        let load = Load::new(link, action).unwrap();
+        machine.with_load(load).unwrap()
+    })
 }
 
 /// The slider-crank of the golden data, with its loads.

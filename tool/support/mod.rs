@@ -58,7 +58,7 @@ pub(crate) fn rows<const N: usize>(table: &str) -> Vec<[String; N]> {
     let mut rows: Vec<String> = Vec::new();
     for line in lines.filter(|line| !line.is_empty() && !line.starts_with("//")) {
         match rows.last_mut() {
-            Some(row) if !line.contains("=>") => *row += &format!(" {line}"),
+            Some(row) if !line.contains("=>") => row.extend([" ", line]),
             _ => rows.push(line.to_owned()),
         }
     }

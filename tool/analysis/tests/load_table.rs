@@ -9,16 +9,11 @@ use jred_analysis::inspect::Findings;
 use jred_file::model::machine::MachineFile;
 use jred_file::number::numerics::integral;
 
-use crate::reading::parse_with as parse;
+use crate::reading::{oblique_slider_crank, parse_with as parse};
 use crate::support::{near, within};
 
 fn crank(mass: &str, loads: &str, csv: &str) -> MachineFile {
-    let machine = format!(
-        "gravity = [\"3 m/s^2\", \"-9 m/s^2\"]\n[mechanism]\ntype = \"slider-crank\"\n\
-         crank = {{ length = \"90 mm\", mass = \"1 kg\", inertia = \"20 kg cm^2\" }}\n\
-         rod = {{ length = \"300 mm\", mass = \"0.8 kg\", inertia = \"80 kg cm^2\", com = [\"120 mm\", \"0 mm\"] }}\n\
-         slider = {{ mass = \"{mass}\" }}\n{loads}"
-    );
+    let machine = oblique_slider_crank(mass, loads);
     parse(&machine, &[("loads.csv", csv)]).unwrap()
 }
 

@@ -5,23 +5,9 @@ use std::f64::consts::PI;
 use jred_analysis::duty::Duty;
 use jred_analysis::warnings::warnings;
 
-use crate::reading::{read, text_of};
-
-/// A belt drive, whose drive link turns, with these segments.
-fn turning(kind: &str, segments: &[&str]) -> String {
-    let mut text = format!(
-        "gravity = [\"0 m/s^2\", \"0 m/s^2\"]\n[mechanism]\ntype = \"belt\"\n\
-         driver = {{ radius = \"2 cm\", inertia = \"1 kg cm^2\" }}\n\
-         driven = {{ radius = \"5 cm\", inertia = \"6 kg cm^2\" }}\n\
-         [motion]\ntype = \"{kind}\"\n"
-    );
-    for segment in segments {
-        text.push_str("[[motion.segment]]\n");
-        text.push_str(&segment.replace("; ", "\n"));
-        text.push('\n');
-    }
-    text
-}
+use crate::reading::{belt_motion, read, with_motion};
+use crate::support::press::slider_derivatives;
+use crate::support::within;
 
 fn steady(from: f64) -> String {
     format!("law = \"constant-speed\"; speed = \"60 rpm\"; move = \"{from} deg\"")
@@ -31,7 +17,7 @@ fn steady(from: f64) -> String {
 #[test]
 fn an_overshoot_is_a_warning_with_a_cure() {
     let said = |segments: &[&str]| {
-        let file = read(&turning("point-to-point", segments));
+        let file = read(&belt_motion("point-to-point", segments));
         warnings(&file).unwrap()
     };
     let start = steady(20.0);
@@ -59,38 +45,11 @@ fn an_overshoot_is_a_warning_with_a_cure() {
     assert!(said(&[&start, &level, jump]).is_empty());
 }
 
-/// The machine `name` with another motion.
-fn with(name: &str, motion: &str) -> String {
-    let text = text_of(name);
-    let head = text.split("\n[motion]").next().unwrap();
-    format!("{head}\n[motion]\n{}\n", motion.replace("; ", "\n"))
-}
-
-/// x and its derivatives of a centric slider-crank, from its closed form: x = r·cos φ + √(l² − r²·sin² φ).
-fn slider(phi: f64) -> [f64; 3] {
-    let (r, l) = (0.03_f64, 0.18_f64);
-    let (sin, cos) = phi.sin_cos();
-    let q = (l * l - r * r * sin * sin).sqrt();
-    // q·q′ = −r²·sin φ·cos φ
-    let slope = -r * r * sin * cos / q;
-    let bend = (-r * r * (cos * cos - sin * sin) - slope * slope) / q;
-    [r * cos + q, -r * sin + slope, -r * cos + bend]
-}
-
-#[track_caller]
-fn near(what: &str, found: f64, expected: f64, tolerance: f64) {
-    let error = (found - expected).abs();
-    assert!(
-        error <= tolerance,
-        "{what}: {found} is {error:e} off {expected}"
-    );
-}
-
 /// The duty of a table that is indexed is the same, whether its motion or that of its motor shaft is given, corners included.
 #[test]
 fn a_duty_does_not_depend_on_what_is_prescribed() {
     let duty = |motion: &str| {
-        let file = read(&with("turntable.toml", motion));
+        let file = read(&with_motion("turntable.toml", motion));
         Duty::new(&file, file.motion.as_ref().unwrap(), 400).unwrap()
     };
     let segments = |way: &str| {
@@ -107,9 +66,9 @@ fn a_duty_does_not_depend_on_what_is_prescribed() {
     let most = shaft.figures(|i| i.input_torque).max.abs();
     assert!(most > 1.0);
     for (a, b) in table.instants.iter().zip(&shaft.instants) {
-        near("t", a.t, b.t, 1e-15);
-        near("torque", a.input_torque, b.input_torque, 1e-11 * most);
-        near("speed", a.input_speed, b.input_speed, 1e-11 * 60.0);
+        within("t", a.t, b.t, 1e-15);
+        within("torque", a.input_torque, b.input_torque, 1e-11 * most);
+        within("speed", a.input_speed, b.input_speed, 1e-11 * 60.0);
     }
 }
 
@@ -123,7 +82,7 @@ fn near_a_dead_centre_is_a_warning() {
              [[motion.segment]]; law = \"modified-sine\"; move = \"-{0} mm\"; duration = \"0.2 s\"",
             30.0 - distance
         );
-        let file = read(&with("press.toml", &motion));
+        let file = read(&with_motion("press.toml", &motion));
         let found = warnings(&file).unwrap();
         found
             .into_iter()
@@ -134,8 +93,8 @@ fn near_a_dead_centre_is_a_warning() {
     // Where x = 209.99 mm: (x² + r² − l²)/(2·x·r) = cos φ by the law of cosines.
     let (r, l, x) = (0.03f64, 0.18f64, 0.20999f64);
     let phi = ((x * x + r * r - l * l) / (2.0 * x * r)).acos();
-    let slope = slider(phi)[1].abs();
-    let most = (0..=9000).map(|k| slider(f64::from(k) * PI / 9000.0)[1].abs());
+    let slope = slider_derivatives(phi)[1].abs();
+    let most = (0..=9000).map(|k| slider_derivatives(f64::from(k) * PI / 9000.0)[1].abs());
     let most = most.fold(0.0, f64::max);
     assert!(most / slope > 20.0);
     for words in [

@@ -7,7 +7,7 @@ use jred_analysis::simulate::simulate;
 
 use crate::reading::{machine, parse_in, read};
 use crate::support::machines::{LIFT, LIFT_MOTION};
-use crate::support::{Folder, budget};
+use crate::support::{Folder, budget, close};
 
 /// θ′, and cos θ, of the lift at s.
 fn boom(s: f64) -> [f64; 2] {
@@ -16,23 +16,14 @@ fn boom(s: f64) -> [f64; 2] {
     [s / (0.3 * sin), cos]
 }
 
-#[track_caller]
-fn within(found: f64, expected: f64, tolerance: f64) {
-    let error = (found - expected).abs();
-    assert!(
-        error <= tolerance,
-        "{found} is {error:e} from {expected}, more than {tolerance:e}"
-    );
-}
-
 #[test]
 fn the_duty_of_a_sliding_drive() {
     let file = read(&format!("{LIFT}{LIFT_MOTION}"));
     let duty = Duty::new(&file, file.motion.as_ref().unwrap(), 400).unwrap();
     // Up and down without friction: no energy is left over.
-    within(duty.integral(|i| i.terms.total() * i.omega), 0.0, 1e-6);
+    close(duty.integral(|i| i.terms.total() * i.omega), 0.0, 1e-6);
     let hold = 100.0 * 9.81 * 0.8 * boom(0.4)[0] * boom(0.4)[1];
-    within(duty.hold_torque, hold, 1e-9 * hold);
+    close(duty.hold_torque, hold, 1e-9 * hold);
 }
 
 #[test]
@@ -75,7 +66,7 @@ fn free_motions_of_a_sliding_drive() {
         .map(|row| row[6].unwrap() + row[7].unwrap())
         .collect();
     for energy in &total {
-        within(*energy, total[0], budget::CONSERVED * total[0].abs());
+        close(*energy, total[0], budget::CONSERVED * total[0].abs());
     }
     // A force that the weight cannot hold runs against the end of the stroke.
     let against = free

@@ -13,19 +13,17 @@ use jred_file::model::axis::Axis;
 use jred_file::model::coordinate::Coordinate;
 use jred_file::model::machine::MachineFile;
 
-use crate::support::{near, press_text};
+use crate::reading::oblique_slider_crank;
+use crate::support::{edited, near, press_text};
 
 fn parse(text: &str) -> Result<MachineFile, String> {
     reader::parse("machine.toml", text, Path::new("")).map_err(|report| format!("{report:?}"))
 }
 
 fn crank(stroke: &str, more: &str) -> String {
-    format!(
-        "gravity = [\"3 m/s^2\", \"-9 m/s^2\"]\n[mechanism]\ntype = \"slider-crank\"\n{stroke}\n\
-         crank = {{ length = \"90 mm\", mass = \"1 kg\", inertia = \"20 kg cm^2\" }}\n\
-         rod = {{ length = \"300 mm\", mass = \"0.8 kg\", inertia = \"80 kg cm^2\", com = [\"120 mm\", \"0 mm\"] }}\n\
-         slider = {{ mass = \"4 kg\" }}\n{more}\n"
-    )
+    let kind = "type = \"slider-crank\"";
+    let text = oblique_slider_crank("4 kg", &format!("{more}\n"));
+    edited(&text, kind, &format!("{kind}\n{stroke}"))
 }
 
 const SWING: &str = "[motion]\ntype = \"cycle\"\nstart = \"300 deg\"\n\

@@ -11,13 +11,5 @@ mod values;
 mod wheels;
 
 use crate::reading::{parse, read, refuses, refuses_edit, refuses_edits};
+use crate::support::close;
 use crate::support::machines::FOUR_BAR;
-
-#[track_caller]
-fn within(found: f64, expected: f64, tolerance: f64) {
-    let error = (found - expected).abs();
-    assert!(
-        error <= tolerance,
-        "{found} is {error:e} from {expected}, more than {tolerance:e}"
-    );
-}

@@ -6,7 +6,7 @@ mod chosen;
 mod sets;
 
 use crate::reading::refuses;
-use crate::support::press_text;
+use crate::support::{phrases, press_text, rows};
 use jred_file::model::rule::Rule;
 use jred_file::model::rules::{Finding, RuleSet, RuleVerdict};
 
@@ -30,63 +30,32 @@ fn a_figure_at_its_limit_satisfies_the_rule() {
 
 #[test]
 fn a_wrong_tool_is_refused() {
-    for (section, words) in [
-        (
-            "[tool]\nplay = \"0.1 mm\"",
-            &["neither `point` nor `link`"][..],
-        ),
-        (
-            "[tool]\npoint = \"slidr\"\nplay = \"0.1 mm\"",
-            &["slidr", "slider"],
-        ),
-        ("[tool]\npoint = \"slider\"", &["`play`", "missing"]),
-        (
-            "[tool]\npoint = \"slider\"\nplay = \"0.1 deg\"",
-            &["`play`", "a length"],
-        ),
-        (
-            "[tool]\npoint = \"slider\"\nplay = \"0 mm\"",
-            &["`play`", "greater than zero"],
-        ),
-        (
-            "[tool]\nlink = \"slider\"\nplay = \"0.1 deg\"",
-            &["does not turn"],
-        ),
-        (
-            "[tool]\npoint = \"crank\"\nplay = \"0.1 mm\"",
-            &["does not move"],
-        ),
-        (
-            "[tool]\npoint = \"slider\"\nlink = \"rod\"\nplay = \"0.1 mm\"",
-            &["has both `point` and `link`"],
-        ),
-    ] {
-        refuses(&format!("{}\n{section}\n", press_text()), words);
+    let cases = r#"
+        [tool]\nplay = "0.1 mm" => neither `point` nor `link`
+        [tool]\npoint = "slidr"\nplay = "0.1 mm" => slidr | slider
+        [tool]\npoint = "slider" => `play` | missing
+        [tool]\npoint = "slider"\nplay = "0.1 deg" => `play` | a length
+        [tool]\npoint = "slider"\nplay = "0 mm" => `play` | greater than zero
+        [tool]\nlink = "slider"\nplay = "0.1 deg" => does not turn
+        [tool]\npoint = "crank"\nplay = "0.1 mm" => does not move
+        [tool]\npoint = "slider"\nlink = "rod"\nplay = "0.1 mm" => has both `point` and `link`
+    "#;
+    for [section, words] in rows(cases) {
+        refuses(&format!("{}\n{section}\n", press_text()), &phrases(&words));
     }
 }
 
 #[test]
 fn a_wrong_stiffness_is_refused() {
-    for (section, words) in [
-        ("[stiffness]", &["neither `shaft` nor `backlash`"][..]),
-        (
-            "[stiffness]\nshaft = \"0 N m/rad\"",
-            &["`shaft`", "greater than zero"],
-        ),
-        (
-            "[stiffness]\nshaft = \"12 kN\"",
-            &["`shaft`", "torsional stiffness"],
-        ),
-        (
-            "[stiffness]\nbacklash = \"-1 deg\"",
-            &["`backlash`", "negative"],
-        ),
-        (
-            "[stiffness]\nshaft = \"12 kN m/rad\"\nat = \"crank\"",
-            &["`at`", "drive-link"],
-        ),
-        ("[stiffness]\nshafts = \"12 kN m/rad\"", &["shafts"]),
-    ] {
-        refuses(&format!("{}\n{section}\n", press_text()), words);
+    let cases = r#"
+        [stiffness] => neither `shaft` nor `backlash`
+        [stiffness]\nshaft = "0 N m/rad" => `shaft` | greater than zero
+        [stiffness]\nshaft = "12 kN" => `shaft` | torsional stiffness
+        [stiffness]\nbacklash = "-1 deg" => `backlash` | negative
+        [stiffness]\nshaft = "12 kN m/rad"\nat = "crank" => `at` | drive-link
+        [stiffness]\nshafts = "12 kN m/rad" => shafts
+    "#;
+    for [section, words] in rows(cases) {
+        refuses(&format!("{}\n{section}\n", press_text()), &phrases(&words));
     }
 }

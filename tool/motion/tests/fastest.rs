@@ -39,7 +39,7 @@ fn machine(text: &str) -> MachineFile {
 }
 
 /// A motor without rotor, friction and gearbox, whose torque falls linearly from rest to its largest speed.
-fn motor(torques: [f64; 2], speed: f64) -> Actuator {
+pub(crate) fn motor(torques: [f64; 2], speed: f64) -> Actuator {
     let motor = Motor {
         peak_curve: vec![[0.0, torques[0]], [speed, torques[1]]],
         ..Motor::default()
@@ -48,6 +48,24 @@ fn motor(torques: [f64; 2], speed: f64) -> Actuator {
         coefficients: Coefficients([0.0, 1.0, 1.0, 0.0, 0.0]),
         ratio: 1.0,
         envelope: Envelope::of(&motor),
+    }
+}
+
+/// Limited jerk, without acceleration at the ends.
+fn jerk_limits(jerk: f64) -> MoveLimits {
+    MoveLimits {
+        jerk: Some(jerk),
+        level_ends: true,
+        ..MoveLimits::default()
+    }
+}
+
+/// The same with a limited rate of the motor torque.
+fn torque_rate_limits(rate: f64) -> MoveLimits {
+    MoveLimits {
+        torque_rate: Some(rate),
+        level_ends: true,
+        ..MoveLimits::default()
     }
 }
 

@@ -8,11 +8,12 @@ use jred_analysis::checked;
 use jred_analysis::duty::Duty;
 use jred_file::model::rule::Rule;
 use jred_file::model::rules::RuleVerdict;
-use jred_sizing::catalogue::{Catalogue, Drive};
+use jred_sizing::catalogue::Catalogue;
 use jred_sizing::cycle::Cycle;
 use jred_sizing::judge::check::Check;
 use jred_sizing::judge::{Assessment, Context};
 
+use crate::direct;
 use crate::support::{Folder, near, within};
 
 /// 3000 rpm in rad/s.
@@ -106,11 +107,7 @@ inertia_ratio_warning = {ratio}
         let catalogue = Catalogue::load(Some(&path), None).unwrap();
         let prepared = catalogue.prepare(&file.site);
         let cycle = Cycle::new(&duty);
-        let drive = Drive {
-            motor: &catalogue.motors[0],
-            gearbox: None,
-            amplifier: None,
-        };
+        let drive = direct(&catalogue.motors[0]);
         let context = Context::new(&cycle, &file.site, drive, &prepared[0]);
         Assessment::new(&context, &file.rules).checks
     }

@@ -9,6 +9,7 @@ use jred_file::model::machine::MachineFile;
 use jred_file::model::schedule::ScheduleInstant;
 
 use super::{G, PINION, RACK, RADIUS, WAY, duty, machine, work};
+use crate::reading::oblique_slider_crank;
 use crate::support::{Folder, near, within};
 
 fn payload(keys: &str) -> String {
@@ -70,14 +71,10 @@ fn at_speed_it_brings_its_energy() {
 #[test]
 fn on_a_rod_it_is_the_payload_of_a_table() {
     let text = |more: &str| {
-        format!(
-            "gravity = [\"3 m/s^2\", \"-9 m/s^2\"]\n[mechanism]\ntype = \"slider-crank\"\n\
-             crank = {{ length = \"90 mm\", mass = \"1 kg\", inertia = \"20 kg cm^2\" }}\n\
-             rod = {{ length = \"300 mm\", mass = \"0.8 kg\", inertia = \"80 kg cm^2\", com = [\"120 mm\", \"0 mm\"] }}\n\
-             slider = {{ mass = \"4 kg\" }}\n{more}\n[motion]\ntype = \"cycle\"\n\
-             [[motion.segment]]\nlaw = \"polynomial-345\"\nmove = \"360 deg\"\nduration = \"1 s\"\n\
-             [[motion.segment]]\ndwell = \"0.2 s\"\n"
-        )
+        let motion = "[motion]\ntype = \"cycle\"\n\
+                      [[motion.segment]]\nlaw = \"polynomial-345\"\nmove = \"360 deg\"\nduration = \"1 s\"\n\
+                      [[motion.segment]]\ndwell = \"0.2 s\"\n";
+        oblique_slider_crank("4 kg", &format!("{more}\n{motion}"))
     };
     let folder = Folder::new();
     let mut csv = String::from("Position [deg],Payload [kg]\n");

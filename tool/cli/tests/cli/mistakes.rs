@@ -68,7 +68,7 @@ fn what_a_command_needs_is_named() {
 #[test]
 fn wrong_command_lines() {
     let press = format!("'{}'", press_file().display());
-    let cases = r#"
+    let cases = "
         => Usage
         weigh PRESS => unrecognized subcommand | Usage
         size => <FILE>
@@ -85,7 +85,7 @@ fn wrong_command_lines() {
         export PRESS --torque-error '1 N m' --layout linear => linear | auto | spline16 | quadratic
         export PRESS --torque-error '1 N m' --reciprocal maybe => maybe | yes | no
         export PRESS --max-bytes -1 => -1
-    "#;
+    ";
     for [arguments, words] in rows(cases) {
         let arguments = arguments.replace("PRESS", &press);
         let done = run(&typed(&arguments)).ends(2);
@@ -99,7 +99,7 @@ fn wrong_quantities_on_the_command_line() {
     let folder = Folder::new();
     let out = folder.path("out");
     let ok = ["--torque-error", "1 N m", "--omega", "90 rpm"];
-    let cases = r#"
+    let cases = "
         --torque-error => 0.5 => no unit | N m
         --torque-error => -1 N m => greater than zero
         --torque-error => 0 N m => greater than zero
@@ -118,7 +118,7 @@ fn wrong_quantities_on_the_command_line() {
         --max-cells => 3 => 4
         --max-cells => 65536 => 65535
         --max-bytes => many => many | --max-bytes
-    "#;
+    ";
     for [option, value, words] in rows(cases) {
         let mut more: Vec<String> = ok.map(String::from).into();
         if let Some(at) = more.iter().position(|o| *o == option) {

@@ -3,6 +3,8 @@
 use std::fmt::Write;
 
 use super::{of_curves, parse};
+use crate::reading::belt_drive;
+use crate::support::{phrases, rows};
 
 fn curves(header: &str, row: impl Fn(i32) -> String) -> String {
     let mut csv = format!("{header}\n");
@@ -26,47 +28,32 @@ fn refused<T>(result: Result<T, String>, words: &[&str]) {
 fn curves_that_cannot_be_meant_are_refused() {
     let header = "phi [deg],J [kg m^2]";
     let plain = |k: i32| format!("{},{}", 30 * k, 0.5 + 0.01 * f64::from(k % 2));
-    let but = |row: i32, line: &'static str| {
-        move |k: i32| if k == row { line.to_owned() } else { plain(k) }
-    };
     let turn = |csv: String| of_curves(&csv, "turn").map(|_| ());
     assert!(turn(curves(header, plain)).is_ok());
-    refused(
-        turn(curves(header, but(4, "120,-0.5"))),
-        &[
-            "row 5",
-            "J = -0.5 kg m^2",
-            "greater than zero",
-            "curves.csv",
-        ],
-    );
-    refused(
-        turn(curves(header, but(4, "80,0.5"))),
-        &[
-            "position does not increase",
-            "row 5 has 80 deg after 90 deg",
-        ],
-    );
-    refused(
-        turn(curves(header, but(4, "90.00001,0.5"))),
-        &["row 5", "too close", "remove one"],
-    );
-    refused(
-        turn(curves(header, but(4, "120,nan"))),
-        &["row 5", "\"nan\"", "J [kg m^2]", "not a finite number"],
-    );
-    refused(
-        turn(curves(header, but(4, "120,"))),
-        &["row 5", "leave no cell empty"],
-    );
-    refused(
-        turn(curves(header, but(4, "120,0,5"))),
-        &["row 5 has 3 values", "decimals have a point"],
-    );
-    refused(
-        turn(curves(header, but(4, "120,1e12"))),
-        &["row 5", "too large for a moment of inertia"],
-    );
+    let wrong_rows = r#"
+        120,-0.5 => row 5 | J = -0.5 kg m^2 | greater than zero | curves.csv
+        80,0.5 => position does not increase | row 5 has 80 deg after 90 deg
+        90.00001,0.5 => row 5 | too close | remove one
+        120,nan => row 5 | "nan" | J [kg m^2] | not a finite number
+        120, => row 5 | leave no cell empty
+        120,0,5 => row 5 has 3 values | decimals have a point
+        120,1e12 => row 5 | too large for a moment of inertia
+    "#;
+    for [line, words] in rows(wrong_rows) {
+        let row = |k| if k == 4 { line.clone() } else { plain(k) };
+        refused(turn(curves(header, row)), &phrases(&words));
+    }
+    let wrong_headers = r#"
+        phi [deg],J [kg] => "J [kg]" must be a moment of inertia | is a mass
+        phi [deg],J => "J" has no unit | J [kg m^2]
+        phi [deg],Jot [kg m^2] => unknown column "Jot [kg m^2]"
+        phi [deg],phi [rad] => duplicate column "phi"
+        phi [deg],T [N m] => the column for the reduced inertia is missing
+        s [mm],m [kg] => drive link slides | range = "stroke"
+    "#;
+    for [header, words] in rows(wrong_headers) {
+        refused(turn(curves(&header, plain)), &phrases(&words));
+    }
     refused(
         turn(curves(header, |k| format!("{},0.5", 20 * k))),
         &["cover 220 deg of a turn", "range = \"stroke\""],
@@ -80,32 +67,8 @@ fn curves_that_cannot_be_meant_are_refused() {
         &["row 13", "J = 0.7 kg m^2", "row 1, which has 0.5 kg m^2"],
     );
     refused(
-        turn(curves("phi [deg],J [kg]", plain)),
-        &["\"J [kg]\" must be a moment of inertia", "is a mass"],
-    );
-    refused(
-        turn(curves("phi [deg],J", plain)),
-        &["\"J\" has no unit", "J [kg m^2]"],
-    );
-    refused(
-        turn(curves("phi [deg],Jot [kg m^2]", plain)),
-        &["unknown column \"Jot [kg m^2]\""],
-    );
-    refused(
-        turn(curves("phi [deg],phi [rad]", plain)),
-        &["duplicate column \"phi\""],
-    );
-    refused(
-        turn(curves("phi [deg],T [N m]", plain)),
-        &["the column for the reduced inertia is missing"],
-    );
-    refused(
         turn("phi [deg],J [kg m^2]\n0,1\n90,1\n".to_owned()),
         &["has 2 rows", "at least 5"],
-    );
-    refused(
-        turn(curves("s [mm],m [kg]", plain)),
-        &["drive link slides", "range = \"stroke\""],
     );
     // Steep rows between which the curve would fall below zero.
     let steep = |k: i32| format!("{},{}", 30 * k, if k == 5 { 50.0 } else { 0.01 });
@@ -128,14 +91,7 @@ fn curves_that_cannot_be_meant_are_refused() {
 
 #[test]
 fn tables_of_loads_that_cannot_be_meant_are_refused() {
-    let machine = |more: &str| {
-        format!(
-            "gravity = [\"0 m/s^2\", \"0 m/s^2\"]\n[mechanism]\ntype = \"belt\"\n\
-             driver = {{ radius = \"2 cm\", inertia = \"1 kg cm^2\" }}\n\
-             driven = {{ radius = \"5 cm\", inertia = \"6 kg cm^2\" }}\n\
-             [[load]]\ntable = \"loads.csv\"\n{more}"
-        )
-    };
+    let machine = |more: &str| belt_drive(&format!("[[load]]\ntable = \"loads.csv\"\n{more}"));
     let read = |csv: &str, more: &str| parse(&machine(more), &[("loads.csv", csv)]).map(|_| ());
     let rows = |value: &str| {
         (0..12).fold(String::new(), |text, k| {
@@ -171,12 +127,9 @@ fn tables_of_loads_that_cannot_be_meant_are_refused() {
 #[test]
 fn recordings_that_cannot_be_meant_are_refused() {
     let machine = |more: &str| {
-        format!(
-            "gravity = [\"0 m/s^2\", \"0 m/s^2\"]\n[mechanism]\ntype = \"belt\"\n\
-             driver = {{ radius = \"2 cm\", inertia = \"1 kg cm^2\" }}\n\
-             driven = {{ radius = \"5 cm\", inertia = \"6 kg cm^2\" }}\n\
-             [motion]\ntype = \"profile\"\nfile = \"log.csv\"\n{more}"
-        )
+        belt_drive(&format!(
+            "[motion]\ntype = \"profile\"\nfile = \"log.csv\"\n{more}"
+        ))
     };
     let read = |csv: &str, more: &str| parse(&machine(more), &[("log.csv", csv)]).map(|_| ());
     let steady = "t [s],omega [rpm]\n0,60\n0.25,60\n0.5,60\n0.75,60\n1,60\n";

@@ -7,26 +7,18 @@ use jred::machine::Reducible;
 use jred_file::model::machine::MachineFile;
 
 use super::parse;
+use crate::reading::oblique_slider_crank;
 
 const CRANK: f64 = 0.09;
 const ROD: f64 = 0.3;
 
-fn machine(slider: &str, loads: &str) -> String {
-    format!(
-        "gravity = [\"3 m/s^2\", \"-9 m/s^2\"]\n[mechanism]\ntype = \"slider-crank\"\n\
-         crank = {{ length = \"90 mm\", mass = \"1 kg\", inertia = \"20 kg cm^2\" }}\n\
-         rod = {{ length = \"300 mm\", mass = \"0.8 kg\", inertia = \"80 kg cm^2\", com = [\"120 mm\", \"0 mm\"] }}\n\
-         slider = {{ mass = \"{slider}\" }}\n{loads}"
-    )
-}
-
 fn with(load: &str, csv: &str) -> MachineFile {
     let load = format!("[[load]]\ntable = \"loads.csv\"\n{load}\n");
-    parse(&machine("4 kg", &load), &[("loads.csv", csv)]).unwrap()
+    parse(&oblique_slider_crank("4 kg", &load), &[("loads.csv", csv)]).unwrap()
 }
 
 fn plain(slider: &str, loads: &str) -> MachineFile {
-    parse(&machine(slider, loads), &[]).unwrap()
+    parse(&oblique_slider_crank(slider, loads), &[]).unwrap()
 }
 
 fn places() -> impl Iterator<Item = f64> {

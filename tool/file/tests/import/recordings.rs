@@ -8,17 +8,15 @@ use rand::rngs::ChaCha8Rng;
 use rand::{RngExt as _, SeedableRng as _};
 
 use super::parse;
+use crate::reading::belt_drive;
 use crate::support::budget;
 
 /// A belt drive that is the same after whole turns only.
 fn machine(more: &str) -> String {
-    format!(
-        "gravity = [\"0 m/s^2\", \"0 m/s^2\"]\n[mechanism]\ntype = \"belt\"\n\
-         driver = {{ radius = \"2 cm\", inertia = \"1 kg cm^2\" }}\n\
-         driven = {{ radius = \"5 cm\", inertia = \"6 kg cm^2\" }}\n\
-         [[load]]\non = \"shaft-1\"\nopposing_moment = \"1 N m\"\nbetween = [\"20 deg\", \"60 deg\"]\nramp = \"5 deg\"\n\
+    belt_drive(&format!(
+        "[[load]]\non = \"shaft-1\"\nopposing_moment = \"1 N m\"\nbetween = [\"20 deg\", \"60 deg\"]\nramp = \"5 deg\"\n\
          [motion]\ntype = \"profile\"\nfile = \"log.csv\"\n{more}"
-    )
+    ))
 }
 
 fn read(csv: &str, more: &str) -> Result<Motion, String> {

@@ -3,7 +3,7 @@
 use jred::machine::{Jointed as _, Mechanism as _};
 use jred::mechanism::cam::contact_force;
 
-use super::{refuses_edit, refuses_edits, within};
+use super::{close, refuses_edit, refuses_edits};
 use crate::reading::machine;
 
 const JAW: &str = include_str!("../../../../machines/linkage-cam-lever.toml");
@@ -16,8 +16,8 @@ fn the_jaw_follows_its_cam() {
     // In the first dwell the roller is on the base circle: the triangle of the pivots.
     let rest = std::f64::consts::PI
         - ((0.12_f64.powi(2) + 0.1_f64.powi(2) - 0.065_f64.powi(2)) / (2.0 * 0.12 * 0.1)).acos();
-    within(frames(30.0)[1].psi.value, rest, 1e-12);
-    within(
+    close(frames(30.0)[1].psi.value, rest, 1e-12);
+    close(
         frames(200.0)[1].psi.value,
         rest - 20_f64.to_radians(),
         1e-12,
@@ -33,12 +33,12 @@ fn the_jaw_follows_its_cam() {
     };
     for deg in [30.0, 100.0, 140.0, 200.0, 290.0] {
         let frames = frames(deg);
-        within(frames[3].x.value, at(frames[1].psi.value), 1e-12);
+        close(frames[3].x.value, at(frames[1].psi.value), 1e-12);
     }
-    within(at(rest - 20_f64.to_radians()) - at(rest), 0.05, 1e-3);
+    close(at(rest - 20_f64.to_radians()) - at(rest), 0.05, 1e-3);
     // The outline is the profile, and the contact presses at rest.
     let outline = jaw.outlines(0).next().unwrap();
-    within(outline[0][0].hypot(outline[0][1]), 0.052, 1e-12);
+    close(outline[0][0].hypot(outline[0][1]), 0.052, 1e-12);
     let contact = 5;
     assert_eq!(jaw.joint_names()[contact], "cam contact");
     assert!(contact_force(&file.machine, contact, 0.5, 0.0, 0.0).unwrap() > 100.0);
@@ -80,8 +80,8 @@ joint = [
     // θ = φ − 30° − 90°.
     for (deg, lift) in [(120.0, 0.0), (300.0, 0.012), (210.0, 0.006), (30.0, 0.006)] {
         let plunger = cam.frames(f64::to_radians(deg)).unwrap()[1];
-        within(plunger.x.value, 0.01 - rest - lift, 1e-12);
-        within(plunger.y.value, 0.025, 1e-12);
+        close(plunger.x.value, 0.01 - rest - lift, 1e-12);
+        close(plunger.y.value, 0.025, 1e-12);
     }
     assert!(cam.contacts().is_empty());
     let edits = r#"

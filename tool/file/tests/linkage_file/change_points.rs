@@ -5,7 +5,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use jred::machine::Reducible as _;
 use jred::machine::{Jointed as _, Mechanism as _};
 
-use super::{read, refuses_edits};
+use super::{close, read, refuses_edits};
 use crate::reading::machine;
 
 const ELLIPTIC: &str = include_str!("../../../../machines/elliptic-drive.toml");
@@ -31,14 +31,6 @@ joint = [
 ]
 "#;
 
-#[track_caller]
-fn near(found: f64, expected: f64, error: f64) {
-    assert!(
-        (found - expected).abs() <= error,
-        "{found} is not {expected}"
-    );
-}
-
 /// Ellipses that roll on each other: ψ′ = −(d² − a²)/(d² + a² − 2·a·d·cos φ), through both flat positions.
 #[test]
 fn an_antiparallelogram_rolls_as_ellipses_do() {
@@ -49,10 +41,10 @@ fn an_antiparallelogram_rolls_as_ellipses_do() {
         let phi = TAU * f64::from(k) / 720.0;
         let speed = -(d * d - a * a) / (d * d + a * a - 2.0 * a * d * phi.cos());
         let cutter = mechanism.frames(phi).unwrap()[2];
-        near(cutter.psi.d1, speed, 1e-11);
+        close(cutter.psi.d1, speed, 1e-11);
         // What the bearings take: 0.02·ψ′².
         let point = file.machine.reduction(phi).unwrap();
-        near(
+        close(
             point.reduced_torque(3.0) - point.reduced_torque(1.0),
             -0.02 * speed * speed * 2.0,
             1e-9,
@@ -64,8 +56,8 @@ fn an_antiparallelogram_rolls_as_ellipses_do() {
         .map(|point| point.at)
         .collect();
     assert_eq!(flat.len(), 2);
-    near(flat[0], 0.0, 1e-9);
-    near(flat[1], PI, 1e-9);
+    close(flat[0], 0.0, 1e-9);
+    close(flat[1], PI, 1e-9);
     assert!(!mechanism.determined(PI) && mechanism.determined(PI + 0.02));
 }
 
@@ -77,14 +69,14 @@ fn a_folded_slider_crank_goes_through_the_axis() {
         let phi = TAU * f64::from(k) / 360.0;
         let [j, dj, _] = file.machine.reduction(phi).unwrap().inertias();
         let slope = 2.5 * 0.04 * (2.0 * phi).sin();
-        near(
+        close(
             j,
             2.0 * 9e-4 + 0.8 * 0.01 + 2.5 * 0.04 * phi.sin().powi(2),
             1e-12,
         );
-        near(dj, slope, 1e-11);
+        close(dj, slope, 1e-11);
     }
-    near(
+    close(
         file.machine.mechanism().change_points()[0].at,
         FRAC_PI_2,
         1e-9,
@@ -93,10 +85,10 @@ fn a_folded_slider_crank_goes_through_the_axis() {
 
 #[test]
 fn a_change_point_that_nobody_asked_for_is_named_with_its_cure() {
-    let edits = r#"
+    let edits = "
         keep_branch = true => keep_branch = false =>
             is in line at φ = 90 deg and φ = 270 deg, a change point | write keep_branch = true
-    "#;
+    ";
     refuses_edits(FOLDED, edits);
     let edits = r#"
         keep_branch = true␣ => => φ = 0 deg and φ = 180 deg, a change point | go on in two ways

@@ -3,8 +3,8 @@
 use jred::machine::Mechanism as _;
 use jred::machine::Reducible as _;
 
-use super::{FOUR_BAR, read, refuses, refuses_edits, within};
-use crate::support::press_text;
+use super::{FOUR_BAR, close, read, refuses, refuses_edits};
+use crate::support::machines::{COUNTERBALANCE, balanced_press};
 
 /// The four-bar with a spring from its rocker to the ground, one in torsion and two dampers.
 fn with_elements() -> String {
@@ -69,39 +69,22 @@ fn springs_and_dampers_of_a_linkage() {
             file.machine.reduction(phi).unwrap(),
             bare.machine.reduction(phi).unwrap(),
         );
-        within(
+        close(
             found.potential_energy - without.potential_energy,
             energy,
             1e-11,
         );
-        within(
+        close(
             found.potential_slope - without.potential_slope,
             force,
             1e-10,
         );
-        within(found.viscous - without.viscous, viscous, 1e-12);
+        close(found.viscous - without.viscous, viscous, 1e-12);
         // d'Alembert's principle sees the springs as forces on the bodies.
         let drive = file.machine.forces(phi, 3.0, 20.0).unwrap().drive;
-        within(drive, found.torque(3.0, 20.0).total(), 1e-9);
+        close(drive, found.torque(3.0, 20.0).total(), 1e-9);
     }
 }
-
-/// A press without friction, with a counterbalance spring below its ram, moving freely.
-fn balanced_press(spring: &str) -> String {
-    let press = press_text();
-    let mechanism = press.split("[[load]]").next().unwrap();
-    format!(
-        "{mechanism}\n{spring}\n[simulation]\nstart_angle = \"100 deg\"\nstart_speed = \"500 rpm\"\nduration = \"2 s\"\n\
-         output_step = \"10 ms\"\ntorque = \"0 N m\"\ntolerance = 1e-12\n"
-    )
-}
-
-const COUNTERBALANCE: &str = r#"[[spring]]
-name = "counterbalance"
-between = ["slider", { on = "ground", at = ["400 mm", "0 mm"] }]
-stiffness = "3 N/mm"
-free_length = "330 mm"
-"#;
 
 #[test]
 fn a_library_mechanism_names_its_points() {

@@ -4,7 +4,7 @@ use jred::Domain;
 use jred::machine::{Mechanism as _, Reducible as _};
 use jred_file::model::coordinate::Coordinate;
 
-use super::{FOUR_BAR, parse, read, refuses, refuses_edits, within};
+use super::{FOUR_BAR, close, parse, read, refuses, refuses_edits};
 use crate::reading::{parse_in, rendered, says};
 use crate::support::Folder;
 use crate::support::machines::{LIFT, LIFT_MOTION, SCREW};
@@ -28,10 +28,10 @@ fn a_cylinder_lifts_a_boom() {
         let mass = (100.0 * 0.64 + 10.0) * slope * slope;
         let force = 100.0 * 9.81 * 0.8 * cos * slope;
         let reduced = file.machine.reduction(s).unwrap();
-        within(reduced.inertia, mass, 1e-9);
-        within(reduced.load_torque(), -force, 1e-9);
+        close(reduced.inertia, mass, 1e-9);
+        close(reduced.load_torque(), -force, 1e-9);
         let drive = file.machine.forces(s, 0.1, 0.5).unwrap().drive;
-        within(drive, reduced.torque(0.1, 0.5).total(), 1e-8);
+        close(drive, reduced.torque(0.1, 0.5).total(), 1e-8);
     }
 }
 
@@ -51,7 +51,7 @@ fn loads_in_a_part_of_the_stroke() {
         (0.61, 0.0),
         (0.8, 0.0),
     ] {
-        within(part(s), expected, 1e-10);
+        close(part(s), expected, 1e-10);
     }
     let edits = r#"
         ramp = "20 mm" => ramp = "60 mm" => too long for the range of 100 mm | at most 50 mm
@@ -69,9 +69,9 @@ fn motions_of_a_sliding_drive() {
     let text = format!("{LIFT}{LIFT_MOTION}");
     let file = read(&text);
     let motion = file.motion.as_ref().unwrap();
-    within(motion.at(0.0).phi, 0.45, 0.0);
-    within(motion.at(3.5).phi, 0.75, 1e-15);
-    within(motion.at(1.5).omega, 1.875 * 0.3 / 3.0, 1e-13);
+    close(motion.at(0.0).phi, 0.45, 0.0);
+    close(motion.at(3.5).phi, 0.75, 1e-15);
+    close(motion.at(1.5).omega, 1.875 * 0.3 / 3.0, 1e-13);
 
     let edits = r#"
         move = "300 mm" => move = "400 mm" =>
@@ -111,7 +111,7 @@ fn recorded_motions_of_a_sliding_drive() {
         parse_in(&text, &folder.path(""))
     };
     let file = read("t [s],s [mm]\n0,450\n1,460\n2,480\n3,510\n4,550\n").unwrap();
-    within(file.motion.unwrap().at(0.0).phi, 0.45, 0.0);
+    close(file.motion.unwrap().at(0.0).phi, 0.45, 0.0);
     let refused = |rows: &str, words: &str| says(&rendered(&read(rows).unwrap_err()), &[words]);
     refused(
         "t [s],phi [deg]\n0,450\n1,460\n2,480\n3,510\n4,550\n",
@@ -162,7 +162,7 @@ fn a_crank_that_swings() {
                   duration = \"1 s\"\n[[motion.segment]]\nmove = \"-120 deg\"\nlaw = \"cycloidal\"\nduration = \"1 s\"\n";
     let text = format!("{text}{motion}");
     let file = read(&text);
-    within(
+    close(
         file.motion.as_ref().unwrap().at(1.0).phi,
         70f64.to_radians(),
         1e-12,

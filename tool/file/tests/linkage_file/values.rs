@@ -7,7 +7,7 @@ use jred::machine::{Jointed as _, Link, Machine, MassProperties, Mechanism as _,
 use jred::mechanism::{Branch, SixLink, SixLinkDimensions, SliderCrank, SliderCrankDimensions};
 use serde_json::Value;
 
-use super::{FOUR_BAR, read, within};
+use super::{FOUR_BAR, close, read};
 use crate::reading::machine;
 use crate::support::budget;
 
@@ -79,7 +79,7 @@ fn the_four_bar_of_the_golden_data() {
             pairs.push((column(&format!("{name}y")), y));
         }
         for (k, found) in pairs {
-            within(found, row[k], budget::LINKAGE * largest(&rows, k));
+            close(found, row[k], budget::LINKAGE * largest(&rows, k));
         }
     }
 }
@@ -161,9 +161,9 @@ fn a_slider_crank_on_an_inclined_guide() {
         let found = file.machine.reduction(phi).unwrap();
         let expected = upright.reduction(phi - 30f64.to_radians()).unwrap();
         for order in 0..3 {
-            within(found.inertias()[order], expected.inertias()[order], 1e-12);
+            close(found.inertias()[order], expected.inertias()[order], 1e-12);
         }
-        within(found.load_torque(), expected.load_torque(), 1e-11);
+        close(found.load_torque(), expected.load_torque(), 1e-11);
     }
 }
 
@@ -248,27 +248,27 @@ fn the_six_links_of_equations_81() {
             0.45 * rocker.value.sin() - 0.7 * turned.sin() - 0.35,
         ];
         for equation in equations {
-            within(equation, 0.0, 1e-13);
+            close(equation, 0.0, 1e-13);
         }
         let (found, expected) = (
             file.machine.reduction(phi).unwrap(),
             closed.reduction(phi).unwrap(),
         );
         for order in 0..3 {
-            within(
+            close(
                 found.inertias()[order],
                 expected.inertias()[order],
                 budget::LINKAGE * 10.0,
             );
         }
-        within(
+        close(
             found.load_torque(),
             expected.load_torque(),
             budget::LINKAGE * 100.0,
         );
         let without = slot.machine.mechanism().frames(phi).unwrap();
-        within(without[1].psi.value, rocker.value, 1e-12);
-        within(without[1].psi.d2, rocker.d2, 1e-11);
+        close(without[1].psi.value, rocker.value, 1e-12);
+        close(without[1].psi.d2, rocker.d2, 1e-11);
     }
 }
 
@@ -283,7 +283,7 @@ fn the_drawing_need_not_be_exact() {
         for phi in [0.3, 3.0, 5.5] {
             let [found, expected] =
                 [&file, &exact].map(|f| f.machine.mechanism().frames(phi).unwrap()[2].psi);
-            within(found.value, expected.value, 1e-13);
+            close(found.value, expected.value, 1e-13);
         }
     }
     // The other branch: the coupler pin below the line of the bearings.
@@ -294,7 +294,7 @@ fn the_drawing_need_not_be_exact() {
     );
     let found = below.machine.mechanism().frames(0.0).unwrap()[2].psi;
     let above = exact.machine.mechanism().frames(0.0).unwrap()[2].psi;
-    within(found.value, -above.value, 1e-12);
+    close(found.value, -above.value, 1e-12);
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use jred::machine::Mechanism as _;
 use jred::machine::Reducible as _;
 
-use super::{read, refuses, refuses_edits, within};
+use super::{close, read, refuses, refuses_edits};
 
 #[test]
 fn wheels_that_do_not_fit() {
@@ -138,14 +138,14 @@ fn a_planetary_gear_by_willis() {
     let inertia = 3e-4 + (40e-4 + 0.5 * 0.042 * 0.042) * arm * arm + 1e-4 * planet * planet;
     for phi in [0.0, 1.0, 4.0, 20.0] {
         let frames = file.machine.mechanism().frames(phi).unwrap();
-        within(frames[1].psi.d1, arm, 1e-14);
-        within(frames[2].psi.d1, planet, 1e-14);
+        close(frames[1].psi.d1, arm, 1e-14);
+        close(frames[2].psi.d1, planet, 1e-14);
         let reduced = file.machine.reduction(phi).unwrap();
-        within(reduced.inertia, inertia, 1e-17);
-        within(reduced.load_torque(), -10.0 * arm, 1e-13);
+        close(reduced.inertia, inertia, 1e-17);
+        close(reduced.load_torque(), -10.0 * arm, 1e-13);
         // d'Alembert sees the same torque, through the teeth.
         let drive = file.machine.forces(phi, 30.0, 200.0).unwrap().drive;
-        within(drive, inertia * 200.0 + 10.0 * arm, 1e-12);
+        close(drive, inertia * 200.0 + 10.0 * arm, 1e-12);
     }
 }
 
@@ -188,11 +188,11 @@ fn belt_and_rack() {
         for phi in [0.0, 2.0, 12.0] {
             let frames = file.machine.mechanism().frames(phi).unwrap();
             let way = frames[2].x.value;
-            within(way, sign * 0.030 * phi / 3.0, 1e-14);
+            close(way, sign * 0.030 * phi / 3.0, 1e-14);
             let reduced = file.machine.reduction(phi).unwrap();
             let inertia = 3e-4 + 40e-4 / 9.0 + 5.0 * 0.01 * 0.01;
-            within(reduced.inertia, inertia, 1e-16);
-            within(reduced.load_torque(), -sign * 5.0 * 9.81 * 0.01, 1e-13);
+            close(reduced.inertia, inertia, 1e-16);
+            close(reduced.load_torque(), -sign * 5.0 * 9.81 * 0.01, 1e-13);
         }
     }
 }

@@ -4,18 +4,16 @@ use std::f64::consts::TAU;
 use std::fmt::Write;
 
 use crate::reader;
+use crate::reading::belt_drive;
 
 use super::{data, parse, rendered};
 
 /// A belt drive that is the same after whole turns only.
 fn machine(file: &str, more: &str) -> String {
-    format!(
-        "gravity = [\"0 m/s^2\", \"0 m/s^2\"]\n[mechanism]\ntype = \"belt\"\n\
-         driver = {{ radius = \"2 cm\", inertia = \"1 kg cm^2\" }}\n\
-         driven = {{ radius = \"5 cm\", inertia = \"6 kg cm^2\" }}\n\
-         [[load]]\non = \"shaft-1\"\nopposing_moment = \"1 N m\"\nbetween = [\"20 deg\", \"60 deg\"]\nramp = \"5 deg\"\n\
+    belt_drive(&format!(
+        "[[load]]\non = \"shaft-1\"\nopposing_moment = \"1 N m\"\nbetween = [\"20 deg\", \"60 deg\"]\nramp = \"5 deg\"\n\
          [motion]\ntype = \"profile\"\nfile = \"{file}\"\n{more}"
-    )
+    ))
 }
 
 /// Writes a CSV file beside a machine file and reads the machine.

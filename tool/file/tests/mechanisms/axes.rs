@@ -5,6 +5,8 @@ use jred::machine::Reducible as _;
 
 use jred_file::model::coordinate::Coordinate;
 
+use crate::support::{phrases, rows};
+
 use super::{close, machine, parse, refuses, refuses_edit};
 
 const DOC: &str = include_str!("../../../../docs/axes.md");
@@ -81,79 +83,22 @@ fn other_guides_have_friction() {
 
 #[test]
 fn wrong_entries_are_refused_with_their_cure() {
-    let edits: [(&str, &str, &str, &[&str]); 11] = [
-        (
-            "belt-axis",
-            "teeth = 24",
-            "diameter = \"60 mm\"",
-            &["both `diameter` and `pitch`", "give the diameter, or"],
-        ),
-        (
-            "belt-axis",
-            "pitch = \"8 mm\", teeth = 24, ",
-            "",
-            &["`diameter` in [mechanism.pulley] is missing"],
-        ),
-        (
-            "belt-axis",
-            "friction = 0.03",
-            "friction = 3",
-            &["`friction` in [mechanism.carriage] is 3", "between 0 and 2"],
-        ),
-        (
-            "belt-axis",
-            "belt_mass = \"0.9 kg\"",
-            "belt_mass = \"-1 kg\"",
-            &["must not be negative"],
-        ),
-        (
-            "feed-roll",
-            "[mechanism]",
-            "[mechanism]\nbelt_mass = \"1 kg\"",
-            &["unknown key `belt_mass` in [mechanism]"],
-        ),
-        (
-            "conveyor",
-            "inclination = \"12 deg\"",
-            "incline = \"12 deg\"",
-            &["`inclination` in [gravity] is missing"],
-        ),
-        (
-            "conveyor",
-            "count = 4",
-            "count = 0",
-            &["between 1 and 1000"],
-        ),
-        (
-            "rotary-table",
-            ", mass = \"85 kg\"",
-            "",
-            &["`mass` in [mechanism.table] is missing"],
-        ),
-        (
-            "rotary-table",
-            "diameter = \"900 mm\"",
-            "diameter = \"900 mm\", inertia = \"9 kg m^2\"",
-            &["`diameter` in [mechanism.table] is not used"],
-        ),
-        (
-            "winder",
-            "\"600 mm\"",
-            "\"150 mm\"",
-            &[
-                "`full_diameter` in [mechanism] is 150 mm",
-                "the core's diameter, 152 mm",
-            ],
-        ),
-        (
-            "winder",
-            "\"25 %\"",
-            "\"125 %\"",
-            &["`taper` in [mechanism.web] is 125 %", "100 %"],
-        ),
-    ];
-    for (kind, from, to, words) in edits {
-        refuses_edit(example(kind), from, to, words);
+    let edits = r#"
+        belt-axis => teeth = 24 => diameter = "60 mm" => both `diameter` and `pitch` | give the diameter, or
+        belt-axis => pitch = "8 mm", teeth = 24,␣ => => `diameter` in [mechanism.pulley] is missing
+        belt-axis => friction = 0.03 => friction = 3 => `friction` in [mechanism.carriage] is 3 | between 0 and 2
+        belt-axis => belt_mass = "0.9 kg" => belt_mass = "-1 kg" => must not be negative
+        feed-roll => [mechanism] => [mechanism]\nbelt_mass = "1 kg" => unknown key `belt_mass` in [mechanism]
+        conveyor => inclination = "12 deg" => incline = "12 deg" => `inclination` in [gravity] is missing
+        conveyor => count = 4 => count = 0 => between 1 and 1000
+        rotary-table => , mass = "85 kg" => => `mass` in [mechanism.table] is missing
+        rotary-table => diameter = "900 mm" => diameter = "900 mm", inertia = "9 kg m^2" =>
+            `diameter` in [mechanism.table] is not used
+        winder => "600 mm" => "150 mm" => `full_diameter` in [mechanism] is 150 mm | the core's diameter, 152 mm
+        winder => "25 %" => "125 %" => `taper` in [mechanism.web] is 125 % | 100 %
+    "#;
+    for [kind, from, to, words] in rows(edits) {
+        refuses_edit(example(&kind), &from, &to, &phrases(&words));
     }
 }
 

@@ -143,7 +143,6 @@ fn every_follower_is_read() {
 }
 
 #[test]
-#[expect(clippy::too_many_lines, reason = "a list of mistakes")]
 fn wrong_entries_are_refused_with_their_cure() {
     let base = example(DOC);
     let edits = r#"

@@ -51,10 +51,10 @@ fn wrong_entries_are_refused_with_their_cure() {
         inertia = "0.004 kg m^2" => => `inertia` in [mechanism.drive] is missing
     "#;
     refuses_edits(base, edits);
-    let edits = r#"
+    let edits = r"
         [mechanism.drive] => driven = []\n[mechanism.drive] => at least one [[mechanism.driven]]
         [mechanism.drive] => [mechanism.drive] => `driven` in [mechanism] is missing
-    "#;
+    ";
     refuses_edits(head, edits);
     let sixteen = "[[mechanism.driven]]\nratio = 2\ninertia = \"1 kg m^2\"\n\n".repeat(16);
     refuses_edit(

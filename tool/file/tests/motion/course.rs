@@ -2,7 +2,7 @@
 
 use jred::machine::motion::Law;
 
-use super::{motion, near};
+use super::{motion, within};
 use crate::reading::machine;
 
 #[test]
@@ -42,7 +42,7 @@ fn segments_have_the_values_of_their_laws() {
         ];
         for (found, expected) in found.into_iter().zip(expected) {
             assert_eq!(found.is_some(), expected.is_some(), "{name}");
-            near(
+            within(
                 name,
                 found.unwrap_or(0.0),
                 expected.unwrap_or(0.0),
@@ -65,15 +65,15 @@ fn limits_are_what_is_reached() {
         panic!();
     };
     for course in [smooth, sudden] {
-        near("speed", course.speed, 4.0, 1e-9);
-        near("acceleration", course.acceleration, 20.0, 1e-9);
+        within("speed", course.speed, 4.0, 1e-9);
+        within("acceleration", course.acceleration, 20.0, 1e-9);
     }
     // Its neighbour's acceleration jumps where they meet.
     assert!(sudden.jerk.is_none() && smooth.jerk.is_none());
-    near("power", sudden.dynamic, 80.0, 1e-9);
+    within("power", sudden.dynamic, 80.0, 1e-9);
     let peaks = motion.drive_peaks();
-    near("speed of the drive", peaks[0], 4.0, 1e-8);
-    near("acceleration of the drive", peaks[1], 20.0, 1e-6);
+    within("speed of the drive", peaks[0], 4.0, 1e-8);
+    within("acceleration of the drive", peaks[1], 20.0, 1e-6);
 }
 
 /// The tool's figures and those of the drive link.
@@ -84,14 +84,14 @@ fn a_shear_in_figures() {
         panic!();
     };
     assert!(!sync.of_drive && join.of_drive);
-    near("speed", sync.speed, 2.0, 1e-12);
-    near("acceleration", sync.acceleration, 0.0, 1e-12);
+    within("speed", sync.speed, 2.0, 1e-12);
+    within("acceleration", sync.acceleration, 0.0, 1e-12);
     // The knife leaves the strip with an acceleration of the drum, which goes on for a while in the join.
     let speeds = (0..=75_000).map(|k| motion.at(1e-5 * f64::from(k)).omega);
     let most = speeds.fold(0.0, f64::max);
-    near("drive", motion.drive_peaks()[0], most, 1e-6);
-    near("join", join.speed, most, 1e-6);
-    near("C_v", sync.coefficients().unwrap()[0].unwrap(), 1.0, 1e-12);
+    within("drive", motion.drive_peaks()[0], most, 1e-6);
+    within("join", join.speed, most, 1e-6);
+    within("C_v", sync.coefficients().unwrap()[0].unwrap(), 1.0, 1e-12);
 }
 
 /// From rest to a speed v by a jerk-limited law takes v/a + a/j, on the way ½·v of it; there the acceleration ends at zero, and that of
@@ -114,17 +114,17 @@ fn a_constant_speed_behind_a_soft_end_has_no_jerk() {
         };
         let t = v / a + a / j;
         for course in [up, down] {
-            near("duration", course.duration, t, 1e-12);
-            near("jerk", course.jerk.unwrap(), j, 1e-9 * j);
+            within("duration", course.duration, t, 1e-12);
+            within("jerk", course.jerk.unwrap(), j, 1e-9 * j);
             let due = j * t.powi(3) / (0.5 * v * t);
-            near(
+            within(
                 "C_j",
                 course.coefficients().unwrap()[2].unwrap(),
                 due,
                 1e-8 * due,
             );
         }
-        near("jerk of the constant speed", level.jerk.unwrap(), 0.0, 0.0);
+        within("jerk of the constant speed", level.jerk.unwrap(), 0.0, 0.0);
         // A jump of a thousandth of the largest acceleration is one.
         let sudden = format!(
             "law = \"trapezoid\"; end_speed = \"{} rad/s\"; max_acceleration = \"{} rad/s^2\"",

@@ -2,35 +2,34 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::near;
-use super::tool::with;
-use crate::reading::{machine, read, refuses};
+use super::within;
+use crate::reading::{machine, read, refuses, with_motion};
 
 /// The knife's x runs with the strip while it cuts, exactly; the drums come round in the time of a plate without a jump of speed or
 /// acceleration, and slow down between.
 #[test]
 fn a_flying_shear_runs_with_the_strip() {
     let motion = machine("flying-shear.toml").motion.unwrap();
-    near("a plate", motion.duration(), 0.75, 1e-15);
+    within("a plate", motion.duration(), 0.75, 1e-15);
     for k in 0..=40 {
         let t = 0.001 * f64::from(k);
         let state = motion.at(t - 1e-13);
         let (sin, cos) = state.phi.sin_cos();
-        near("x", 0.16 * cos, -0.04 + 2.0 * t, 1e-12);
-        near("speed", -0.16 * sin * state.omega, 2.0, 1e-11);
+        within("x", 0.16 * cos, -0.04 + 2.0 * t, 1e-12);
+        within("speed", -0.16 * sin * state.omega, 2.0, 1e-11);
         let acceleration = -0.16 * (sin * state.alpha + cos * state.omega.powi(2));
-        near("acceleration", acceleration, 0.0, 1e-9);
+        within("acceleration", acceleration, 0.0, 1e-9);
     }
     let [before, after] = [0.04 - 1e-9, 0.04 + 1e-9].map(|t| motion.at(t));
-    near("φ goes on", after.phi, before.phi, 1e-7);
-    near("ω goes on", after.omega, before.omega, 1e-6);
-    near("α goes on", after.alpha, before.alpha, 1e-4);
+    within("φ goes on", after.phi, before.phi, 1e-7);
+    within("ω goes on", after.omega, before.omega, 1e-6);
+    within("α goes on", after.alpha, before.alpha, 1e-4);
     let (start, end) = (motion.at(0.0), motion.at(0.75));
-    near("one turn", end.phi - start.phi, TAU, 1e-13);
-    near("ω comes round", end.omega, start.omega, 1e-11);
-    near("α comes round", end.alpha, start.alpha, 1e-9);
+    within("one turn", end.phi - start.phi, TAU, 1e-13);
+    within("ω comes round", end.omega, start.omega, 1e-11);
+    within("α comes round", end.alpha, start.alpha, 1e-9);
     // The closed form at the start: sin φ = −√(1 − 1/16).
-    near(
+    within(
         "ω",
         start.omega,
         2.0 / (0.16 * (15.0_f64 / 16.0).sqrt()),
@@ -47,16 +46,16 @@ fn a_flying_shear_runs_with_the_strip() {
 fn a_drawing_press_rests_at_the_top() {
     let motion = machine("drawing-press.toml").motion.unwrap();
     let end = 0.011 / 0.08 + 0.5;
-    near("length", motion.duration(), end + 0.2 + 0.4, 1e-14);
+    within("length", motion.duration(), end + 0.2 + 0.4, 1e-14);
     for t in [end, end + 0.1, end + 0.2] {
         let state = motion.at(t);
-        near("top", state.phi, 3.0 * PI, 1e-12);
-        near("rest", state.omega, 0.0, 1e-11);
-        near("rest", state.alpha, 0.0, 1e-9);
+        within("top", state.phi, 3.0 * PI, 1e-12);
+        within("rest", state.omega, 0.0, 1e-11);
+        within("rest", state.alpha, 0.0, 1e-9);
     }
     let (start, last) = (motion.at(0.0), motion.at(motion.duration()));
-    near("a turn", last.phi - start.phi, TAU, 1e-12);
-    near("speed", last.omega, start.omega, 1e-10);
+    within("a turn", last.phi - start.phi, TAU, 1e-12);
+    within("speed", last.omega, start.omega, 1e-10);
 }
 
 #[test]
@@ -66,7 +65,7 @@ fn joins_that_lead_nowhere_are_refused() {
     let join = "[[motion.segment]]; law = \"join\"; duration = \"0.4 s\"";
     let ram = "of = { point = \"slider\", along = \"x\" }; near = \"300 deg\"; start = \"195 mm\"";
     let press = |kind: &str, segments: &[&str]| {
-        with(
+        with_motion(
             "press.toml",
             &format!("type = \"{kind}\"; {ram}; {}", segments.join("; ")),
         )
@@ -118,8 +117,8 @@ fn a_join_of_the_drive_link() {
             "law = \"join\"; duration = \"0.6 s\"",
         ],
     );
-    near("stop", motion.at(0.7).phi, 200_f64.to_radians(), 1e-13);
-    near("stop", motion.at(0.7).omega, 0.0, 1e-12);
-    near("round", motion.at(1.35).phi, TAU, 1e-13);
-    near("speed", motion.at(1.35).omega, TAU, 1e-12);
+    within("stop", motion.at(0.7).phi, 200_f64.to_radians(), 1e-13);
+    within("stop", motion.at(0.7).omega, 0.0, 1e-12);
+    within("round", motion.at(1.35).phi, TAU, 1e-13);
+    within("speed", motion.at(1.35).omega, TAU, 1e-12);
 }

@@ -2,7 +2,7 @@
 
 use jred_file::model::motion::{MoveLimits, Phase, TooShort, change, fastest};
 
-use super::{motion, near, refused};
+use super::{motion, refused, within};
 
 const LIMITS: MoveLimits = MoveLimits {
     speed: 2.0,
@@ -23,7 +23,7 @@ fn durations_in_closed_form() {
         let phases = fastest(distance, [0.0; 2], &LIMITS).unwrap();
         assert_eq!(phases.len(), 7);
         let expected = f64::abs(distance) / v + v / a + a / j;
-        near(
+        within(
             "both reached",
             duration(&phases),
             expected,
@@ -36,13 +36,13 @@ fn durations_in_closed_form() {
     assert!(top < v && top > a * a / j);
     let phases = fastest(distance, [0.0; 2], &LIMITS).unwrap();
     assert_eq!(phases.len(), 6);
-    near("no stay", duration(&phases), 2.0 * (top / a + a / j), 1e-14);
+    within("no stay", duration(&phases), 2.0 * (top / a + a / j), 1e-14);
     // Neither: four equal phases of ∛(D/2j).
     for distance in [0.02_f64, 1e-9] {
         let phases = fastest(distance, [0.0; 2], &LIMITS).unwrap();
         assert_eq!(phases.len(), 4);
         let expected = 4.0 * (distance / (2.0 * j)).cbrt();
-        near("short", duration(&phases), expected, 1e-14 * expected);
+        within("short", duration(&phases), expected, 1e-14 * expected);
     }
     // The speed, but not the acceleration.
     let gentle = MoveLimits {
@@ -52,7 +52,7 @@ fn durations_in_closed_form() {
     };
     let phases = fastest(3.0, [0.0; 2], &gentle).unwrap();
     assert_eq!(phases.len(), 5);
-    near(
+    within(
         "gentle",
         duration(&phases),
         3.0 / v + 2.0 * (v / j).sqrt(),
@@ -67,7 +67,7 @@ fn durations_in_closed_form() {
     let phases = fastest(3.0, [0.0; 2], &sudden).unwrap();
     assert_eq!(phases.len(), 3);
     let ramps = 0.5 * v * v * (1.0 / a + 1.0 / 2.0);
-    near(
+    within(
         "trapezoid",
         duration(&phases),
         v / a + v / 2.0 + (3.0 - ramps) / v,
@@ -76,7 +76,7 @@ fn durations_in_closed_form() {
     let phases = fastest(0.7, [0.0; 2], &sudden).unwrap();
     assert_eq!(phases.len(), 2);
     let top = (2.0 * 0.7 / (1.0 / a + 1.0 / 2.0)).sqrt();
-    near("triangle", duration(&phases), top / a + top / 2.0, 1e-14);
+    within("triangle", duration(&phases), top / a + top / 2.0, 1e-14);
 }
 
 /// Between speeds: the ends are met, the state goes on, every limit is kept and one is reached, whatever the case.
@@ -107,7 +107,7 @@ fn every_limit_is_kept_and_reached() {
             Err(TooShort { least }) => {
                 // The direct change of speed, whose way is the mean speed times its duration.
                 let (way, phases) = change(ends, &limits);
-                near(
+                within(
                     "mean speed",
                     way,
                     0.5 * (ends[0] + ends[1]) * duration(&phases),
@@ -123,9 +123,9 @@ fn every_limit_is_kept_and_reached() {
         let mut most = [0.0_f64; 3];
         for phase in &phases {
             let [_, v, a, _] = phase.polynomial.at(0.0);
-            near("speed goes on", v, state[1], 1e-11);
+            within("speed goes on", v, state[1], 1e-11);
             if limits.jerk.is_some() {
-                near("acceleration goes on", a, state[2], 1e-9);
+                within("acceleration goes on", a, state[2], 1e-9);
             }
             let growing = phase.polynomial.at(0.5 * phase.duration)[2] * sign > 0.0;
             let allowed = if growing {
@@ -146,13 +146,13 @@ fn every_limit_is_kept_and_reached() {
             let [s, v, a, _] = phase.polynomial.at(phase.duration);
             state = [state[0] + s, v, a];
         }
-        near(
+        within(
             "distance",
             state[0],
             distance,
             1e-11 * distance.abs().max(1.0),
         );
-        near("end speed", state[1], ends[1], 1e-11);
+        within("end speed", state[1], ends[1], 1e-11);
         assert!(most.iter().all(|share| *share <= 1.0 + 1e-9), "{most:?}");
         // Something limits: the speed, or both accelerations, or the jerk.
         let reached = most.iter().any(|share| *share >= 1.0 - 1e-9);
@@ -177,7 +177,7 @@ fn limits_in_a_file() {
         ],
     );
     let expected = 2.0 + speed / 40.0 + 40.0 / 800.0;
-    near("duration", motion.duration(), expected + 0.1, 1e-13);
+    within("duration", motion.duration(), expected + 0.1, 1e-13);
     let corners: Vec<f64> = motion.stretches().iter().map(|(from, _)| *from).collect();
     let (ramp, rise) = (0.05, speed / 40.0);
     for (found, expected) in corners.iter().zip([
@@ -190,7 +190,7 @@ fn limits_in_a_file() {
         2.0 + rise,
         expected,
     ]) {
-        near("corner", *found, expected, 1e-13);
+        within("corner", *found, expected, 1e-13);
     }
     assert_eq!(corners.len(), 8);
 }

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use crate::reading::{read, refuses, text_of};
 
-use super::{motion, near, turning};
+use super::{belt_motion, motion, within};
 
 /// A dial with `count` equal arms whose loads act in one arm's place: its curves repeat after 360°/count.
 fn dial(loads: &[(f64, f64)], step: f64) -> String {
@@ -39,13 +39,13 @@ fn a_machine_that_is_the_same_everywhere_goes_on_by_any_step() {
         writeln!(csv, "{},{}", f64::from(k) / 10.0, 12 * k).unwrap();
     }
     std::fs::write(folder.path().join("feed.csv"), csv).unwrap();
-    let text = turning("profile", &[]) + "file = \"feed.csv\"\n";
+    let text = belt_motion("profile", &[]) + "file = \"feed.csv\"\n";
     let motion = crate::reading::parse_in(&text, folder.path())
         .unwrap()
         .motion
         .unwrap();
     assert!(motion.cyclic);
-    near(
+    within(
         "advance",
         motion.at(1.0).phi,
         2.0 * std::f64::consts::PI / 3.0,

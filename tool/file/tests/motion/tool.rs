@@ -8,27 +8,9 @@ use jred::machine::{Jointed as _, Mechanism as _, Reducible as _};
 use jred_file::model::machine::MachineFile;
 use jred_file::model::motion::{Measure, Motion, MotionSegment, ToolCoordinate};
 
-use super::near;
-use crate::reading::machines;
-use crate::reading::{read, refuses, text_of};
-
-/// The machine `name` with another motion.
-pub(super) fn with(name: &str, motion: &str) -> String {
-    let text = text_of(name);
-    let head = text.split("\n[motion]").next().unwrap();
-    format!("{head}\n[motion]\n{}\n", motion.replace("; ", "\n"))
-}
-
-/// x and its derivatives of a centric slider-crank, from its closed form: x = r·cos φ + √(l² − r²·sin² φ).
-fn slider(phi: f64) -> [f64; 3] {
-    let (r, l) = (0.03_f64, 0.18_f64);
-    let (sin, cos) = phi.sin_cos();
-    let q = (l * l - r * r * sin * sin).sqrt();
-    // q·q′ = −r²·sin φ·cos φ
-    let slope = -r * r * sin * cos / q;
-    let bend = (-r * r * (cos * cos - sin * sin) - slope * slope) / q;
-    [r * cos + q, -r * sin + slope, -r * cos + bend]
-}
+use super::within;
+use crate::reading::{machines, read, refuses, text_of, with_motion};
+use crate::support::press::slider_derivatives;
 
 /// Speed and acceleration of a coordinate with these derivatives, by the chain rule.
 fn carried([_, d1, d2]: [f64; 3], omega: f64, alpha: f64) -> [f64; 2] {
@@ -43,7 +25,7 @@ const STROKE: &str = "type = \"cycle\"; of = { point = \"slider\", along = \"x\"
 /// Through the press, against the closed form of its slider.
 #[test]
 fn a_press_follows_its_ram() {
-    let motion = read(&with("press.toml", STROKE)).motion.unwrap();
+    let motion = read(&with_motion("press.toml", STROKE)).motion.unwrap();
     let law = jred::machine::motion::Law::<f64>::ModifiedSine;
     let stroke = 0.05;
     for k in 0..=1000 {
@@ -51,18 +33,18 @@ fn a_press_follows_its_ram() {
         let state = motion.at(0.2 * z);
         let [s, v, a] = law.at(z);
         let asked = [0.205 - stroke * s, -stroke / 0.2 * v, -stroke / 0.04 * a];
-        let slider = slider(state.phi);
+        let slider = slider_derivatives(state.phi);
         let [speed, acceleration] = carried(slider, state.omega, state.alpha);
         assert!((0.0..PI).contains(&state.phi), "{}", state.phi);
-        near("x", slider[0], asked[0], 1e-14);
-        near("speed", speed, asked[1], 1e-12);
+        within("x", slider[0], asked[0], 1e-14);
+        within("speed", speed, asked[1], 1e-12);
         // The last instant of the move is the first of the dwell.
         if k < 1000 {
-            near("acceleration", acceleration, asked[2], 1e-10);
+            within("acceleration", acceleration, asked[2], 1e-10);
         }
         // The law of cosines gives the crank's angle at once.
         let (r, l, x) = (0.03_f64, 0.18_f64, asked[0]);
-        near(
+        within(
             "φ",
             state.phi,
             ((x * x + r * r - l * l) / (2.0 * r * x)).acos(),
@@ -71,21 +53,21 @@ fn a_press_follows_its_ram() {
     }
     let (dwell, back) = (motion.at(0.25), motion.at(motion.duration()));
     assert!(dwell.omega == 0.0 && dwell.alpha == 0.0);
-    near("back", slider(back.phi)[0], 0.205, 1e-14);
+    within("back", slider_derivatives(back.phi)[0], 0.205, 1e-14);
     // The other branch is its mirror image.
     let other = STROKE.replace("90 deg", "270 deg");
-    let other = read(&with("press.toml", &other)).motion.unwrap();
+    let other = read(&with_motion("press.toml", &other)).motion.unwrap();
     for t in [0.0, 0.07, 0.2, 0.4] {
         let (a, b) = (motion.at(t), other.at(t));
-        near("mirrored φ", b.phi, TAU - a.phi, 1e-12);
-        near("mirrored ω", b.omega, -a.omega, 1e-10);
+        within("mirrored φ", b.phi, TAU - a.phi, 1e-12);
+        within("mirrored ω", b.omega, -a.omega, 1e-10);
     }
 }
 
 /// Through the four-bar, against the closure of its loop: crank pin and rocker pin stay a coupler's length apart.
 #[test]
 fn a_crank_rocker_follows_its_rocker() {
-    let text = with(
+    let text = with_motion(
         "four-bar.toml",
         "type = \"point-to-point\"; of = { link = \"rocker\" }; near = \"90 deg\"; start = \"70 deg\"; \
          [[motion.segment]]; law = \"polynomial-7\"; move = \"45 deg\"; duration = \"0.4 s\"; start_speed = \"5 rpm\"",
@@ -112,18 +94,18 @@ fn a_crank_rocker_follows_its_rocker() {
         let t = 0.4 * f64::from(k) / 100.0;
         let (asked, state) = (motion.prescribed(t), motion.at(t));
         let rocker = mechanism.frames(state.phi).unwrap()[2].psi;
-        near("rocker", rocker.value, asked.phi, 1e-13);
-        near(
+        within("rocker", rocker.value, asked.phi, 1e-13);
+        within(
             "rocker's speed",
             rocker.velocity(state.omega),
             asked.omega,
             1e-12,
         );
         let bend = rocker.acceleration(state.omega, state.alpha);
-        near("rocker's acceleration", bend, asked.alpha, 1e-10);
-        near("coupler", length(state.phi), coupler, 1e-14);
+        within("rocker's acceleration", bend, asked.alpha, 1e-10);
+        within("coupler", length(state.phi), coupler, 1e-14);
     }
-    near(
+    within(
         "start",
         motion.prescribed(0.0).omega,
         5.0 * PI / 30.0,
@@ -205,15 +187,15 @@ fn check(file: &MachineFile, motion: &Motion, tool: &ToolCoordinate, way: f64, w
             assert!((from..=to).contains(&state.phi), "{what}");
         }
         let found = tool.at(state.phi).unwrap();
-        near(what, found.value, asked.phi, 1e-11 * way.abs());
-        near(
+        within(what, found.value, asked.phi, 1e-11 * way.abs());
+        within(
             what,
             found.velocity(state.omega),
             asked.omega,
             1e-11 * way.abs(),
         );
         let size = way.abs() * 10.0 + (found.d2 * state.omega * state.omega).abs();
-        near(
+        within(
             what,
             found.acceleration(state.omega, state.alpha),
             asked.alpha,
@@ -231,18 +213,23 @@ fn distances_along_a_path() {
         ToolCoordinate::new(mechanism, Measure::Path { link, at }, String::new(), place).unwrap()
     };
     let pin = along(0, [0.03, 0.0], 0.4);
-    near("a turn", pin.per_turn().unwrap(), TAU * 0.03, 1e-15);
-    near(
+    within("a turn", pin.per_turn().unwrap(), TAU * 0.03, 1e-15);
+    within(
         "three turns",
         pin.drive_at(3.0 * TAU * 0.03),
         0.4 + 3.0 * TAU,
         1e-13,
     );
-    near("backwards", pin.drive_at(-0.03), 0.4 - 1.0, 1e-13);
+    within("backwards", pin.drive_at(-0.03), 0.4 - 1.0, 1e-13);
     let ram = along(2, [0.0, 0.0], 1.0);
     let way = 0.02;
-    let expected = slider(1.0)[0] - way;
-    near("ram", slider(ram.drive_at(way))[0], expected, 1e-14);
+    let expected = slider_derivatives(1.0)[0] - way;
+    within(
+        "ram",
+        slider_derivatives(ram.drive_at(way))[0],
+        expected,
+        1e-14,
+    );
     assert!(ram.per_turn().is_none());
     // A point of the rod: its path by the trapezoidal rule over closed-form places.
     let rod = along(1, [0.05, 0.02], 1.0);
@@ -256,22 +243,22 @@ fn distances_along_a_path() {
         let ([x, y], [u, v]) = (at(k), at(k + 1));
         length += (u - x).hypot(v - y);
     }
-    near("rod", rod.drive_at(length), 3.0, 1e-8);
+    within("rod", rod.drive_at(length), 3.0, 1e-8);
 }
 
 /// The table behind gears goes on without end; what its motor shaft does is the ratio times as much.
 #[test]
 fn an_endless_tool() {
     let steady = "type = \"constant-speed\"; of = { link = \"shaft-3\" }; speed = \"10 rpm\"";
-    let motion = read(&with("turntable.toml", steady)).motion.unwrap();
+    let motion = read(&with_motion("turntable.toml", steady)).motion.unwrap();
     let omega = motion.at(0.3).omega;
-    near("speed", omega.abs(), 12.0 * 10.0 * PI / 30.0, 1e-12);
-    near("one turn", motion.duration() * omega.abs(), TAU, 1e-12);
+    within("speed", omega.abs(), 12.0 * 10.0 * PI / 30.0, 1e-12);
+    within("one turn", motion.duration() * omega.abs(), TAU, 1e-12);
     let index = "type = \"cycle\"; of = { link = \"shaft-3\" }; [[motion.segment]]; law = \"modified-sine\"; move = \"60 deg\"; \
          duration = \"0.6 s\"; [[motion.segment]]; dwell = \"0.4 s\"";
-    let motion = read(&with("turntable.toml", index)).motion.unwrap();
+    let motion = read(&with_motion("turntable.toml", index)).motion.unwrap();
     let way = motion.at(1.0).phi - motion.at(0.0).phi;
-    near("way", way.abs(), 12.0 * PI / 3.0, 1e-12);
+    within("way", way.abs(), 12.0 * PI / 3.0, 1e-12);
 }
 
 /// A drive of the tool is the drive of the machine: at constant crank speed, a recording of the ram alone gives the crank's motion back.
@@ -281,11 +268,11 @@ fn a_recording_of_the_ram() {
     let mut csv = String::from("t [s],x [m]\n");
     for k in 0..=400 {
         let t = 0.6 * f64::from(k) / 400.0;
-        writeln!(csv, "{t},{:e}", slider(0.6 + omega * t)[0]).unwrap();
+        writeln!(csv, "{t},{:e}", slider_derivatives(0.6 + omega * t)[0]).unwrap();
     }
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("ram.csv"), csv).unwrap();
-    let text = with(
+    let text = with_motion(
         "press.toml",
         "type = \"profile\"; of = { point = \"slider\", along = \"x\" }; near = \"90 deg\"; file = \"ram.csv\"; cyclic = false",
     );
@@ -294,17 +281,17 @@ fn a_recording_of_the_ram() {
     for k in 1..60 {
         let t = 0.01 * f64::from(k);
         let state = motion.at(t);
-        near("φ", state.phi, 0.6 + omega * t, 1e-9);
-        near("ω", state.omega, omega, 1e-5);
+        within("φ", state.phi, 0.6 + omega * t, 1e-9);
+        within("ω", state.omega, omega, 1e-5);
         // The spline's second derivative is good to h²/12 of the fourth.
-        near("α", state.alpha, 0.0, 2e-2);
+        within("α", state.alpha, 0.0, 2e-2);
     }
 }
 
 #[test]
 fn what_no_drive_can_do_is_refused() {
     let ram = |motion: &str| {
-        with(
+        with_motion(
             "press.toml",
             &format!("type = \"cycle\"; of = {{ point = \"slider\", along = \"x\" }}; {motion}"),
         )
@@ -362,39 +349,39 @@ fn what_no_drive_can_do_is_refused() {
         ],
     );
     refuses(
-        &with(
+        &with_motion(
             "press.toml",
             "type = \"constant-speed\"; of = { point = \"slider\", along = \"x\" }; near = \"90 deg\"; speed = \"1 m/s\"",
         ),
         &["x of slider goes from 150 mm to 210 mm only: it cannot move on forever"],
     );
     refuses(
-        &with("press.toml", "type = \"cycle\"; of = { link = \"slider\" }"),
+        &with_motion("press.toml", "type = \"cycle\"; of = { link = \"slider\" }"),
         &["is angle of slider, which does not change when the drive link moves"],
     );
     refuses(
-        &with(
+        &with_motion(
             "press.toml",
             "type = \"cycle\"; of = { slide = \"crank pin\" }",
         ),
         &["`slide` in [motion.of] is not a guide"],
     );
     refuses(
-        &with(
+        &with_motion(
             "press.toml",
             "type = \"cycle\"; of = { point = \"slider\" }",
         ),
         &["`along` in [motion.of] is missing"],
     );
     refuses(
-        &with(
+        &with_motion(
             "press.toml",
             "type = \"cycle\"; of = { link = \"rod\", point = \"slider\" }",
         ),
         &["[motion.of] has both `point` and `link`"],
     );
     refuses(
-        &with("press.toml", "type = \"cycle\"; near = \"90 deg\""),
+        &with_motion("press.toml", "type = \"cycle\"; near = \"90 deg\""),
         &["`near` in [motion] is given without `of`"],
     );
 }

@@ -10,7 +10,7 @@ use jred_motion::path_dynamics::Actuator;
 use jred_motion::trace::Node;
 use jred_sizing::cycle::form::Coefficients;
 
-use super::{close, motor, table, task};
+use super::{close, jerk_limits, motor, table, task, torque_rate_limits};
 use crate::support::{press_file, shipped};
 
 /// Relative error of the time where pieces meet the switching points.
@@ -168,11 +168,7 @@ fn a_weight_leaves_different_accelerations() {
     let [up, down] = [40.0 / inertia, 120.0 / inertia];
     let jerk = 1500.0;
     let asked = Task {
-        limits: MoveLimits {
-            jerk: Some(jerk),
-            level_ends: true,
-            ..MoveLimits::default()
-        },
+        limits: jerk_limits(jerk),
         ..task(0.0, 20.0)
     };
     let found = smooth(&file, &motor([80.0; 2], 1e3), &asked);
@@ -197,11 +193,7 @@ fn a_press_comes_near_the_motion_without_a_limit() {
     let mut last = f64::INFINITY;
     for jerk in [1e3, 1e4, 1e5, 1e6] {
         let asked = Task {
-            limits: MoveLimits {
-                jerk: Some(jerk),
-                level_ends: true,
-                ..MoveLimits::default()
-            },
+            limits: jerk_limits(jerk),
             ..task(3.2, 7.0)
         };
         let found = smooth(&file, &motor, &asked);
@@ -239,16 +231,8 @@ fn larger_limits_of_a_press_are_faster() {
     let motor = motor([24.0, 12.0], 300.0);
     let bound = solve(&file, &motor, &task(3.2, 9.0)).unwrap().time;
     let limits: [fn(f64) -> MoveLimits; 2] = [
-        |limit| MoveLimits {
-            jerk: Some(limit),
-            level_ends: true,
-            ..MoveLimits::default()
-        },
-        |limit| MoveLimits {
-            torque_rate: Some(0.02 * limit),
-            level_ends: true,
-            ..MoveLimits::default()
-        },
+        |limit| jerk_limits(limit),
+        |limit| torque_rate_limits(0.02 * limit),
     ];
     for limits in limits {
         let mut last = f64::INFINITY;
@@ -316,11 +300,7 @@ fn the_jerk_is_kept_inside_the_steps() {
     };
     for jerk in [2e4, 2e5] {
         let asked = Task {
-            limits: MoveLimits {
-                jerk: Some(jerk),
-                level_ends: true,
-                ..MoveLimits::default()
-            },
+            limits: jerk_limits(jerk),
             ..task(PI, 3.0 * PI)
         };
         smooth(&file, &drive, &asked);
@@ -345,11 +325,7 @@ fn the_cure_names_the_jerk() {
     let path = shipped("eccentric-press.toml");
     let file = jred_analysis::checked::read(&path).unwrap();
     let asked = Task {
-        limits: MoveLimits {
-            jerk: Some(500.0),
-            level_ends: true,
-            ..MoveLimits::default()
-        },
+        limits: jerk_limits(500.0),
         ..task(0.0, 10.0 * TAU)
     };
     let refused = solve(&file, &motor([30.0; 2], 104.7), &asked).unwrap_err();
@@ -366,11 +342,7 @@ fn what_is_in_the_way_is_named() {
     let file = table(2.0, "");
     let asked = Task {
         speeds: [2.0, 0.0],
-        limits: MoveLimits {
-            jerk: Some(1.0),
-            level_ends: true,
-            ..MoveLimits::default()
-        },
+        limits: jerk_limits(1.0),
         ..task(0.0, 1.0)
     };
     let refused = solve(&file, &motor([100.0; 2], 100.0), &asked).unwrap_err();

@@ -8,7 +8,7 @@ use jred_motion::gentlest::{Objective, Travel, gentlest};
 use jred_motion::moves::{Move, Part};
 use jred_motion::path_dynamics::PathDynamics;
 
-use super::{close, motor, table, task};
+use super::{close, jerk_limits, motor, table, task};
 use crate::support::{edited_press, press_file};
 
 /// With constant inertia and no friction: ∫T² dt = 12·J²·D²/t³ in the time t, and the torque falls linearly.
@@ -140,11 +140,7 @@ fn friction_above_the_limit_is_refused() {
 #[test]
 fn with_a_limited_jerk() {
     let file = table(2.0, "");
-    let limits = MoveLimits {
-        jerk: Some(20.0),
-        level_ends: true,
-        ..MoveLimits::default()
-    };
+    let limits = jerk_limits(20.0);
     let asked = Task {
         limits,
         ..task(0.0, 3.0)

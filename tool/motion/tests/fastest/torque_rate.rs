@@ -3,12 +3,12 @@
 use std::f64::consts::PI;
 
 use jred_file::model::machine::MachineFile;
-use jred_motion::fastest::{Fastest, MoveLimits, NoMotion, Task, solve};
+use jred_motion::fastest::{Fastest, NoMotion, Task, solve};
 use jred_motion::path_dynamics::{Actuator, PathDynamics};
 use jred_sizing::cycle::form::Coefficients;
 
 use super::jerk::{NEAR, ROUNDING, WITHIN, cubic, seven, smooth};
-use super::{close, motor, table, task};
+use super::{close, jerk_limits, motor, table, task, torque_rate_limits};
 use crate::support::{edited_press, press_file, shipped};
 
 /// Relative change of the time by an inactive limit, which changes the convergence of the search [3e-8].
@@ -19,11 +19,7 @@ const CHANGES_NOTHING: f64 = 1e-6;
 #[test]
 fn a_torque_rate_is_a_jerk() {
     let file = table(2.0, "");
-    let limits = MoveLimits {
-        torque_rate: Some(40.0),
-        level_ends: true,
-        ..MoveLimits::default()
-    };
+    let limits = torque_rate_limits(40.0);
     for length in [3.0, 0.8] {
         let asked = Task {
             limits,
@@ -38,11 +34,7 @@ fn a_torque_rate_is_a_jerk() {
 #[test]
 fn a_press_with_a_torque_rate() {
     let file = jred_analysis::checked::read(&press_file()).unwrap();
-    let limits = MoveLimits {
-        torque_rate: Some(1e3),
-        level_ends: true,
-        ..MoveLimits::default()
-    };
+    let limits = torque_rate_limits(1e3);
     let motor = motor([60.0, 40.0], 90.0);
     let found = smooth(
         &file,
@@ -109,11 +101,7 @@ fn press(efficiency: u32) -> MachineFile {
 
 fn rate(limit: f64, to: f64) -> Task {
     Task {
-        limits: MoveLimits {
-            torque_rate: Some(limit),
-            level_ends: true,
-            ..MoveLimits::default()
-        },
+        limits: torque_rate_limits(limit),
         ..task(PI, to)
     }
 }
@@ -168,11 +156,7 @@ fn a_torque_that_does_not_bind_changes_nothing() {
 fn a_load_that_jumps_has_no_torque_rate() {
     let text = std::fs::read_to_string(shipped("cam-translating.toml")).unwrap();
     let file = super::machine(&text.replace("modified-sine", "parabola"));
-    let limits = MoveLimits {
-        torque_rate: Some(1e3),
-        level_ends: true,
-        ..MoveLimits::default()
-    };
+    let limits = torque_rate_limits(1e3);
     let motor = motor([40.0; 2], 90.0);
     let refused = solve(
         &file,
@@ -186,11 +170,7 @@ fn a_load_that_jumps_has_no_torque_rate() {
         matches!(refused, Err(NoMotion::LoadJumps { .. })),
         "{refused:?}"
     );
-    let limits = MoveLimits {
-        jerk: Some(1e4),
-        level_ends: true,
-        ..MoveLimits::default()
-    };
+    let limits = jerk_limits(1e4);
     smooth(
         &file,
         &motor,
@@ -226,11 +206,7 @@ fn a_small_rate_follows_the_loads() {
         .map(|pair| (pair[1] - pair[0]).abs())
         .sum();
     for (rate, more) in [(3.0, 0.05), (0.3, 0.01)] {
-        let limits = MoveLimits {
-            torque_rate: Some(rate),
-            level_ends: true,
-            ..MoveLimits::default()
-        };
+        let limits = torque_rate_limits(rate);
         let asked = Task {
             limits,
             ..task(3.2, 9.0)

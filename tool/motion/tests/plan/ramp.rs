@@ -9,24 +9,9 @@ use jred_motion::fastest::{MoveLimits, Task, solve};
 use jred_motion::path_dynamics::Actuator;
 use jred_motion::plan::ramp::least_ramp;
 use jred_motion::trace::Trace;
-use jred_sizing::catalogue::Motor;
-use jred_sizing::cycle::form::Coefficients;
-use jred_sizing::motor::envelope::Envelope;
 
+use crate::fastest::motor;
 use crate::support::press_text;
-
-/// A motor without a rotor whose torque falls linearly from rest to its largest speed.
-fn motor(torques: [f64; 2], speed: f64) -> Actuator {
-    let motor = Motor {
-        peak_curve: vec![[0.0, torques[0]], [speed, torques[1]]],
-        ..Motor::default()
-    };
-    Actuator {
-        coefficients: Coefficients([0.0, 1.0, 1.0, 0.0, 0.0]),
-        ratio: 1.0,
-        envelope: Envelope::of(&motor),
-    }
-}
 
 fn planned(file: &MachineFile, motor: &Actuator, dynamics: [f64; 2], reserve: f64) -> Trace {
     let reserve = Reserve::of_motor(reserve);

@@ -20,6 +20,7 @@ use jred_sizing::motor::envelope::MotorLimits;
 
 use super::{budget, near};
 use crate::support::press_text;
+use crate::{direct, press_duty};
 
 fn cycle() -> Cycle {
     let file = checked::parse("press.toml", &press_text(), Path::new("")).unwrap();
@@ -184,11 +185,7 @@ fn unrated(chopper: f64, peak_power: Option<f64>, pulse_energy: Option<f64>) -> 
         ..Site::default()
     };
     let prepared = MotorLimits::new(&motor, None, &site);
-    let drive = Drive {
-        motor: &motor,
-        gearbox: None,
-        amplifier: None,
-    };
+    let drive = direct(&motor);
     let findings = Context::new(&cycle, &site, drive, &prepared).findings(&RuleSet::default());
     [
         Rule::ResistorPeak,
@@ -232,11 +229,7 @@ fn the_energy_that_comes_back_is_said() {
         ..Site::default()
     };
     let prepared = MotorLimits::new(&motor, None, &site);
-    let drive = Drive {
-        motor: &motor,
-        gearbox: None,
-        amplifier: None,
-    };
+    let drive = direct(&motor);
     let checks = Context::new(&cycle, &site, drive, &prepared).checks(&RuleSet::default());
     let check = checks.iter().find(|c| c.id == Rule::BusVoltage).unwrap();
     let [_, back] =
@@ -262,11 +255,7 @@ fn the_course_of_the_voltage_reaches_the_judged_figure() {
         ..Site::default()
     };
     let prepared = MotorLimits::new(&motor, None, &site);
-    let drive = Drive {
-        motor: &motor,
-        gearbox: None,
-        amplifier: None,
-    };
+    let drive = direct(&motor);
     let context = Context::new(&cycle, &site, drive, &prepared);
     let course = context.bus_voltage();
     let findings = context.findings(&RuleSet::default());
@@ -287,8 +276,7 @@ fn the_course_of_the_voltage_reaches_the_judged_figure() {
 /// A motor that turns without torque in field weakening draws the loss of the weakening current.
 #[test]
 fn idling_in_the_weakened_field_is_not_free() {
-    let file = checked::parse("press.toml", &press_text(), Path::new("")).unwrap();
-    let mut duty = Duty::new(&file, file.motion.as_ref().unwrap(), 100).unwrap();
+    let mut duty = press_duty(100);
     for instant in &mut duty.instants {
         (
             instant.input_speed,
@@ -340,11 +328,7 @@ fn the_mean_power_of_a_resistor_is_its_energy_over_the_cycle() {
         ..Site::default()
     };
     let prepared = MotorLimits::new(&motor, None, &site);
-    let drive = Drive {
-        motor: &motor,
-        gearbox: None,
-        amplifier: None,
-    };
+    let drive = direct(&motor);
     let findings = Context::new(&cycle, &site, drive, &prepared).findings(&RuleSet::default());
     let figure = |rule| findings.get(rule).unwrap().value;
     let curve = bus::power(&cycle, &drive.coefficients(), 1.0, &motor, &prepared, None);

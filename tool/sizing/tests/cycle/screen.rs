@@ -19,6 +19,7 @@ use jred_sizing::select::size::{Candidate, FIRST, Group, Selection};
 use super::catalogue::with_more_ratios;
 use super::random::duty;
 use super::runner;
+use crate::press_duty;
 use crate::support::press_text;
 
 /// Every drive in full, in the order of docs/sizing-rules.md: suitable ones, then refused ones.
@@ -265,10 +266,7 @@ fn sets() -> [RuleSet; 3] {
 /// Amplifiers add currents, I²t and the DC bus.
 #[test]
 fn drives_on_amplifiers_are_screened_as_in_full() {
-    let text = press_text();
-    let file = checked::parse("press.toml", &text, std::path::Path::new("")).unwrap();
-    let duty = Duty::new(&file, file.motion.as_ref().unwrap(), 300).unwrap();
-    let cycle = Cycle::new(&duty);
+    let cycle = Cycle::new(&press_duty(300));
     let mut catalogue = with_more_ratios();
     let currents = [2.0, 6.0, 12.0, 25.0];
     catalogue.amplifiers = currents
@@ -303,10 +301,7 @@ fn drives_on_amplifiers_are_screened_as_in_full() {
 /// Without an amplifier and without the highest bus voltage: a resistance too small for the chopper is still decisive.
 #[test]
 fn a_resistor_is_screened_as_in_full() {
-    let text = press_text();
-    let file = checked::parse("press.toml", &text, std::path::Path::new("")).unwrap();
-    let duty = Duty::new(&file, file.motion.as_ref().unwrap(), 300).unwrap();
-    let cycle = Cycle::new(&duty);
+    let cycle = Cycle::new(&press_duty(300));
     let [small, large] = [15.0, 25.0].map(|resistance| {
         let mut site = Site::default();
         site.supply.min_resistance = Some(20.0);
@@ -326,10 +321,7 @@ fn a_resistor_is_screened_as_in_full() {
 /// beyond it.
 #[test]
 fn a_voltage_is_screened_as_in_full() {
-    let text = press_text();
-    let file = checked::parse("press.toml", &text, std::path::Path::new("")).unwrap();
-    let duty = Duty::new(&file, file.motion.as_ref().unwrap(), 300).unwrap();
-    let cycle = Cycle::new(&duty);
+    let cycle = Cycle::new(&press_duty(300));
     let [small, large] = [1e-6, 1.0].map(|capacitance| {
         let mut site = Site {
             bus_voltage: Some(300.0),
@@ -345,10 +337,7 @@ fn a_voltage_is_screened_as_in_full() {
 /// A drive equals itself and no other, in any order and selection.
 #[test]
 fn a_drive_is_the_same_as_itself_alone() {
-    let text = press_text();
-    let file = checked::parse("press.toml", &text, std::path::Path::new("")).unwrap();
-    let duty = Duty::new(&file, file.motion.as_ref().unwrap(), 100).unwrap();
-    let cycle = Cycle::new(&duty);
+    let cycle = Cycle::new(&press_duty(100));
     let catalogue = Catalogue::load(None, None).unwrap();
     let (site, rules) = (Site::default(), RuleSet::default());
     let motors = catalogue.prepare(&site);
@@ -373,10 +362,7 @@ fn a_drive_is_the_same_as_itself_alone() {
 /// A catalogue of equal drives keeps its order.
 #[test]
 fn equal_drives_stand_in_the_order_of_the_catalogue() {
-    let text = press_text();
-    let file = checked::parse("press.toml", &text, std::path::Path::new("")).unwrap();
-    let duty = Duty::new(&file, file.motion.as_ref().unwrap(), 100).unwrap();
-    let cycle = Cycle::new(&duty);
+    let cycle = Cycle::new(&press_duty(100));
     let mut all = Catalogue::load(None, None).unwrap();
     let gearbox = all.gearboxes[0].clone();
     all.gearboxes = (0..400)
@@ -394,8 +380,7 @@ fn equal_drives_stand_in_the_order_of_the_catalogue() {
 /// Motors with a thousandth of the torque, in an equally small duty: no bound may assume a certain size of torque.
 #[test]
 fn small_motors_are_screened_as_in_full() {
-    let file = checked::parse("press.toml", &press_text(), std::path::Path::new("")).unwrap();
-    let duty = Duty::new(&file, file.motion.as_ref().unwrap(), 200).unwrap();
+    let duty = press_duty(200);
     let mut catalogue = Catalogue::load(None, None).unwrap();
     catalogue.amplifiers.clear();
     for motor in &mut catalogue.motors {

@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 
 use jred_analysis::duty::Duty;
+use jred_file::model::machine::MachineFile;
 use jred_file::model::rule::Rule;
 use jred_file::model::rules::RuleVerdict;
 use jred_file::model::rules::{Limit, RuleSet};
@@ -14,6 +15,7 @@ use jred_sizing::judge::Context;
 use jred_sizing::select::size::Selection;
 
 use super::{duty_of, parse};
+use crate::direct;
 use crate::support::{Folder, budget, edited, near, press_text};
 
 /// A wheel moved by half a turn and back: T = α·(J_M·i + J/i).
@@ -49,6 +51,34 @@ fn only_rms() -> RuleSet {
     rules
 }
 
+/// The wheel with one motor.
+struct Stand {
+    catalogue: Catalogue,
+    file: MachineFile,
+    duty: Duty,
+}
+
+impl Stand {
+    fn new(motors: &str) -> Self {
+        let folder = Folder::new();
+        let motors = folder.file("m.csv", motors);
+        let file = parse(WHEEL);
+        Self {
+            catalogue: Catalogue::load(Some(&motors), None).unwrap(),
+            duty: duty_of(&file),
+            file,
+        }
+    }
+
+    fn remedies(&self, rules: &RuleSet) -> Remedies {
+        let site = &self.file.site;
+        let altered = DutyModel::new(&self.file, &self.duty).unwrap();
+        let prepared = self.catalogue.prepare(site);
+        let drive = direct(&self.catalogue.motors[0]);
+        Remedies::new(&altered, site, rules, drive, &prepared[0])
+    }
+}
+
 fn remedy(remedies: &Remedies, lever: Lever) -> Remedy {
     let mut all = remedies.remedies.iter();
     *all.find(|r| r.lever == lever).unwrap()
@@ -56,23 +86,12 @@ fn remedy(remedies: &Remedies, lever: Lever) -> Remedy {
 
 #[test]
 fn ranges_of_a_wheel_in_closed_form() {
-    let folder = Folder::new();
-    let motors = folder.file("m.csv", MOTOR.replace("B,10,", "B,30,"));
-    let catalogue = Catalogue::load(Some(&motors), None).unwrap();
-    let file = parse(WHEEL);
-    let duty = duty_of(&file);
-    let altered = DutyModel::new(&file, &duty).unwrap();
-    let prepared = catalogue.prepare(&file.site);
-    let drive = Drive {
-        motor: &catalogue.motors[0],
-        gearbox: None,
-        amplifier: None,
-    };
+    let stand = Stand::new(&MOTOR.replace("B,10,", "B,30,"));
     let rules = only_rms();
-    let remedies = Remedies::new(&altered, &file.site, &rules, drive, &prepared[0]);
+    let remedies = stand.remedies(&rules);
     assert!(!remedies.holds);
     let (rotor, load) = (0.008, 1.0);
-    let alpha = duty.figures(|i| i.alpha).rms;
+    let alpha = stand.duty.figures(|i| i.alpha).rms;
     let share = alpha * (rotor + load) / 30.0;
     assert_eq!(remedies.misses.len(), 1);
     assert_eq!(remedies.misses[0].rule, Rule::RmsTorque);
@@ -126,20 +145,9 @@ fn ranges_of_a_wheel_in_closed_form() {
 
 #[test]
 fn no_value_helps_where_the_rotor_alone_is_too_heavy() {
-    let folder = Folder::new();
-    let motors = folder.file("m.csv", MOTOR.replace(",80,", ",8000000,"));
-    let catalogue = Catalogue::load(Some(&motors), None).unwrap();
-    let file = parse(WHEEL);
-    let duty = duty_of(&file);
-    let altered = DutyModel::new(&file, &duty).unwrap();
-    let prepared = catalogue.prepare(&file.site);
-    let drive = Drive {
-        motor: &catalogue.motors[0],
-        gearbox: None,
-        amplifier: None,
-    };
+    let stand = Stand::new(&MOTOR.replace(",80,", ",8000000,"));
     let rules = only_rms();
-    let remedies = Remedies::new(&altered, &file.site, &rules, drive, &prepared[0]);
+    let remedies = stand.remedies(&rules);
     let found = remedy(&remedies, Lever::MovingMass);
     assert_eq!(found.range, None);
     let best = found.best.unwrap();
@@ -148,7 +156,7 @@ fn no_value_helps_where_the_rotor_alone_is_too_heavy() {
         "the lightest that is tried is the best"
     );
     assert_eq!(best.rule, Some(Rule::RmsTorque));
-    let alpha = duty.figures(|i| i.alpha).rms;
+    let alpha = stand.duty.figures(|i| i.alpha).rms;
     near(
         "use",
         found.best_use.unwrap(),
@@ -177,23 +185,14 @@ fn no_value_helps_where_the_rotor_alone_is_too_heavy() {
 /// With few steps the peak torque is resolved by instants without a weight, so a range ends at the peak of the motion law: α = 10/√3·s/t².
 #[test]
 fn a_peak_between_the_steps_ends_the_range() {
-    let folder = Folder::new();
-    let motors = folder.file("m.csv", MOTOR);
-    let catalogue = Catalogue::load(Some(&motors), None).unwrap();
-    let file = parse(WHEEL);
-    let duty = Duty::new(&file, file.motion.as_ref().unwrap(), 32).unwrap();
-    let altered = DutyModel::new(&file, &duty).unwrap();
+    let mut stand = Stand::new(MOTOR);
+    let motion = stand.file.motion.as_ref().unwrap();
+    stand.duty = Duty::new(&stand.file, motion, 32).unwrap();
     let mut rules = only_rms();
     rules.set(Rule::RmsTorque, Limit::default());
     let fail = Some(0.1);
     rules.set(Rule::PeakTorque, Limit { fail, warn: None });
-    let drive = Drive {
-        motor: &catalogue.motors[0],
-        gearbox: None,
-        amplifier: None,
-    };
-    let prepared = catalogue.prepare(&file.site);
-    let remedies = Remedies::new(&altered, &file.site, &rules, drive, &prepared[0]);
+    let remedies = stand.remedies(&rules);
     // A tenth of 1000 N·m turns two wheels of 0.5 kg·m² and a rotor of 80 kg·cm² by half a turn.
     let shortest = (10.0 / 3.0f64.sqrt() * PI * (1.0 + 80e-4) / 100.0).sqrt() / 0.5;
     let [low, _] = remedy(&remedies, Lever::CycleTime).range.unwrap();
@@ -205,26 +204,17 @@ fn a_peak_between_the_steps_ends_the_range() {
 /// used for ranking.
 #[test]
 fn what_is_missed_is_what_the_ranking_goes_by() {
-    let folder = Folder::new();
-    let motors = folder.file("m.csv", MOTOR.replace("1000,80,", "40,800,"));
-    let catalogue = Catalogue::load(Some(&motors), None).unwrap();
-    let file = parse(WHEEL);
-    let duty = duty_of(&file);
-    let altered = DutyModel::new(&file, &duty).unwrap();
-    let prepared = catalogue.prepare(&file.site);
-    let drive = Drive {
-        motor: &catalogue.motors[0],
-        gearbox: None,
-        amplifier: None,
-    };
+    let stand = Stand::new(&MOTOR.replace("1000,80,", "40,800,"));
     let rules = RuleSet::default();
-    let cycle = Cycle::new(&duty);
-    let context = Context::new(&cycle, &file.site, drive, &prepared[0]);
+    let cycle = Cycle::new(&stand.duty);
+    let prepared = stand.catalogue.prepare(&stand.file.site);
+    let drive = direct(&stand.catalogue.motors[0]);
+    let context = Context::new(&cycle, &stand.file.site, drive, &prepared[0]);
     let hot = context.findings(&rules).get(Rule::WindingTemperature);
     let hot = rules.use_of_limit(Rule::WindingTemperature, hot.unwrap());
     let outcome = context.outcome(&rules);
     assert!(hot > outcome.worst_use, "{hot} {outcome:?}");
-    let remedies = Remedies::new(&altered, &file.site, &rules, drive, &prepared[0]);
+    let remedies = stand.remedies(&rules);
     let first = remedies.misses[0];
     assert_eq!(Some(first.rule), outcome.worst_rule);
     near(
@@ -313,22 +303,11 @@ fn a_change_written_into_the_machine_file_does_what_was_said() {
 /// drive shows its whole range.
 #[test]
 fn nobody_is_told_to_make_the_machine_heavier() {
-    let folder = Folder::new();
-    let motors = folder.file("m.csv", MOTOR);
-    let catalogue = Catalogue::load(Some(&motors), None).unwrap();
-    let file = parse(WHEEL);
-    let duty = duty_of(&file);
-    let altered = DutyModel::new(&file, &duty).unwrap();
-    let prepared = catalogue.prepare(&file.site);
-    let drive = Drive {
-        motor: &catalogue.motors[0],
-        gearbox: None,
-        amplifier: None,
-    };
+    let stand = Stand::new(MOTOR);
     // The drive is suitable for limits from 5.24 times its rating of 10 N m on, by alpha·(0.008 + m)/10.
-    let alpha = duty.figures(|i| i.alpha).rms;
+    let alpha = stand.duty.figures(|i| i.alpha).rms;
     let mut rules = only_rms();
-    let remedies = Remedies::new(&altered, &file.site, &rules, drive, &prepared[0]);
+    let remedies = stand.remedies(&rules);
     for (lever, words) in [
         (Lever::CycleTime, "no value from 0.5 s to 2 s helps"),
         (Lever::MovingMass, "no value from 50 % to 100 % helps"),
@@ -340,7 +319,7 @@ fn nobody_is_told_to_make_the_machine_heavier() {
     }
     let fail = Some(6.0);
     rules.set(Rule::RmsTorque, Limit { fail, warn: None });
-    let remedies = Remedies::new(&altered, &file.site, &rules, drive, &prepared[0]);
+    let remedies = stand.remedies(&rules);
     assert!(remedies.holds);
     let [low, high] = remedy(&remedies, Lever::MovingMass).range.unwrap();
     near("mass", high.value, 60.0 / alpha - 0.008, budget::RANGE_END);

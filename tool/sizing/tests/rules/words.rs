@@ -6,6 +6,8 @@ use jred_file::units::RPM;
 use jred_sizing::catalogue::{Amplifier, Motor};
 use jred_sizing::motor::envelope::MotorLimits;
 
+use crate::support::rows;
+
 use super::{Check, Context, Drive, Finding, Rule, RuleSet, Stand, near, press_text};
 
 /// A drive with the data of every rule: on its own bus, with a brake, limits of housing and play, and a resistor that switches on.
@@ -75,111 +77,62 @@ fn judged(change: impl Fn(&mut Stand, &mut Amplifier)) -> Vec<(Rule, Finding, Ch
         .collect()
 }
 
+/// The check of the rule with this name in [`Rule`].
+fn found_of<'a>(found: &'a [(Rule, Finding, Check)], name: &str) -> &'a (Rule, Finding, Check) {
+    let of = found.iter().find(|(rule, ..)| format!("{rule:?}") == name);
+    of.unwrap_or_else(|| panic!("no {name} in {found:?}"))
+}
+
 /// The figure in its unit is the finding, and the limit a share of the rating that the note names.
 #[test]
-#[expect(clippy::too_many_lines, reason = "a table of cases")]
 fn every_rule_has_its_unit_and_names_its_limit() {
     let found = judged(|_, _| {});
-    for (rule, unit, scale, rating) in [
-        (Rule::RmsTorque, "N m", 1.0, "S1 torque at mean speed"),
-        (Rule::PeakTorque, "N m", 1.0, "peak torque at that speed"),
-        (Rule::Speed, "rpm", RPM, "maximum speed"),
-        (Rule::HoldingTorque, "N m", 1.0, "standstill torque"),
-        (Rule::BrakeTorque, "N m", 1.0, "brake torque"),
-        (
-            Rule::BrakeWork,
-            "J",
-            1.0,
-            "work of the brake in one emergency stop",
-        ),
-        (Rule::InertiaRatio, "", 1.0, "times the rotor's inertia"),
-        (
-            Rule::WindingTemperature,
-            "K",
-            1.0,
-            "rise from 40 °C to the maximum temperature of the winding",
-        ),
-        (
-            Rule::HousingTemperature,
-            "K",
-            1.0,
-            "rise from 40 °C to the maximum temperature of the housing",
-        ),
-        (Rule::GearboxPeak, "N m", 1.0, "acceleration torque T2B"),
-        (Rule::GearboxCubicMean, "N m", 1.0, "rated torque T2N"),
-        (Rule::GearboxEmergency, "N m", 1.0, "emergency torque"),
-        (Rule::GearboxMeanSpeed, "rpm", RPM, "rated input speed n1N"),
-        (Rule::GearboxSpeed, "rpm", RPM, "maximum input speed"),
-        (
-            Rule::GearboxCycles,
-            "per hour",
-            1.0,
-            "number up to which the maker gives shock factors",
-        ),
-        (Rule::RmsCurrent, "A", 1.0, "rated current of the amplifier"),
-        (Rule::PeakCurrent, "A", 1.0, "peak current of the amplifier"),
-        (
-            Rule::Overload,
-            "A^2 s",
-            1.0,
-            "(peak current² − rated current²)·peak time of the amplifier",
-        ),
-        (
-            Rule::MotorVoltage,
-            "V",
-            1.0,
-            "largest bus voltage of the motor",
-        ),
-        (
-            Rule::AmplifierVoltage,
-            "V",
-            1.0,
-            "largest bus voltage of the amplifier",
-        ),
-        (Rule::BusVoltage, "V", 1.0, "maximum voltage of the DC bus"),
-        (
-            Rule::BrakeResistance,
-            "Ohm",
-            1.0,
-            "minimum resistance of the chopper",
-        ),
-        (
-            Rule::ResistorPower,
-            "W",
-            1.0,
-            "continuous power of the brake resistor",
-        ),
-        (
-            Rule::ResistorPeak,
-            "W",
-            1.0,
-            "peak power of the brake resistor",
-        ),
-        (
-            Rule::ResistorPulse,
-            "J",
-            1.0,
-            "pulse energy of the brake resistor",
-        ),
-        (Rule::NaturalFrequency, "Hz", 1.0, "drive frequency"),
-        (Rule::Backlash, "mm", 1e-3, "backlash allowed at slider"),
-    ] {
-        let Some((_, finding, check)) = found.iter().find(|(found, ..)| *found == rule) else {
-            panic!(
-                "expected {rule:?}, found {:?}",
-                found.iter().map(|f| f.0).collect::<Vec<_>>()
-            );
+    let cases = "
+        RmsTorque => N m => S1 torque at mean speed
+        PeakTorque => N m => peak torque at that speed
+        Speed => rpm => maximum speed
+        HoldingTorque => N m => standstill torque
+        BrakeTorque => N m => brake torque
+        BrakeWork => J => work of the brake in one emergency stop
+        InertiaRatio => => times the rotor's inertia
+        WindingTemperature => K => rise from 40 °C to the maximum temperature of the winding
+        HousingTemperature => K => rise from 40 °C to the maximum temperature of the housing
+        GearboxPeak => N m => acceleration torque T2B
+        GearboxCubicMean => N m => rated torque T2N
+        GearboxEmergency => N m => emergency torque
+        GearboxMeanSpeed => rpm => rated input speed n1N
+        GearboxSpeed => rpm => maximum input speed
+        GearboxCycles => per hour => number up to which the maker gives shock factors
+        RmsCurrent => A => rated current of the amplifier
+        PeakCurrent => A => peak current of the amplifier
+        Overload => A^2 s => (peak current² − rated current²)·peak time of the amplifier
+        MotorVoltage => V => largest bus voltage of the motor
+        AmplifierVoltage => V => largest bus voltage of the amplifier
+        BusVoltage => V => maximum voltage of the DC bus
+        BrakeResistance => Ohm => minimum resistance of the chopper
+        ResistorPower => W => continuous power of the brake resistor
+        ResistorPeak => W => peak power of the brake resistor
+        ResistorPulse => J => pulse energy of the brake resistor
+        NaturalFrequency => Hz => drive frequency
+        Backlash => mm => backlash allowed at slider
+    ";
+    for [rule, unit, rating] in rows(cases) {
+        let (_, finding, check) = found_of(&found, &rule);
+        let scale = match unit.as_str() {
+            "rpm" => RPM,
+            "mm" => 1e-3,
+            _ => 1.0,
         };
         assert!(finding.is_known(), "{check:?}");
-        assert_eq!(check.unit, unit, "{rule:?}");
+        assert_eq!(check.unit, unit, "{rule}");
         near(
-            &format!("{rule:?}"),
+            &rule,
             check.value.unwrap_or(f64::INFINITY),
             finding.value / scale,
             1e-12,
         );
-        assert!(check.note.contains(rating), "{rule:?}: {}", check.note);
-        assert_ne!(check.verdict, RuleVerdict::NotChecked, "{rule:?}");
+        assert!(check.note.contains(&rating), "{rule}: {}", check.note);
+        assert_ne!(check.verdict, RuleVerdict::NotChecked, "{rule}");
     }
     // All except the torque without acceleration, which is off without a limit, and those of a hot or a high site.
     assert_eq!(found.len(), Rule::COUNT - 1 - 3);
@@ -343,32 +296,18 @@ fn the_peak_current_is_of_the_weaker_part() {
 #[test]
 fn places_are_said() {
     let found = judged(|_, _| {});
-    for (rule, place) in [
-        (
-            Rule::PeakTorque,
-            " rpm, where the cycle comes closest to the envelope",
-        ),
-        (
-            Rule::BrakeTorque,
-            "torque at standstill without the help of friction",
-        ),
-        (
-            Rule::GearboxEmergency,
-            "if the motor brakes with its peak torque where the machine has",
-        ),
-        (
-            Rule::NaturalFrequency,
-            "the motor holding its position at the largest inertia of the cycle",
-        ),
-        (
-            Rule::Backlash,
-            "at the largest transfer function of slider in the motion",
-        ),
-        (Rule::MotorVoltage, "bus voltage of [supply]"),
-        (Rule::BusVoltage, " J are fed back per cycle"),
-        (Rule::WindingTemperature, "duty type S5"),
-    ] {
-        let (_, _, check) = found.iter().find(|(found, ..)| *found == rule).unwrap();
-        assert!(check.note.contains(place), "{rule:?}: {}", check.note);
+    let cases = "
+        PeakTorque => ␣rpm, where the cycle comes closest to the envelope
+        BrakeTorque => torque at standstill without the help of friction
+        GearboxEmergency => if the motor brakes with its peak torque where the machine has
+        NaturalFrequency => the motor holding its position at the largest inertia of the cycle
+        Backlash => at the largest transfer function of slider in the motion
+        MotorVoltage => bus voltage of [supply]
+        BusVoltage => ␣J are fed back per cycle
+        WindingTemperature => duty type S5
+    ";
+    for [rule, place] in rows(cases) {
+        let (_, _, check) = found_of(&found, &rule);
+        assert!(check.note.contains(&place), "{rule}: {}", check.note);
     }
 }

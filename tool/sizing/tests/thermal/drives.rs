@@ -19,6 +19,7 @@ use jred_sizing::motor::winding::COPPER;
 use jred_sizing::thermal::{Load, Model};
 
 use super::{budget, near};
+use crate::direct;
 use crate::support::press_text;
 
 fn cycle() -> Cycle {
@@ -88,11 +89,7 @@ fn sums(motor: &Motor) -> (f64, f64) {
     let cycle = cycle();
     let (mut squares, mut friction) = (0.0, 0.0);
     let [coulomb, viscous] = motor.friction;
-    let drive = Drive {
-        motor,
-        gearbox: None,
-        amplifier: None,
-    };
+    let drive = direct(motor);
     for sample in cycle.samples() {
         let current = drive.coefficients().torque(&sample.loads()) / 2.0;
         let speed = sample.speed().abs();
@@ -242,11 +239,7 @@ fn the_housing_keeps_its_limit_where_it_is_known() {
 fn the_course_of_the_temperatures_reaches_the_judged_figure() {
     let (motor, site, cycle) = (motor(), Site::default(), cycle());
     let prepared = MotorLimits::new(&motor, None, &site);
-    let drive = Drive {
-        motor: &motor,
-        gearbox: None,
-        amplifier: None,
-    };
+    let drive = direct(&motor);
     let course = Context::new(&cycle, &site, drive, &prepared)
         .rises()
         .unwrap();

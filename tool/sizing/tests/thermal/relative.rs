@@ -7,7 +7,7 @@ use jred_analysis::duty::Duty;
 use jred_file::model::operation::Operation;
 use jred_file::model::site::Site;
 use jred_file::model::surroundings::Surroundings;
-use jred_sizing::catalogue::{Drive, Motor, Thermal};
+use jred_sizing::catalogue::{Motor, Thermal};
 use jred_sizing::cycle::Cycle;
 use jred_sizing::motor::envelope::MotorLimits;
 use jred_sizing::thermal::loss_curve::PeakRise;
@@ -15,6 +15,7 @@ use jred_sizing::thermal::network::Losses;
 use jred_sizing::thermal::{Load, Model, allowed_rise};
 
 use super::near;
+use crate::direct;
 use crate::support::press_text;
 
 /// The press cycle takes half a second: a motor with a time constant of minutes has the mean of p, one without a time constant exactly. From cold,
@@ -37,11 +38,7 @@ fn the_rise_is_the_mean_of_the_shares() {
         ..Motor::default()
     };
     let mean = |motor: &Motor, prepared: &MotorLimits| {
-        let drive = Drive {
-            motor,
-            gearbox: None,
-            amplifier: None,
-        };
+        let drive = direct(motor);
         let [mut sum, mut less] = [0.0; 2];
         for sample in cycle.samples() {
             let torque = drive.coefficients().torque(&sample.loads()) / 50.0;
@@ -54,11 +51,7 @@ fn the_rise_is_the_mean_of_the_shares() {
     for time in [None, Some(300.0)] {
         let motor = motor(time);
         let prepared = MotorLimits::new(&motor, None, &Site::default());
-        let drive = Drive {
-            motor: &motor,
-            gearbox: None,
-            amplifier: None,
-        };
+        let drive = direct(&motor);
         let coefficients = drive.coefficients();
         let load = Load {
             cycle: &cycle,
