@@ -13,7 +13,7 @@ use std::rc::Rc;
 
 use serde_json::{Map, Value};
 
-use crate::table::json::{array_parts, split_at_entry};
+use crate::table::json::array_parts;
 use crate::table::output::{self, Format};
 use crate::table::reading::Reading;
 use crate::table::screen::Screen;
@@ -148,6 +148,21 @@ impl<'a> Answer<'a> {
         self.blocks.push(Block::Code(code.into()));
     }
 
+    /// The data as an object, whose arrays are made one item at a time.
+    fn json(&self) -> impl Iterator<Item = String> {
+        let entry = |(k, (key, value)): (usize, (&String, &Value))| {
+            let items = self.arrays.iter().find(|(own, _)| own == key);
+            let value = match items {
+                Some((_, items)) => Box::new(array_parts(items.0())),
+                None => once(format!("{value:#}").replace('\n', "\n  ")),
+            };
+            let before = if k == 0 { "{\n  " } else { ",\n  " };
+            once(format!("{before}{}: ", Value::from(key.as_str()))).chain(value)
+        };
+        let entries = self.data.iter().enumerate().flat_map(entry);
+        entries.chain(once("\n}\n".to_owned()))
+    }
+
     /// Renders the answer in one of the formats, part by part.
     pub fn write(&self, format: Format, screen: Screen) -> Parts<'_, String> {
         let width = screen.width.or(self.narrow);
@@ -156,16 +171,7 @@ impl<'a> Answer<'a> {
             (Some(course), Format::Json) => {
                 Box::new(output::json_parts(course, self.data.clone(), Map::new()))
             }
-            (None, Format::Json) => {
-                let mut rest = format!("{:#}\n", Value::Object(self.data.clone()));
-                let mut parts = Vec::new();
-                for (key, items) in &self.arrays {
-                    let (before, after) = split_at_entry(&rest, key);
-                    parts.extend([once(before), Box::new(array_parts(items.0()))]);
-                    rest = after;
-                }
-                Box::new(parts.into_iter().flatten().chain(once(rest)))
-            }
+            (None, Format::Json) => Box::new(self.json()),
             (Some(course), Format::Table) => {
                 let gap = if self.blocks.is_empty() { "" } else { "\n" };
                 let text = self.text(screen);
