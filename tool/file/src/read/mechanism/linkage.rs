@@ -54,6 +54,15 @@ impl Jointed for BoxedLinkage {
     }
 }
 
+/// The frames at positions over the drive's range. An assembled linkage has a position everywhere.
+fn survey(mechanism: &impl Mechanism) -> impl Iterator<Item = Frames> {
+    const PLACES: usize = 12;
+    let domain = mechanism.domain();
+    let last = if domain == Domain::Turn { 0.999 } else { 1.0 };
+    let phi = move |k| domain.position(last * k as f64 / PLACES as f64);
+    (0..=PLACES).filter_map(move |k| mechanism.frames(phi(k)).ok())
+}
+
 pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
     let bodies = Bodies::read(section)?;
     let mut joints = joints::read(section, &bodies)?;
