@@ -96,10 +96,7 @@ impl SearchFailure<'_> {
     }
 
     fn effort(&self) -> &'static str {
-        match self.coordinate {
-            Coordinate::Angle => "torque",
-            Coordinate::Length => "force",
-        }
+        self.coordinate.vocabulary().torque.word
     }
 
     /// If a larger number of cells than allowed would give a table of each requested layout: which layouts, and how many cells.
