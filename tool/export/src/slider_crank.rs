@@ -13,7 +13,7 @@ use jred::{Domain, Scale, SliderCrankForm};
 use crate::candidate::{RangeTable, SearchResult};
 use crate::search::Search;
 use crate::task::Failure;
-use jred_file::model::machine::MachineFile;
+use jred_file::model::machine::{MachineFile, machine_like};
 use jred_file::model::mechanism::AnyMechanism;
 
 type F = SliderCrankForm;
@@ -50,20 +50,15 @@ pub(crate) fn plain(
             _ => NoClosedForm::Mechanism(any.kind()),
         });
     };
-    let copy = || -> Result<Machine<SliderCrank>, Error> {
-        let mut copy = Machine::new(mechanism.clone())
-            .with_gravity(machine.gravity())?
-            .with_flywheel(machine.flywheel())?;
-        for load in machine.loads() {
-            copy = copy.with_load(*load)?;
-        }
-        for element in machine.elements() {
-            copy = copy.with_element(*element)?;
-        }
-        Ok(copy)
-    };
+    let (loads, elements) = (machine.loads(), machine.elements());
+    let copy = machine_like(
+        machine,
+        mechanism.clone(),
+        loads.iter().copied(),
+        elements.iter().copied(),
+    );
     // Accepted before, so accepted again.
-    let copy = copy().map_err(|_| NoClosedForm::Mechanism(any.kind()))?;
+    let copy = copy.map_err(|_| NoClosedForm::Mechanism(any.kind()))?;
     set_in_use(&copy).map(|_| copy).map_err(NoClosedForm::Part)
 }
 

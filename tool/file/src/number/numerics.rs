@@ -12,6 +12,16 @@ const THIRDS: u32 = 80;
 /// The most halvings of one [`integral`]: a curve that is only rounding must not be halved without end.
 const MOST_HALVINGS: u32 = 20_000;
 
+/// The sign of a direction; zero if it is zero.
+#[inline]
+pub fn sign(direction: f64) -> f64 {
+    if direction == 0.0 {
+        0.0
+    } else {
+        direction.signum()
+    }
+}
+
 /// The zero of a rising, piecewise linear function, from its value and slope: the drive train's efficiencies change sides with its power.
 pub fn newton(mut f: impl FnMut(f64) -> [f64; 2]) -> f64 {
     let mut x = 0.0f64;
