@@ -1,6 +1,8 @@
 //! `jred reduce`: the reduced link over a turn or a stroke, the motion of every point and link, the force in every joint,
 //! and the drive torque of the motion.
 
+use std::convert::Infallible;
+
 use jred::Domain;
 use jred::error::Error;
 use jred::machine::motion::State;
@@ -12,6 +14,7 @@ use jred_file::model::mechanism::AnyMechanism;
 use jred_file::model::motion::Motion;
 use jred_file::model::schedule::ScheduleInstant;
 use jred_file::number::columns::{Column, ColumnQuantity, Columns};
+use jred_file::number::numerics::sides;
 
 mod carriages;
 mod curves;
@@ -421,15 +424,8 @@ impl<'m> Pass<'m> {
         if !self.turn && !(-slack..=self.length + slack).contains(&distance) {
             return None;
         }
-        let (mut early, mut late) = (0.0, motion.duration());
-        for _ in 0..60 {
-            let middle = 0.5 * (early + late);
-            if (motion.at(middle).phi - self.start) * self.direction < distance {
-                early = middle;
-            } else {
-                late = middle;
-            }
-        }
+        let before = |t: f64| (motion.at(t).phi - self.start) * self.direction < distance;
+        let Ok([_, late]) = sides(|t| Ok::<_, Infallible>(before(t)), 0.0, motion.duration());
         let state = State {
             phi,
             ..motion.at(late)

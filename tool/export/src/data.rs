@@ -7,7 +7,6 @@ use crate::candidate::{Candidate, RangeTable, SearchResult};
 use crate::export::Export;
 use crate::figures::{headroom, rust_call, rust_type};
 use crate::proof_result::ProofResult;
-use jred_file::model::coordinate::Coordinate;
 
 /// Name and version of the form in JSON.
 pub const FORM: &str = "jred-export/1";
@@ -199,10 +198,7 @@ impl Export {
             schema: FORM,
             title: self.title.clone(),
             machine: self.machine,
-            position_unit: match self.coordinate {
-                Coordinate::Angle => "rad",
-                Coordinate::Length => "m",
-            },
+            position_unit: self.coordinate.per(),
             effort_unit: self.coordinate.effort_unit(),
             omega: task.omega,
             alpha: task.alpha,

@@ -96,10 +96,7 @@ impl SearchFailure<'_> {
     }
 
     fn effort(&self) -> &'static str {
-        match self.coordinate {
-            Coordinate::Angle => "torque",
-            Coordinate::Length => "force",
-        }
+        self.coordinate.vocabulary().torque.word
     }
 
     /// If a larger number of cells than allowed would give a table of each requested layout: which layouts, and how many cells.
@@ -126,10 +123,7 @@ impl SearchFailure<'_> {
             );
         }
         let _ = write!(text, "use --max-cells {enough} or more");
-        for cure in self.cures() {
-            text += ", or take ";
-            text += &cure;
-        }
+        text += &self.cures();
         Some(text)
     }
 
@@ -221,10 +215,7 @@ impl SearchFailure<'_> {
             }
         }
         text += "\nincrease the allowed error";
-        for cure in self.cures() {
-            text += ", or take ";
-            text += &cure;
-        }
+        text += &self.cures();
         if let Some(cells) = most_cells {
             let _ = write!(text, ", or --max-cells {cells}");
         }
@@ -278,8 +269,8 @@ impl SearchFailure<'_> {
         Ok(found.map(cure))
     }
 
-    /// Results of the other layouts and types; each was tried.
-    fn cures(&self) -> Vec<String> {
+    /// Results of the other layouts and types; each was tried. Each begins with ", or take".
+    fn cures(&self) -> String {
         let meets = |number: Number, layouts: bool| {
             let found = self
                 .answers
@@ -297,7 +288,7 @@ impl SearchFailure<'_> {
                 format!("--type {} --layout {}", number.name(), best.layout.name())
             };
             Some(format!(
-                "{layout} ({} cells, {} bytes)",
+                ", or take {layout} ({} cells, {} bytes)",
                 best.cells(),
                 best.bytes()
             ))
@@ -334,10 +325,7 @@ impl SearchFailure<'_> {
         if self.task.torque_error.is_some() {
             help += ", or a larger error";
         }
-        for cure in self.cures() {
-            help += ", or take ";
-            help += &cure;
-        }
+        help += &self.cures();
         Failure::Impossible { message, help }
     }
 }

@@ -112,14 +112,8 @@ pub(crate) fn headroom(usage: f32) -> Option<f64> {
 
 /// Names and shares of the quantities in a fixed-point tick.
 fn quantities(table: &Candidate, coordinate: Coordinate) -> [(&'static str, f32); 6] {
-    let derivative = match coordinate {
-        Coordinate::Angle => "J'·omega^2/2",
-        Coordinate::Length => "m'·v^2/2",
-    };
-    let viscous = match coordinate {
-        Coordinate::Angle => "b·omega",
-        Coordinate::Length => "b·v",
-    };
+    let derivative = coordinate.pick("J'·omega^2/2", "m'·v^2/2");
+    let viscous = coordinate.pick("b·omega", "b·v");
     [
         (coordinate.inertia(), table.usage(|u| u.inertia)),
         (derivative, table.usage(|u| u.velocity)),
@@ -132,10 +126,7 @@ fn quantities(table: &Candidate, coordinate: Coordinate) -> [(&'static str, f32)
 
 impl Export {
     pub(crate) fn effort(&self) -> &'static str {
-        match self.coordinate {
-            Coordinate::Angle => "torque",
-            Coordinate::Length => "force",
-        }
+        self.coordinate.vocabulary().torque.word
     }
 
     /// Properties and accuracy of the table, for the terminal and for source comments.
@@ -144,10 +135,8 @@ impl Export {
         let coordinate = self.coordinate;
         let (effort, inertia) = (coordinate.effort_unit(), coordinate.inertia_unit());
         let (word, speed) = (self.effort(), coordinate.speed_unit());
-        let ([v, a], acceleration) = match coordinate {
-            Coordinate::Angle => (["omega", "alpha"], "rad/s^2"),
-            Coordinate::Length => (["v", "a"], "m/s^2"),
-        };
+        let ([v, a], acceleration) =
+            coordinate.pick((["omega", "alpha"], "rad/s^2"), (["v", "a"], "m/s^2"));
         let ticks = chosen.ticks();
         let mut names = vec![coordinate.inertia()];
         let has = CURVES

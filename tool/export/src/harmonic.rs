@@ -2,17 +2,14 @@
 
 use jred::error::Error;
 use jred::harmonic::{self, MAX_HARMONICS, fit, scratch_len, terms_in_use};
-use jred::image::{Validity, encode, image_len};
-use jred::machine::Reducible as _;
+use jred::image::image_len;
 use jred::number::RangeError;
 use jred::table::{Shape, Table, Usage, words_len};
 use jred::tabulate::{Request, TableFigures};
-use jred::{CurveSet, Harmonic, Image, Scale};
+use jred::{CurveSet, Harmonic, Scale};
 
 use crate::candidate::{RangeTable, SearchResult};
 use crate::search::Search;
-use crate::search::rounded_up;
-use crate::ticks;
 
 type F = Harmonic<f32>;
 
@@ -96,39 +93,12 @@ impl Search<'_> {
             .map_err(Error::Table)?;
         let places = 4 * fitted.samples + 1;
         let (measured, worst) = harmonic::measure(&self.machine, &table, &request, places)?;
-        let domain = self.machine.domain();
-        let all = (0, f64::INFINITY);
-        let read = |phase| table.si(phase, domain);
-        let (looked, _) = self.reference.error(read, self.goal.range, all);
-        let mut image = vec![0; image_len::<F>(fitted.harmonics, set)];
-        let mut written = |error: f64| {
-            let validity = Validity {
-                max_speed: omega as f32,
-                max_acceleration: alpha as f32,
-                torque_error: rounded_up(error),
-            };
-            encode(&table, validity, &mut image).map(<[u32]>::to_vec)
-        };
-        let bound = fitted.bound.max(measured);
-        let made = written(bound)?;
-        let made = Image::new(&made).map_err(ticks::refusal)?;
-        let ticks = ticks::measure::<F>(&made, &self.reference, self.goal.range)?;
-        let error = bound.max(looked).max(ticks.torque);
+        let (looked, _) = self.torque_error(&table, (0, f64::INFINITY));
+        let usage = Usage::of(&table).map_err(Error::Table)?;
         let mut found = TableFigures::default();
         found.cells = fitted.harmonics;
-        (found.torque_error, found.bound, found.worst) = (measured, bound, worst);
-        Ok(RangeTable {
-            range: self.machine.ends(),
-            curves: set,
-            found,
-            error,
-            looked,
-            ticks,
-            usage: Usage::of(&table).map_err(Error::Table)?,
-            scale: Scale::SI,
-            row_bytes: fitted.bytes,
-            proof: None,
-            words: written(error)?,
-        })
+        found.bound = fitted.bound.max(measured);
+        (found.torque_error, found.worst) = (measured, worst);
+        self.with_image(&table, usage, Scale::SI, found, looked)
     }
 }

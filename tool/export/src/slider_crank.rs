@@ -2,20 +2,18 @@
 
 use jred::error::Error;
 use jred::harmonic::measure;
-use jred::image::{Validity, encode, image_len};
-use jred::machine::{Machine, Mechanism as _, Reducible as _};
+use jred::image::image_len;
+use jred::machine::{Machine, Mechanism as _};
 use jred::mechanism::SliderCrank;
 use jred::slider_crank::{SliderCrankError, form, set_in_use};
 use jred::table::{Shape, Table, Usage, words_len};
 use jred::tabulate::{Request, TableFigures};
-use jred::{Domain, Image, Scale, SliderCrankForm};
+use jred::{Domain, Scale, SliderCrankForm};
 
 use crate::candidate::{RangeTable, SearchResult};
 use crate::search::Search;
-use crate::search::rounded_up;
 use crate::task::Failure;
-use crate::ticks;
-use jred_file::model::machine::MachineFile;
+use jred_file::model::machine::{MachineFile, machine_like};
 use jred_file::model::mechanism::AnyMechanism;
 
 type F = SliderCrankForm;
@@ -52,20 +50,15 @@ pub(crate) fn plain(
             _ => NoClosedForm::Mechanism(any.kind()),
         });
     };
-    let copy = || -> Result<Machine<SliderCrank>, Error> {
-        let mut copy = Machine::new(mechanism.clone())
-            .with_gravity(machine.gravity())?
-            .with_flywheel(machine.flywheel())?;
-        for load in machine.loads() {
-            copy = copy.with_load(*load)?;
-        }
-        for element in machine.elements() {
-            copy = copy.with_element(*element)?;
-        }
-        Ok(copy)
-    };
+    let (loads, elements) = (machine.loads(), machine.elements());
+    let copy = machine_like(
+        machine,
+        mechanism.clone(),
+        loads.iter().copied(),
+        elements.iter().copied(),
+    );
     // Accepted before, so accepted again.
-    let copy = copy().map_err(|_| NoClosedForm::Mechanism(any.kind()))?;
+    let copy = copy.map_err(|_| NoClosedForm::Mechanism(any.kind()))?;
     set_in_use(&copy).map(|_| copy).map_err(NoClosedForm::Part)
 }
 
@@ -143,41 +136,13 @@ impl Search<'_> {
             .with_max_speed(omega)
             .with_max_acceleration(alpha);
         let (measured, worst) = measure(machine, &table, &request, PLACES)?;
-        let domain = self.machine.domain();
-        let all = (0, f64::INFINITY);
-        let read = |phase| table.si(phase, domain);
-        let (looked, _) = self.reference.error(read, self.goal.range, all);
-        let mut image = vec![0; image_len::<F>(0, set)];
-        let mut written = |error: f64| {
-            let validity = Validity {
-                max_speed: omega as f32,
-                max_acceleration: alpha as f32,
-                torque_error: rounded_up(error),
-            };
-            encode(&table, validity, &mut image).map(<[u32]>::to_vec)
-        };
-        let made = written(looked)?;
-        let made = Image::new(&made).map_err(ticks::refusal)?;
-        let ticks = ticks::measure::<F>(&made, &self.reference, self.goal.range)?;
-        let error = measured.max(looked).max(ticks.torque);
+        let (looked, _) = self.torque_error(&table, (0, f64::INFINITY));
         let mut found = TableFigures::default();
         found.cells = words.len() as u32;
         (found.torque_error, found.bound, found.worst) = (measured, measured.max(looked), worst);
-        let made = Box::new(RangeTable {
-            range: self.machine.ends(),
-            curves: set,
-            found,
-            error,
-            looked,
-            ticks,
-            usage,
-            scale: Scale::SI,
-            row_bytes: size_of_val(table.words()),
-            proof: None,
-            words: written(error)?,
-        });
+        let made = Box::new(self.with_image(&table, usage, Scale::SI, found, looked)?);
         Ok(match self.goal.torque_error {
-            Some(allowed) if error > allowed => SearchResult::Misses(made),
+            Some(allowed) if made.error > allowed => SearchResult::Misses(made),
             _ => SearchResult::Meets(made),
         })
     }

@@ -62,10 +62,7 @@ pub fn positive(kind: &'static Kind) -> impl Fn(&str) -> Result<f64, String> + C
 }
 
 const fn of(kinds: Kinds, coordinate: Coordinate) -> &'static Kind {
-    match coordinate {
-        Coordinate::Angle => kinds[0],
-        Coordinate::Length => kinds[1],
-    }
+    coordinate.pick(kinds[0], kinds[1])
 }
 
 /// A position of the drive link, which must lie within its stroke.

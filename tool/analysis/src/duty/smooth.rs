@@ -1,7 +1,9 @@
 //! Between the instants of a duty: over a panel a quantity is the polynomial through its weighted instants.
 
+use std::convert::Infallible;
 use std::ops::Range;
 
+use jred_file::number::numerics::golden_section;
 use jred_file::number::quadrature::kronrod::{MOST_PLACES, Rule};
 
 /// Largest rise of a quantity between two instants above them, as a share of it. A polynomial that rises more does not follow a smooth curve (noise,
@@ -198,29 +200,18 @@ impl Panel {
         known: impl Fn(usize) -> f64,
         value: impl Fn(f64) -> f64,
     ) -> Option<(f64, f64)> {
-        const SECTION: f64 = 0.381_966_011_250_105_1;
         let most = known(k);
-        let [mut low, mut high] = self.around(k, time);
+        let [low, high] = self.around(k, time);
         if high <= low {
             return None;
         }
-        let at = |x: f64| (x, value(x));
-        let mut left = at(low + SECTION * (high - low));
-        let mut right = at(high - SECTION * (high - low));
-        for _ in 0..STEPS {
-            if left.1 > right.1 {
-                high = right.0;
-                right = left;
-                left = at(low + SECTION * (high - low));
-            } else {
-                low = left.0;
-                left = right;
-                right = at(high - SECTION * (high - low));
-            }
-            if (right.1 - left.1).abs() <= 1e-15 * right.1.abs() {
-                break;
-            }
-        }
+        let Ok([left, right]) = golden_section(
+            |x| Ok::<_, Infallible>(value(x)),
+            [low, high],
+            STEPS,
+            |left, right| left > right,
+            |left, right| (right - left).abs() <= 1e-15 * right.abs(),
+        );
         let best = if left.1 > right.1 { left } else { right };
         let raised = best.1 > most && best.1 - most <= MOST_RAISED * most.abs();
         raised.then_some(best)

@@ -74,10 +74,7 @@ fn curves(coordinate: Coordinate) -> Vec<Column> {
         coordinate.per(),
     );
     let (effort, effort_unit) = (coordinate.effort(), coordinate.effort_unit());
-    let viscous = match coordinate {
-        Coordinate::Angle => "N m s/rad",
-        Coordinate::Length => "N s/m",
-    };
+    let viscous = coordinate.pick("N m s/rad", "N s/m");
     vec![
         Column::new(ColumnQuantity::ReducedInertia, inertia, unit),
         Column::new(

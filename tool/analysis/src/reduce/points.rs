@@ -6,7 +6,6 @@ use jred::machine::{Frames, Mechanism as _};
 use jred::number::Transfer;
 
 use super::{RowPose, Set, Source};
-use jred_file::model::coordinate::Coordinate;
 use jred_file::model::mechanism::AnyMechanism;
 use jred_file::number::columns::{Column, ColumnQuantity};
 
@@ -37,10 +36,9 @@ fn place_of(frames: &Frames, link: usize, at: [f64; 2]) -> [Transfer; 2] {
 impl Set for Points {
     fn heads(&self, source: &Source) -> Vec<Column> {
         let per = source.coordinate.per();
-        let ratio = match source.coordinate {
-            Coordinate::Angle => ["rad/rad", "rad/rad^2"],
-            Coordinate::Length => ["rad/m", "rad/m^2"],
-        };
+        let ratio = source
+            .coordinate
+            .pick(["rad/rad", "rad/rad^2"], ["rad/m", "rad/m^2"]);
         let mechanism = source.machine.mechanism();
         let mut heads = Vec::new();
         for (name, ..) in points(mechanism) {

@@ -15,6 +15,7 @@ use jred_file::model::motion::Motion;
 use jred_file::model::motor::Motor;
 use jred_file::model::simulation::{Control, FeedForward};
 use jred_file::number::columns::{Column, ColumnQuantity};
+use jred_file::number::numerics::sign;
 
 /// Positions over which the inertia is averaged.
 const POSITIONS: usize = 720;
@@ -81,7 +82,7 @@ impl<'a> Cascade<'a> {
             FeedForward::None => Ok(0.0),
             FeedForward::MeanInertia => Ok(plant.accelerating(alpha, &self.mean_inertia)),
             FeedForward::Model => {
-                let moment = Moment::new(t, direction(omega));
+                let moment = Moment::new(t, sign(omega));
                 plant.required(&moment, [phi, omega, alpha])
             }
         }
@@ -133,7 +134,7 @@ impl<M: Motor> Commander<M> for Cascade<'_> {
         let mut bends = vec![(asked - least) / size, (most - asked) / size];
         if self.control.feed_forward == FeedForward::Model {
             let reference = self.reference(plant.machines.first, t);
-            let moment = Moment::new(t, direction(reference.omega));
+            let moment = Moment::new(t, sign(reference.omega));
             let state = [reference.phi, reference.omega, reference.alpha];
             bends.extend(plant.bends_required(&moment, state)?);
         }
@@ -149,11 +150,6 @@ impl<M: Motor> Commander<M> for Cascade<'_> {
     fn settles(&self) -> bool {
         false
     }
-}
-
-/// The sign of a speed; 0 at rest.
-fn direction(omega: f64) -> f64 {
-    if omega == 0.0 { 0.0 } else { omega.signum() }
 }
 
 /// The mean of a machine's inertia over its range.

@@ -8,12 +8,12 @@ use jred::mechanism::{TrainInput, TrainOutput};
 
 use super::clock::{Corners, Moment};
 use super::coupled::{CoupledMachines, GearedMachine};
-use super::point::{ReducedLink, ReducedLinks, sign};
+use super::point::{ReducedLink, ReducedLinks};
 use bends::Bends;
 use jred_file::model::axis::Axis;
 use jred_file::model::motor::{Motor, loads_of};
 use jred_file::model::simulation::{Shaft, Simulation};
-use jred_file::number::numerics::newton;
+use jred_file::number::numerics::{newton, sign};
 
 /// The machine with its drive and motor torque.
 pub(crate) struct Plant<'a, M> {

@@ -156,17 +156,12 @@ impl ControlStatistics {
 
     fn follow(&mut self, t: f64, working: &MotorState) {
         let Some(error) = working.error else { return };
-        let largest = self.following.get_or_insert(FollowingError {
-            time: t,
-            position: working.phi,
-            error,
-        });
-        if error.abs() > largest.error.abs() {
-            *largest = FollowingError {
+        if (self.following).is_none_or(|largest| error.abs() > largest.error.abs()) {
+            self.following = Some(FollowingError {
                 time: t,
                 position: working.phi,
                 error,
-            };
+            });
         }
     }
 }

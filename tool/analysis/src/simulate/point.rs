@@ -6,6 +6,7 @@ use jred::machine::{Frames, Mechanism as _, Reduction};
 use super::clock::Moment;
 use super::coupled::GearedMachine;
 use jred_file::model::carriage::Carriage;
+use jred_file::number::numerics::sign;
 
 /// The reduced link of a machine at an instant.
 pub(super) struct ReducedLink<'a> {
@@ -26,15 +27,6 @@ struct CarriageState<'a> {
     t: f64,
     omega: f64,
     gravity: [f64; 2],
-}
-
-/// The sign of a direction; 0 at rest.
-pub(super) fn sign(direction: f64) -> f64 {
-    if direction == 0.0 {
-        0.0
-    } else {
-        direction.signum()
-    }
 }
 
 impl<'a> ReducedLink<'a> {

@@ -117,7 +117,7 @@ impl CycleSearch<'_> {
             last = next;
         }
         let Some([a, b]) = ends else {
-            return Err(no_level(aim));
+            return Err(no_level(&aim.by, aim.speed));
         };
         let begin = if a.0.total_cmp(&b.0).is_eq() {
             a.0
@@ -151,9 +151,14 @@ impl CycleSearch<'_> {
         machines: &CoupledMachines<'t>,
         motor: OwnMotor<'t>,
     ) -> Result<TurningMachine<'t>, SteadyError> {
-        let turning =
-            TurningMachine::new(machines, self.simulation, motor, self.direction, self.turns)?;
-        Ok(turning)
+        let (direction, turns) = (self.direction, self.turns);
+        Ok(TurningMachine::new(
+            machines,
+            self.simulation,
+            motor,
+            direction,
+            turns,
+        )?)
     }
 
     /// The machines with the motor or a load scaled.
@@ -171,26 +176,12 @@ impl CycleSearch<'_> {
                     characteristic: &characteristic,
                     ..self.motor
                 };
-                let turning = TurningMachine::new(
-                    machines,
-                    self.simulation,
-                    motor,
-                    self.direction,
-                    self.turns,
-                )?;
-                ask(&turning)
+                ask(&self.turning(machines, motor)?)
             }
             Level::Load(name) => {
                 let file = with_load(machines.first, name, factor)?;
                 let machines = machines.with_first(&file);
-                let turning = TurningMachine::new(
-                    &machines,
-                    self.simulation,
-                    self.motor,
-                    self.direction,
-                    self.turns,
-                )?;
-                ask(&turning)
+                ask(&self.turning(&machines, self.motor)?)
             }
         }
     }
@@ -237,10 +228,7 @@ impl CycleSearch<'_> {
                 reach *= 4.0;
             }
             let Some((other, there)) = found else {
-                return Err(SteadyError::NoLevel {
-                    what: by.in_words(),
-                    speed: shown(self.direction * begin),
-                });
+                return Err(no_level(by, self.direction * begin));
             };
             factor = numerics::zero(rise, [guess, other], [first, there], 1e-15)?;
         }
@@ -276,10 +264,7 @@ impl CycleSearch<'_> {
         if factor.is_finite() {
             Ok(factor)
         } else {
-            Err(SteadyError::NoLevel {
-                what: by.in_words(),
-                speed: shown(self.direction * speed),
-            })
+            Err(no_level(by, self.direction * speed))
         }
     }
 }
@@ -291,10 +276,10 @@ const OVER: f64 = 1e-3;
 /// Most steps away from a guess of the factor, each four times as long as the last.
 const MOST_DOUBLINGS: u32 = 30;
 
-fn no_level(aim: &MeanSpeed) -> SteadyError {
+fn no_level(by: &Level, speed: f64) -> SteadyError {
     SteadyError::NoLevel {
-        what: aim.by.in_words(),
-        speed: shown(aim.speed),
+        what: by.in_words(),
+        speed: shown(speed),
     }
 }
 

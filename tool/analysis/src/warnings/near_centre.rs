@@ -4,7 +4,6 @@ use jred::Domain;
 use jred::error::Error;
 use jred::machine::Mechanism as _;
 
-use jred_file::model::coordinate::Coordinate;
 use jred_file::model::machine::MachineFile;
 use jred_file::number::rounding::short;
 
@@ -61,10 +60,7 @@ pub(super) fn of(file: &MachineFile) -> Result<Option<String>, Error> {
         drive.place(phi),
         short(per),
         drive.unit(),
-        match coordinate {
-            Coordinate::Angle => "1 deg",
-            Coordinate::Length => "1 mm",
-        },
+        coordinate.pick("1 deg", "1 mm"),
         short(most / slope),
     )))
 }

@@ -104,10 +104,7 @@ pub(super) fn of_motion(file: &MachineFile) -> Option<String> {
             }
         }
     }
-    let limits = match coordinate {
-        Coordinate::Angle => ANGLES,
-        Coordinate::Length => LENGTHS,
-    };
+    let limits = coordinate.pick(ANGLES, LENGTHS);
     let beyond = |k: usize, what: &str, per: &str| {
         let [most, at] = fastest[k];
         (most > limits[k]).then(|| {
@@ -127,13 +124,7 @@ pub(super) fn prescribed(file: &MachineFile) -> Option<(Coordinate, &'static str
     let drive = file.machine.mechanism().coordinate();
     let motion = file.motion.as_ref()?;
     let coordinate = motion.tool().map_or(drive, ToolCoordinate::coordinate);
-    Some((
-        coordinate,
-        match coordinate {
-            Coordinate::Angle => "rad",
-            Coordinate::Length => "m",
-        },
-    ))
+    Some((coordinate, coordinate.per()))
 }
 
 /// A body with its figures.

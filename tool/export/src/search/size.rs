@@ -61,11 +61,7 @@ impl Size<'_> {
         from: (usize, f64),
     ) -> Result<(f64, usize), Error> {
         let table = self.fill(buffers)?;
-        let Search {
-            reference, domain, ..
-        } = self.search;
-        let read = |phase| table.si(phase, *domain);
-        let found = reference.error(read, self.search.goal.range, from);
+        let found = self.search.torque_error(&table, from);
         if found.0 <= from.1 {
             Usage::of(&table).map_err(Error::Table)?;
         }
@@ -86,34 +82,13 @@ impl Size<'_> {
         if found.bound > request.torque_error {
             return Ok(None);
         }
-        let mut words = vec![0; image_len::<F>(self.cells, self.set)];
-        let mut image = |error: f64| {
-            encode(&table, validity(&found, request, error), &mut words).map(<[u32]>::to_vec)
-        };
-        let made = image(found.bound)?;
-        let made = Image::new(&made).map_err(ticks::refusal)?;
-        let ticks = ticks::measure::<F>(&made, &search.reference, search.goal.range)?;
-        let error = found.bound.max(looked).max(ticks.torque);
-        if error > request.torque_error {
+        let mut made = search.with_image(&table, usage, self.scale, found, looked)?;
+        if made.error > request.torque_error {
             return Ok(None);
         }
-        let words = image(error)?;
-        let (mut found, mut ticks) = (found, ticks);
-        found.worst = search.machine.position(found.worst);
-        ticks.worst = search.machine.position(ticks.worst);
-        Ok(Some(RangeTable {
-            range: search.machine.ends(),
-            curves: self.set,
-            found,
-            error,
-            looked,
-            ticks,
-            usage,
-            scale: self.scale,
-            row_bytes: size_of_val(table.words()),
-            proof: None,
-            words,
-        }))
+        made.found.worst = search.machine.position(made.found.worst);
+        made.ticks.worst = search.machine.position(made.ticks.worst);
+        Ok(Some(made))
     }
 
     /// The torque error of a table in double precision, that is, without rounding, and its position.
@@ -127,11 +102,54 @@ impl Size<'_> {
     }
 }
 
-/// The error for the image: in single precision, not rounded down.
-fn validity(found: &TableFigures, request: &Request, error: f64) -> Validity {
-    Validity {
-        torque_error: rounded_up(error),
-        ..found.validity(request)
+impl Search<'_> {
+    /// The largest torque error of a table at the places of the reference, and its index: see
+    /// [`Reference::error`](crate::reference::Reference::error).
+    pub(crate) fn torque_error<F: Format>(
+        &self,
+        table: &Table<'_, F>,
+        from: (usize, f64),
+    ) -> (f64, usize) {
+        let read = |phase| table.si(phase, self.domain);
+        self.reference.error(read, self.goal.range, from)
+    }
+
+    /// A table with its image, whose error is the largest of `found.bound`, `looked` and that of its ticks.
+    pub(crate) fn with_image<F: Format>(
+        &self,
+        table: &Table<'_, F>,
+        usage: Usage,
+        scale: Scale,
+        found: TableFigures,
+        looked: f64,
+    ) -> Result<RangeTable, Error> {
+        let [omega, alpha] = self.goal.range;
+        let mut words = vec![0; image_len::<F>(table.cells(), table.set())];
+        let mut image = |error: f64| {
+            let validity = Validity {
+                max_speed: omega as f32,
+                max_acceleration: alpha as f32,
+                torque_error: rounded_up(error),
+            };
+            encode(table, validity, &mut words).map(<[u32]>::to_vec)
+        };
+        let made = image(found.bound)?;
+        let made = Image::new(&made).map_err(ticks::refusal)?;
+        let ticks = ticks::measure::<F>(&made, &self.reference, self.goal.range)?;
+        let error = found.bound.max(looked).max(ticks.torque);
+        Ok(RangeTable {
+            range: self.machine.ends(),
+            curves: table.set(),
+            found,
+            error,
+            looked,
+            ticks,
+            usage,
+            scale,
+            row_bytes: size_of_val(table.words()),
+            proof: None,
+            words: image(error)?,
+        })
     }
 }
 

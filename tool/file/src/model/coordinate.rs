@@ -32,7 +32,8 @@ impl Coordinate {
         })
     }
 
-    const fn pick(self, angle: &'static str, length: &'static str) -> &'static str {
+    /// The first for an angle, the second for a length.
+    pub const fn pick<T: Copy>(self, angle: T, length: T) -> T {
         match self {
             Self::Angle => angle,
             Self::Length => length,
@@ -41,10 +42,7 @@ impl Coordinate {
 
     /// Names and units of efforts and speeds at the drive link. A motor that drives a slide through a screw has its own vocabulary.
     pub const fn vocabulary(self) -> &'static Vocabulary {
-        match self {
-            Self::Angle => &Vocabulary::ROTARY,
-            Self::Length => &Vocabulary::LINEAR,
-        }
+        self.pick(&Vocabulary::ROTARY, &Vocabulary::LINEAR)
     }
 
     /// The column of positions.
@@ -115,10 +113,7 @@ impl Coordinate {
 
     /// Unit of the speed.
     pub const fn speed_unit(self) -> &'static str {
-        match self {
-            Self::Angle => "rad/s",
-            Self::Length => "m/s",
-        }
+        self.pick("rad/s", "m/s")
     }
 
     /// Symbol of the drive's effort: torque or force.

@@ -14,6 +14,7 @@ use jred::error::Error;
 use jred::mechanism::{Stage, Train, TrainInput, TrainOutput};
 
 use crate::model::machine::MachineFile;
+use crate::number::numerics::sign;
 
 /// Refuses a machine whose drive train has branches, for a command that finds bends of the torque only in the chain.
 ///
@@ -51,12 +52,7 @@ impl Branch {
         let ratio = self.train.ratio();
         let [omega, alpha, direction] =
             [shaft.omega, shaft.alpha, shaft.direction].map(|of| of / ratio);
-        let sense = if direction == 0.0 {
-            0.0
-        } else {
-            direction.signum()
-        };
-        let torque = self.opposing * sense + self.viscous * omega;
+        let torque = self.opposing * sign(direction) + self.viscous * omega;
         let at_end = TrainOutput {
             torque,
             torque_per_alpha: 0.0,

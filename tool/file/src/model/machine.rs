@@ -5,7 +5,7 @@ use std::fmt;
 use std::sync::OnceLock;
 
 use jred::error::Error;
-use jred::machine::{Element, Machine, Mechanism as _, Reducible as _, Reduction};
+use jred::machine::{Element, Load, Machine, Mechanism, Reducible as _, Reduction};
 
 use crate::model::axis::Axis;
 use crate::model::coordinate::positions;
@@ -272,15 +272,9 @@ impl MachineFile {
         }
         self.elements = elements.into_iter().flatten().collect();
         let mechanism = laden(self.machine.mechanism(), masses)?;
-        let mut machine = Machine::new(mechanism)
-            .with_gravity(self.machine.gravity())?
-            .with_flywheel(self.machine.flywheel())?;
-        for named in &self.loads {
-            machine = machine.with_load(named.load)?;
-        }
-        for named in &self.elements {
-            machine = machine.with_element(named.element)?;
-        }
+        let loads = self.loads.iter().map(|named| named.load);
+        let elements = self.elements.iter().map(|named| named.element);
+        let machine = machine_like(&self.machine, mechanism, loads, elements)?;
         self.schedule = self.schedule.of_machine(&machine, self.motion.as_ref())?;
         self.machine = self.schedule.at_no_time().cloned().unwrap_or(machine);
         self.over_range = ReductionCache::default();
@@ -300,6 +294,28 @@ impl MachineFile {
         let ratio = self.drive_train.ratio();
         self.drive_train.inertia_at_input() * ratio * ratio
     }
+}
+
+/// A machine with the gravity and the flywheel of another one.
+///
+/// # Errors
+/// A load or an element does not belong to the mechanism.
+pub fn machine_like<M: Mechanism>(
+    like: &Machine<impl Mechanism>,
+    mechanism: M,
+    loads: impl IntoIterator<Item = Load>,
+    elements: impl IntoIterator<Item = Element>,
+) -> Result<Machine<M>, Error> {
+    let mut machine = Machine::new(mechanism)
+        .with_gravity(like.gravity())?
+        .with_flywheel(like.flywheel())?;
+    for load in loads {
+        machine = machine.with_load(load)?;
+    }
+    for element in elements {
+        machine = machine.with_element(element)?;
+    }
+    Ok(machine)
 }
 
 /// The least common multiple.

@@ -67,11 +67,21 @@ impl AnyMechanism {
         links: impl IntoIterator<Item = S>,
         joints: impl IntoIterator<Item = J>,
     ) -> Self {
+        Self::of(kind, Arc::new(mechanism), links, joints)
+    }
+
+    /// The same of a mechanism on the heap.
+    pub(crate) fn of<S: Into<String>, J: Into<String>>(
+        kind: &'static str,
+        inner: Arc<dyn Inner>,
+        links: impl IntoIterator<Item = S>,
+        joints: impl IntoIterator<Item = J>,
+    ) -> Self {
         Self {
             kind,
             // A mechanism that cannot be placed at all is refused by the reader, and by every later call.
-            coordinate: Coordinate::of(&mechanism).unwrap_or(Coordinate::Angle),
-            inner: Arc::new(mechanism),
+            coordinate: Coordinate::of(&inner.as_ref()).unwrap_or(Coordinate::Angle),
+            inner,
             links: links.into_iter().map(Into::into).collect(),
             joints: joints.into_iter().map(Into::into).collect(),
             points: Vec::new(),

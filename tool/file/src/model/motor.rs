@@ -1,6 +1,7 @@
 //! The drive of the drive train's input: a motor, with everything between it and the input.
 
 use crate::model::characteristic::Characteristic;
+use crate::number::numerics::sign;
 
 /// The motor torque as a linear form in the five loads of an instant: see [`loads_of`].
 ///
@@ -25,8 +26,7 @@ pub fn loads_of(alpha: f64, torque: f64, speed: f64) -> [f64; LOADS] {
     } else {
         [torque, 0.0]
     };
-    let sign = if speed == 0.0 { 0.0 } else { speed.signum() };
-    [alpha, driving, back, speed, sign]
+    [alpha, driving, back, speed, sign(speed)]
 }
 
 impl Coefficients {

@@ -11,6 +11,7 @@ use jred::machine::Mechanism as _;
 use jred::machine::{Action, Load, Machine};
 
 use crate::model::carriage::Carriage;
+use crate::model::machine::machine_like;
 use crate::model::mechanism::AnyMechanism;
 use crate::model::motion::Motion;
 use crate::model::with_mass::{AttachedMass, laden};
@@ -314,14 +315,14 @@ fn rebuilt(
     mechanism: AnyMechanism,
     load_of: impl Fn(usize, &Load) -> Result<Load, Error>,
 ) -> Result<Machine<AnyMechanism>, Error> {
-    let mut made = Machine::new(mechanism)
-        .with_gravity(machine.gravity())?
-        .with_flywheel(machine.flywheel())?;
-    for (k, load) in machine.loads().iter().enumerate() {
-        made = made.with_load(load_of(k, load)?)?;
-    }
-    for element in machine.elements() {
-        made = made.with_element(*element)?;
-    }
-    Ok(made)
+    let loads = machine.loads().iter().enumerate();
+    let loads: Vec<Load> = loads
+        .map(|(k, load)| load_of(k, load))
+        .collect::<Result<_, Error>>()?;
+    machine_like(
+        machine,
+        mechanism,
+        loads,
+        machine.elements().iter().copied(),
+    )
 }

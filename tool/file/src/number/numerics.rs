@@ -12,6 +12,16 @@ const THIRDS: u32 = 80;
 /// The most halvings of one [`integral`]: a curve that is only rounding must not be halved without end.
 const MOST_HALVINGS: u32 = 20_000;
 
+/// The sign of a direction; zero if it is zero.
+#[inline]
+pub fn sign(direction: f64) -> f64 {
+    if direction == 0.0 {
+        0.0
+    } else {
+        direction.signum()
+    }
+}
+
 /// The zero of a rising, piecewise linear function, from its value and slope: the drive train's efficiencies change sides with its power.
 pub fn newton(mut f: impl FnMut(f64) -> [f64; 2]) -> f64 {
     let mut x = 0.0f64;
@@ -44,7 +54,7 @@ pub fn least<E>(f: impl Fn(f64) -> Result<f64, E>, mut low: f64, mut high: f64) 
 }
 
 /// Golden section, for expensive values: each step needs one value and leaves 0.618 of the range in which `f` has one minimum. Returns the last two
-/// inner positions with their values. `is_less` compares values; the search ends early if one of them `is_enough`.
+/// inner positions with their values. `is_less` compares values; the search ends early if the two `are_enough`.
 ///
 /// # Errors
 /// Those of `f`.
@@ -53,7 +63,7 @@ pub fn golden_section<T, E>(
     [mut low, mut high]: [f64; 2],
     steps: u32,
     is_less: impl Fn(&T, &T) -> bool,
-    is_enough: impl Fn(&T) -> bool,
+    are_enough: impl Fn(&T, &T) -> bool,
 ) -> Result<[(f64, T); 2], E> {
     const SECTION: f64 = 0.381_966_011_250_105_1;
     let at = |x: f64| Ok((x, f(x)?));
@@ -69,7 +79,7 @@ pub fn golden_section<T, E>(
             left = right;
             right = at(high - SECTION * (high - low))?;
         }
-        if is_enough(&left.1) || is_enough(&right.1) {
+        if are_enough(&left.1, &right.1) {
             break;
         }
     }
@@ -80,7 +90,20 @@ pub fn golden_section<T, E>(
 ///
 /// # Errors
 /// Those of `before`.
-pub fn edge<E>(before: impl Fn(f64) -> Result<bool, E>, mut a: f64, mut b: f64) -> Result<f64, E> {
+pub fn edge<E>(before: impl Fn(f64) -> Result<bool, E>, a: f64, b: f64) -> Result<f64, E> {
+    let [a, b] = sides(before, a, b)?;
+    Ok(a.midpoint(b))
+}
+
+/// The last places on both sides of this border: `before` is true at the first and false at the second.
+///
+/// # Errors
+/// Those of `before`.
+pub fn sides<E>(
+    before: impl Fn(f64) -> Result<bool, E>,
+    mut a: f64,
+    mut b: f64,
+) -> Result<[f64; 2], E> {
     for _ in 0..60 {
         let middle = a.midpoint(b);
         if before(middle)? {
@@ -89,7 +112,7 @@ pub fn edge<E>(before: impl Fn(f64) -> Result<bool, E>, mut a: f64, mut b: f64) 
             b = middle;
         }
     }
-    Ok(a.midpoint(b))
+    Ok([a, b])
 }
 
 /// The zero of `f` between `a` and `b`, where it has the values `fa` and `fb` of opposite signs, to a relative accuracy of `share`: inverse quadratic

@@ -69,27 +69,18 @@ pub(super) fn read(
     let file = CsvFile::open(&item, "profile.csv", files)?;
     let columns = read_columns(&file.text, drive.coordinate, &layout, &request);
     let columns = columns.map_err(|fault| {
-        let other = match drive.coordinate {
-            Coordinate::Angle => Coordinate::Length,
-            Coordinate::Length => Coordinate::Angle,
-        };
+        let other = drive.coordinate.pick(Coordinate::Length, Coordinate::Angle);
         if read_columns(&file.text, other, &layout, &request).is_err() {
             return file.shows(fault);
         }
-        let has = match other {
-            Coordinate::Angle => "angles",
-            Coordinate::Length => "lengths",
-        };
+        let has = other.pick("angles", "lengths");
         if let (Some(tool), Some(of)) = (&prescribed.tool, section.get("of")) {
             let what = format!("is {}, but the file has {has}, positions of the drive link", tool.name());
             return of.problem(&what, "not those of the file").help(
                 "remove `of` from [motion]: `jred fastest` and `jred gentlest` write such profiles of the drive link",
             );
         }
-        let (does, own) = match other {
-            Coordinate::Length => ("turns", "phi [deg]"),
-            Coordinate::Angle => ("slides", "s [mm]"),
-        };
+        let (does, own) = other.pick(("slides", "s [mm]"), ("turns", "phi [deg]"));
         let what = format!("has {has}, but the drive link {does}");
         item.problem(&what, "not of the drive link").help(format!(
             "name in [motion] the part that the file tells of, as in the motion that it was made from: of = {{ point = \"carriage\", \

@@ -39,17 +39,12 @@ fn gear_pair(section: &Section, losses: Losses) -> Result<StageEntry> {
     let mesh = section.pick("mesh", [Mesh::External, Mesh::Internal])?;
     let efficiency = efficiency(section, losses)?;
     section.finish()?;
-    Stage::gears(GearDimensions {
+    let stage = Stage::gears(GearDimensions {
         teeth: [driver.0, driven.0],
         inertias: [driver.1, driven.1],
         mesh,
-    })
-    .and_then(|stage| stage.with_efficiency(efficiency))
-    .map(|stage| StageEntry {
-        stage,
-        place: section.header(),
-    })
-    .map_err(|error| core(section, error))
+    });
+    entry(section, stage, efficiency)
 }
 
 fn gear(section: &Section, key: &'static str) -> Result<(u32, f64)> {
@@ -64,17 +59,12 @@ pub(super) fn belt(section: &Section, losses: Losses) -> Result<StageEntry> {
     let [driver, driven] = [pulley(section, "driver")?, pulley(section, "driven")?];
     let mass = section.si("belt_mass")?;
     let efficiency = efficiency(section, losses)?;
-    Stage::belt(BeltDimensions {
+    let stage = Stage::belt(BeltDimensions {
         radii: [driver.0, driven.0],
         inertias: [driver.1, driven.1],
         mass,
-    })
-    .and_then(|stage| stage.with_efficiency(efficiency))
-    .map(|stage| StageEntry {
-        stage,
-        place: section.header(),
-    })
-    .map_err(|error| core(section, error))
+    });
+    entry(section, stage, efficiency)
 }
 
 /// The stage of a table with `type = "friction"`: a friction wheel, a V-belt or a disc, whose slip reduces the speed and thus the power. The torques
@@ -91,13 +81,8 @@ pub(super) fn friction(section: &Section) -> Result<StageEntry> {
     }
     let slip = section.get("slip").map_or(Ok(0.0), |item| share(&item))?;
     let (input, output) = (section.si("input_inertia")?, section.si("output_inertia")?);
-    Stage::new(1.0 / (ratio * (1.0 - slip)), [input, output])
-        .and_then(|stage| stage.with_efficiency(1.0 - slip))
-        .map(|stage| StageEntry {
-            stage,
-            place: section.header(),
-        })
-        .map_err(|error| core(section, error))
+    let stage = Stage::new(1.0 / (ratio * (1.0 - slip)), [input, output]);
+    entry(section, stage, 1.0 - slip)
 }
 
 /// The stages with an additional inertia (kg·m²) after the last.
@@ -130,13 +115,7 @@ pub(super) fn rack(section: &Section) -> Result<StageEntry> {
 fn linear(section: &Section, ratio: f64) -> Result<StageEntry> {
     let (inertia, mass) = (section.si("inertia")?, section.si("mass")?);
     let efficiency = efficiency(section, Losses::Allowed)?;
-    Stage::new(ratio, [inertia, mass])
-        .and_then(|stage| stage.with_efficiency(efficiency))
-        .map(|stage| StageEntry {
-            stage,
-            place: section.header(),
-        })
-        .map_err(|error| core(section, error))
+    entry(section, Stage::new(ratio, [inertia, mass]), efficiency)
 }
 
 fn pulley(section: &Section, key: &'static str) -> Result<(f64, f64)> {
@@ -172,6 +151,15 @@ pub(super) fn train(stages: Vec<StageEntry>) -> Result<Train> {
     Train::new(&stages).map_err(Problem::of)
 }
 
-fn core(section: &Section, error: RangeError) -> Problem {
-    section.titled(error, "in this stage")
+/// The stage of this table, with its efficiency.
+fn entry(
+    section: &Section,
+    stage: Result<Stage, RangeError>,
+    efficiency: f64,
+) -> Result<StageEntry> {
+    let stage = stage.and_then(|stage| stage.with_efficiency(efficiency));
+    Ok(StageEntry {
+        stage: stage.map_err(|error| section.titled(error, "in this stage"))?,
+        place: section.header(),
+    })
 }

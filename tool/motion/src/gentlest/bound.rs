@@ -282,7 +282,7 @@ impl StationBound {
         let place = |k: i32| f64::from(k) / f64::from(STEPS);
         let around = [place(best - 1), place(best + 1)];
         let sure = |power: f64| Ok::<_, Infallible>(at(power));
-        let Ok([a, b]) = golden_section(sure, around, GOLDEN, |a, b| a < b, |_| false);
+        let Ok([a, b]) = golden_section(sure, around, GOLDEN, |a, b| a < b, |_, _| false);
         least.min(a.1).min(b.1)
     }
 

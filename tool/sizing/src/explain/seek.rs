@@ -267,7 +267,7 @@ fn golden(judge: impl Fn(f64) -> DriveResult, around: [f64; 2]) -> (f64, DriveRe
         around,
         SECTIONS,
         |a, b| a.score() < b.score(),
-        DriveResult::holds,
+        |a, b| a.holds() || b.holds(),
     );
     if right.1.holds() || (!left.1.holds() && right.1.score() < left.1.score()) {
         right

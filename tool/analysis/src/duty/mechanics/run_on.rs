@@ -12,7 +12,7 @@
 use crate::duty::Instant;
 
 /// Motion in one direction at the input of the drive train.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct DirectionExtremes {
     /// Largest kinetic energy (J).
     energy: f64,
@@ -80,11 +80,7 @@ impl RunOn {
                 let energy = 0.5 * instant.input_inertia * speed * speed;
                 let terms = &instant.terms;
                 let driving = -(terms.potential + terms.process) * sign / ratio;
-                let way = way.get_or_insert(DirectionExtremes {
-                    energy: 0.0,
-                    speed: 0.0,
-                    driving: 0.0,
-                });
+                let way = way.get_or_insert_default();
                 way.energy = way.energy.max(energy);
                 way.speed = way.speed.max(speed);
                 way.driving = way.driving.max(driving);
@@ -92,9 +88,8 @@ impl RunOn {
             way
         };
         let rest = DirectionExtremes {
-            energy: 0.0,
-            speed: 0.0,
             driving: held,
+            ..DirectionExtremes::default()
         };
         let ways = [way(1.0), way(-1.0), Some(rest)];
         Self {

@@ -8,7 +8,7 @@ mod problems;
 mod wheels;
 
 use jred::Domain;
-use jred::machine::{Frame, Frames, Joint, Jointed, Joints, Link, Mechanism, PoseError};
+use jred::machine::{Frame, Frames, Joint, Mechanism};
 use jred::mechanism::linkage::{LinkageError, Pair};
 
 use crate::model::coordinate::Coordinate;
@@ -26,32 +26,13 @@ const STATIONS: usize = 256;
 /// The most change points in the drive's range.
 const CHANGE_POINTS: usize = 16;
 
-/// A linkage on the heap: with all its stations it is too large for the stack.
-#[derive(Debug)]
-struct BoxedLinkage(Box<dyn Inner>);
-
-impl Mechanism for BoxedLinkage {
-    fn links(&self) -> &[Link] {
-        self.0.links()
-    }
-    fn domain(&self) -> Domain {
-        self.0.domain()
-    }
-    fn frames(&self, phi: f64) -> std::result::Result<Frames, PoseError> {
-        self.0.frames(phi)
-    }
-}
-
-impl Jointed for BoxedLinkage {
-    fn joints(&self, phi: f64, frames: &Frames) -> std::result::Result<Joints, PoseError> {
-        self.0.joints(phi, frames)
-    }
-    fn drive(&self) -> usize {
-        self.0.drive()
-    }
-    fn determined(&self, phi: f64) -> bool {
-        self.0.determined(phi)
-    }
+/// The frames at positions over the drive's range. An assembled linkage has a position everywhere.
+fn survey(mechanism: &impl Mechanism) -> impl Iterator<Item = Frames> {
+    const PLACES: usize = 12;
+    let domain = mechanism.domain();
+    let last = if domain == Domain::Turn { 0.999 } else { 1.0 };
+    let phi = move |k| domain.position(last * k as f64 / PLACES as f64);
+    (0..=PLACES).filter_map(move |k| mechanism.frames(phi(k)).ok())
 }
 
 pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
@@ -98,14 +79,14 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
         (LinkageError::NoChangePoint, Some(keep)) => context.never_flat(keep),
         _ => context.problem(error, kept, || Ok(kept_on_branch(&context, domain)?.1)),
     })?;
-    wheels::check(&assembly, &bodies, &joints)?;
-    cam::check(&assembly, &bodies, &joints)?;
-    inertias(&assembly, &bodies)?;
+    wheels::check(&assembly.as_ref(), &bodies, &joints)?;
+    cam::check(&assembly.as_ref(), &bodies, &joints)?;
+    inertias(assembly.as_ref(), &bodies)?;
 
     let names = bodies.names();
     let joint_names = joints.iter().map(|joint| joint.name.clone());
     let pairs: Vec<Pair> = joints.iter().map(|joint| joint.pair).collect();
-    let mut mechanism = AnyMechanism::new(section.chosen(), assembly, names, joint_names)
+    let mut mechanism = AnyMechanism::of(section.chosen(), assembly.into(), names, joint_names)
         .with_pairs(&pairs)
         .with_change_points(change_points);
     for (link, body) in bodies.moving.iter().enumerate() {
@@ -120,12 +101,15 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
     Ok(cam::described(mechanism, &joints))
 }
 
-/// Not inlined, so that the stations leave the stack when it returns.
+/// The linkage, on the heap: with all its stations it is too large for the stack. Not inlined, so that they leave the stack when it returns.
 #[inline(never)]
-fn assembled(context: &Context, domain: Domain) -> std::result::Result<BoxedLinkage, LinkageError> {
+fn assembled(
+    context: &Context,
+    domain: Domain,
+) -> std::result::Result<Box<dyn Inner>, LinkageError> {
     let linkage = context.linkage()?;
     let assembly = linkage.assemble::<STATIONS>(domain, context.drawn_at, context.poses)?;
-    Ok(BoxedLinkage(Box::new(assembly)))
+    Ok(Box::new(assembly))
 }
 
 /// The linkage assembled through its change points, and these points.
@@ -133,7 +117,7 @@ fn assembled(context: &Context, domain: Domain) -> std::result::Result<BoxedLink
 fn kept_on_branch(
     context: &Context,
     domain: Domain,
-) -> std::result::Result<(BoxedLinkage, Vec<ChangePoint>), LinkageError> {
+) -> std::result::Result<(Box<dyn Inner>, Vec<ChangePoint>), LinkageError> {
     let assembly = context
         .linkage()?
         .assemble_through_change_points::<STATIONS, CHANGE_POINTS>(
@@ -146,7 +130,7 @@ fn kept_on_branch(
         .change_points()
         .map(|at| ChangePoint { at, within })
         .collect();
-    Ok((BoxedLinkage(Box::new(assembly)), points))
+    Ok((Box::new(assembly), points))
 }
 
 /// The joint that is driven.
@@ -200,7 +184,7 @@ fn domain(section: &Section, coordinate: Coordinate) -> Result<Domain> {
 }
 
 /// Checks that a body that turns has a moment of inertia in the file, even if it is zero.
-fn inertias(assembly: &BoxedLinkage, bodies: &Bodies) -> Result<()> {
+fn inertias(assembly: &dyn Inner, bodies: &Bodies) -> Result<()> {
     let open: Vec<usize> = (0..bodies.moving.len())
         .filter(|k| bodies.moving.get(*k).is_some_and(|body| !body.has_inertia))
         .collect();

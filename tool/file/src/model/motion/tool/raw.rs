@@ -140,15 +140,7 @@ impl Raw<'_> {
         };
         let mut places: Vec<f64> = (0..=last).map(place).collect();
         // The last place at which it still moves.
-        let (mut inside, mut outside) = (place(last), stop);
-        for _ in 0..60 {
-            let middle = inside.midpoint(outside);
-            if moves(middle)? {
-                inside = middle;
-            } else {
-                outside = middle;
-            }
-        }
+        let [inside, _] = numerics::sides(moves, place(last), stop)?;
         if (inside - place(last)).abs() > 0.0 {
             places.push(inside);
         }

@@ -3,7 +3,6 @@
 use std::f64::consts::TAU;
 use std::ops::Range;
 
-use jred::Domain;
 use jred::machine::{Body, Mechanism};
 use jred::mechanism::cam::Piece;
 use jred::mechanism::linkage::{Pair, PlacedCam};
@@ -17,6 +16,7 @@ use crate::text::section::Section;
 
 use super::bodies::{Bodies, JointEnd};
 use super::joints::JointEntry;
+use super::survey;
 
 /// The most cams of a linkage.
 pub(super) const MOST: usize = 8;
@@ -109,15 +109,8 @@ pub(super) fn check(
     bodies: &Bodies,
     joints: &[JointEntry],
 ) -> Result<()> {
-    const PLACES: usize = 12;
-    let domain = mechanism.domain();
     for (joint, cam) in cams(joints) {
-        for k in 0..=PLACES {
-            let last = if domain == Domain::Turn { 0.999 } else { 1.0 };
-            let phi = domain.position(last * k as f64 / PLACES as f64);
-            let Ok(frames) = mechanism.frames(phi) else {
-                continue; // an assembled linkage has a position everywhere
-            };
+        for frames in survey(mechanism) {
             stands(joint, cam, bodies, &frames)?;
         }
     }

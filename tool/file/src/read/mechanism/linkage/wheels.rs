@@ -1,6 +1,5 @@
 //! Requirements of gears, racks and belts on their bearings, checked on the assembled linkage.
 
-use jred::Domain;
 use jred::machine::{Body, Frame, Marker, Mechanism};
 use jred::mechanism::linkage::Pair;
 
@@ -9,6 +8,7 @@ use crate::text::problem::{Problem, Result};
 
 use super::bodies::Bodies;
 use super::joints::JointEntry;
+use super::survey;
 
 /// Share by which radii may miss the centre distance: rounding in the file.
 const ROUNDING: f64 = 1e-4;
@@ -29,18 +29,11 @@ pub(super) fn check(
     bodies: &Bodies,
     joints: &[JointEntry],
 ) -> Result<()> {
-    const PLACES: usize = 12;
-    let domain = mechanism.domain();
     let rolling: Vec<&JointEntry> = joints.iter().filter(|j| j.radii.is_some()).collect();
     if rolling.is_empty() {
         return Ok(());
     }
-    for k in 0..=PLACES {
-        let last = if domain == Domain::Turn { 0.999 } else { 1.0 };
-        let phi = domain.position(last * k as f64 / PLACES as f64);
-        let Ok(frames) = mechanism.frames(phi) else {
-            continue; // an assembled linkage has a position everywhere
-        };
+    for frames in survey(mechanism) {
         for joint in &rolling {
             match &joint.pair {
                 Pair::Gears {
