@@ -46,7 +46,7 @@ fn the_process_of_a_machine_is_kept() {
     }
     let run = jred("size", "flying-shear", &["--motion", "best"]);
     let says = squeezed(&run.out);
-    assert!(says.contains(" kept 2 m/s of x of drive"), "{}", run.out);
+    assert!(says.contains("\nkept 2 m/s of x of drive"), "{}", run.out);
     let run = jred("gentlest", "shaper", &[]);
     assert!(run.out.contains("  not kept "), "{}", run.out);
 }
@@ -80,7 +80,7 @@ fn a_motion_for_a_drive_drops_no_limit_without_a_word() {
     let run = jred("size", "belt-axis", &options);
     let says = "max_speed 1.6 m/s, max_acceleration 10 m/s^2, max_jerk 400 m/s^3 of the segments in the file are not kept";
     assert!(
-        squeezed(&run.out).contains(&format!(" limits {says}")),
+        squeezed(&run.out).contains(&format!("\nlimits {says}\n")),
         "{}",
         run.out
     );
