@@ -115,14 +115,17 @@ static END: KeyTable = KeyTable::of("", &[&[
     may("at", pair(&LENGTH), "`[u, v]` of the link, or in global coordinates").or("0"),
 ]]);
 
-const NAME: Key = may("name", ValueForm::Text, "in reports (from its ends: \"spring from slider to ground\")").such_as("\"counterbalance\"");
+const fn name(help: &'static str) -> Key {
+    may("name", ValueForm::Text, help).such_as("\"counterbalance\"")
+}
+
 static AN_END: [ValueForm; 2] = [ValueForm::Name("a body or of a point"), ValueForm::Table(&END)];
 static EITHER_END: ValueForm = ValueForm::Any(&AN_END);
 const ENDS: Key = key("between", ValueForm::List(&EITHER_END, [2, 2]), "two ends on different bodies: the points that it connects")
     .such_as("[\"slider\", { on = \"ground\", at = [\"0 mm\", \"400 mm\"] }]");
 
 pub(crate) static SPRING: KeyTable = KeyTable::of("spring", &[&[
-    NAME,
+    name("in reports (from its ends: \"spring from slider to ground\")"),
     ENDS,
     key("stiffness", ValueForm::Any(&[quantity(&STIFFNESS).positive(), quantity(&TORSION_STIFFNESS).positive()]), ""),
     may("free_length", quantity(&LENGTH).not_negative(), "without force: longer it pulls, shorter it pushes"),
@@ -130,7 +133,7 @@ pub(crate) static SPRING: KeyTable = KeyTable::of("spring", &[&[
 ]]).either(&[(&["free_length", "free_angle"], KEEP_ONE)]);
 
 pub(crate) static DAMPER: KeyTable = KeyTable::of("damper", &[&[
-    NAME,
+    name("in reports (from its ends: \"damper from slider to ground\")"),
     ENDS,
     may("viscous_force", quantity(&VISCOUS_FORCE).positive(), "d of the force d·l̇ along the line between its ends"),
     may("viscous_moment", quantity(&VISCOUS_MOMENT).positive(), "instead: d of the moment d·θ̇ between two bodies"),
