@@ -9,7 +9,8 @@
 //! ```
 //!
 //! i_t is the ratio of the machine's drive train, J_t its inertia and τ the torque at its input, whose acceleration is α_in; i is the ratio of the
-//! gearbox. A loss is the torque of a stage beyond its lossless torque. The contributions of an instant add up to the motor torque (test `tests/explain.rs`, 1e-12 of the largest).
+//! gearbox. A loss is the torque of a stage beyond its lossless torque. The contributions of an instant add up to the motor torque
+//! (test `tests/explain.rs`, 1e-12 of the largest).
 //!
 //! The share of each in the mean square is ⟨T_k·T⟩/⟨T²⟩, its projection on the whole: the shares add up to one. A share may be negative: without that
 //! contribution the RMS torque would be greater.
