@@ -23,7 +23,7 @@ pub use clock::Moment;
 use commander::{COMMANDED, COMMANDED_WITH_GUESTS, CommandedPlant, Commander};
 pub use coupled::{CoupledMachines, GearedMachine};
 pub use emergency::{Stop, stops};
-pub use error::SimulationError;
+pub use error::{IntegratorStop, NotBeside, SimulationError};
 pub use machine::beside_name;
 pub use observe::{MotorState, NoObserver, Observer};
 pub use result::{
@@ -31,7 +31,6 @@ pub use result::{
     TorqueLimit, TurnWorks,
 };
 
-use jred_file::model::by_motion::ByMotion;
 use jred_file::model::machine::MachineFile;
 use jred_file::model::motor::Motor;
 use jred_file::model::simulation::Simulation;
@@ -111,8 +110,8 @@ fn commanded<M: Motor, C: Commander<M>>(
 
 /// Refuses a machine with parts scheduled by the motion of its file, where that motion is not simulated.
 fn refuse_scheduled(file: &MachineFile) -> Result<(), SimulationError> {
-    match file.scheduled().next() {
-        Some(ByMotion { what, cure }) => Err(SimulationError::Scheduled { what, cure }),
-        None => Ok(()),
-    }
+    let mut scheduled = file.scheduled();
+    scheduled
+        .next()
+        .map_or(Ok(()), |part| Err(SimulationError::Scheduled(part)))
 }

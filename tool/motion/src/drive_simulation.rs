@@ -29,7 +29,7 @@ use crate::path_dynamics::Actuator;
 pub const EASE: f64 = 1e-3;
 
 /// Why a drive cannot be simulated.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Debug)]
 pub enum UnfitDrive {
     /// Its peak torque is missing.
     NoPeak,
@@ -38,6 +38,14 @@ pub enum UnfitDrive {
         /// The gearbox.
         gearbox: String,
     },
+    /// The machines cannot start.
+    Start(SimulationError),
+}
+
+impl From<SimulationError> for UnfitDrive {
+    fn from(error: SimulationError) -> Self {
+        Self::Start(error)
+    }
 }
 
 /// A motion under a drive.
@@ -339,7 +347,7 @@ pub fn driven(
     machines: &CoupledMachines,
     simulation: &Simulation,
     drive: Drive<'_>,
-) -> Result<Result<DriveSimulation, SimulationError>, UnfitDrive> {
+) -> Result<DriveSimulation, UnfitDrive> {
     let file = machines.first;
     let prepared = MotorLimits::new(drive.motor, drive.amplifier, &file.site);
     let actuator = Actuator::new(&drive, prepared.envelope.clone());
@@ -371,11 +379,11 @@ pub fn driven(
         ..simulation.clone()
     };
     let mut observer = LoadObserver::new(drive, &prepared, file, simulation.duration);
-    let simulated = simulate_under(machines, &at_motor, &motor, &mut observer);
-    Ok(simulated.map(|simulated| DriveSimulation {
+    let simulated = simulate_under(machines, &at_motor, &motor, &mut observer)?;
+    Ok(DriveSimulation {
         simulated,
         loads: observer.loads,
-    }))
+    })
 }
 
 /// The direction of the motor without a controller.

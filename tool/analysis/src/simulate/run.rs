@@ -19,11 +19,11 @@ use std::cell::Cell;
 
 use jred::error::Error;
 
-use super::SimulationError;
 use super::clock::{Corners, EDGE};
 use super::observe::{ControlStatistics, EffortSums, Observer};
 use super::result::{Impacts, Rest, SimulationResult, Stall, TurnWorks};
 use super::watch::{LinkState, Watch};
+use super::{IntegratorStop, SimulationError};
 use jred_file::model::machine::MachineFile;
 use jred_file::model::simulation::{EndStops, Halt, Simulation};
 use jred_file::number::columns::Columns;
@@ -234,7 +234,7 @@ impl<P> Run<'_, P> {
         }
         Err(SimulationError::Integrator {
             t,
-            reason: "too much changes within one output step by the clock of [motion]",
+            why: IntegratorStop::Corners,
         })
     }
 
@@ -337,7 +337,7 @@ impl<P> Run<'_, P> {
         }
         Err(SimulationError::Integrator {
             t,
-            reason: "the drive link turns round again and again",
+            why: IntegratorStop::Reversals,
         })
     }
 

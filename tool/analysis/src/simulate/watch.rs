@@ -135,14 +135,12 @@ fn machine_at<'f>(
 fn parted(watched: WatchedJoint, force: f64, at: LinkState) -> SimulationError {
     let WatchedJoint { machine, joint } = watched;
     let [phi, omega, _] = machine.state(at.state);
-    let parted =
+    let separation =
         machine_at(&machine, &at).and_then(|machine| joint.parted(&machine, [phi, omega], force));
-    match parted {
-        Ok(parted) => SimulationError::Parted {
+    match separation {
+        Ok(separation) => SimulationError::Parted {
             t: at.moment.t,
-            what: parted.what,
-            state: parted.state,
-            cure: parted.cure,
+            separation,
         },
         Err(error) => error.into(),
     }

@@ -3,7 +3,6 @@
 use super::{Plant, Run};
 use crate::simulate::clock::Moment;
 use crate::simulate::{BRIEFEST_FLIGHT, Impacts, SimulationError};
-use jred_file::number::rounding::short;
 
 impl<P> Run<'_, P> {
     /// The end of travel that a moving drive link has passed: an end stop, or the end of the stroke.
@@ -41,15 +40,11 @@ impl<P> Run<'_, P> {
         P: Plant<N>,
     {
         let Some(stops) = self.stops else {
-            let axis = self.file.axis();
             return Err(SimulationError::EndOfStroke {
                 t,
-                end: axis.place(stop),
-                speed: format!(
-                    "{} {}",
-                    short(axis.rate(omega.abs())),
-                    axis.coordinate.speed_unit()
-                ),
+                axis: self.file.axis(),
+                end: stop,
+                speed: omega.abs(),
             });
         };
         let restitution = stops.restitution;
