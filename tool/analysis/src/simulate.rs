@@ -1,4 +1,4 @@
-//! `jred simulate`: the free motion φ(t), ω(t) under a motor torque, (7.12) and (7.13).
+//! `jred simulate`: the free motion φ(t), ω(t) under a motor torque, (7.12).
 //!
 //! Besides the motion it integrates the work of the motor, of the signed process loads, and the losses. The energy balance closes only if motion and
 //! reduction agree.
