@@ -93,7 +93,8 @@ impl Flywheel {
     pub(super) fn of(
         turning: &TurningMachine,
         search: &CycleSearch,
-        (own, guess): (Option<&Cycle>, Option<Guess>),
+        own: Option<&Cycle>,
+        guess: Option<Guess>,
         delta: f64,
         positions: usize,
     ) -> Result<Self, SteadyError> {

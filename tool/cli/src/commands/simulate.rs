@@ -154,7 +154,7 @@ fn widen(found: &mut SimulationResult, machines: &CoupledMachines, asked: Sets) 
             .checked_sub(1)
             .map_or_else(String::new, |k| beside_name(k) + " ");
         let states = found.states_of(&machine);
-        let wider = add_columns(machine.file, &found.columns, &states, (asked, &prefix));
+        let wider = add_columns(machine.file, &found.columns, &states, asked, &prefix);
         found.columns = wider.map_err(core_report)?;
     }
     Ok(())
