@@ -7,6 +7,7 @@ mod clock;
 mod commander;
 mod control;
 mod coupled;
+mod drive_state;
 mod emergency;
 mod error;
 mod free;
@@ -25,7 +26,7 @@ pub use coupled::{CoupledMachines, GearedMachine};
 pub use emergency::{Stop, stops};
 pub use error::{IntegratorStop, NotBeside, SimulationError};
 pub use machine::beside_name;
-pub use observe::{MotorState, NoObserver, Observer};
+pub use observe::{MotorPoint, MotorState, NoObserver, Observer};
 pub use result::{
     BRIEFEST_FLIGHT, Effort, FollowingError, Impacts, Rest, SimulationResult, Stall, TorqueDeficit,
     TorqueLimit, TurnWorks,
@@ -76,7 +77,7 @@ pub fn simulate_under(
     observer: &mut dyn Observer,
 ) -> Result<SimulationResult, SimulationError> {
     use free::{PLAIN, WITH_GUESTS};
-    let has_guests = machines.guests().contains(&true);
+    let has_guests = machines.guests().any();
     let plant = machine::Plant::new(machines.clone(), simulation, motor);
     if let Some((control, motion)) = simulation.control.zip(machines.first.motion.as_ref()) {
         let commander = control::Cascade::new(machines, control, motion)?;
@@ -99,7 +100,7 @@ fn commanded<M: Motor, C: Commander<M>>(
     observer: &mut dyn Observer,
 ) -> Result<SimulationResult, SimulationError> {
     let simulation = plant.simulation;
-    let has_guests = plant.machines.guests().contains(&true);
+    let has_guests = plant.machines.guests().any();
     let plant = CommandedPlant { plant, commander };
     if has_guests {
         run::run::<COMMANDED_WITH_GUESTS>(&plant, simulation, observer)

@@ -70,6 +70,19 @@ impl<'a> GearedMachine<'a> {
     }
 }
 
+/// Whether machines have payloads, and moving carriages.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Guests {
+    pub(super) payloads: bool,
+    pub(super) carriages: bool,
+}
+
+impl Guests {
+    pub(super) const fn any(self) -> bool {
+        self.payloads || self.carriages
+    }
+}
+
 /// Machines on one shaft.
 #[derive(Clone, Debug)]
 pub struct CoupledMachines<'a> {
@@ -151,16 +164,16 @@ impl<'a> CoupledMachines<'a> {
         format!(", on one shaft with {}", beside.join(" and "))
     }
 
-    /// Whether there are payloads, and moving carriages.
-    pub(super) fn guests(&self) -> [bool; 2] {
+    /// The kinds of masses that come, go or move by themselves.
+    pub(super) fn guests(&self) -> Guests {
         let has = |such: fn(&Schedule) -> bool| {
             let mut all = self.all();
             all.any(|machine| such(&machine.file.schedule))
         };
-        [
-            has(|schedule| !schedule.payloads().is_empty()),
-            has(Schedule::flows),
-        ]
+        Guests {
+            payloads: has(|schedule| !schedule.payloads().is_empty()),
+            carriages: has(Schedule::flows),
+        }
     }
 
     /// Whether all machines are in the same position after a turn of the first drive link.

@@ -33,7 +33,7 @@ pub enum SimulationError {
         t: f64,
         /// Coordinate of the stroke.
         axis: Axis,
-        /// The end of the drive link's stroke (rad, or m).
+        /// The end of the drive link's stroke (rad, or m), up to rounding.
         end: f64,
         /// Speed there, without sign (rad/s, or m/s).
         speed: f64,

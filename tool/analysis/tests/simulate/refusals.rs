@@ -87,5 +87,5 @@ fn rows_before_an_error_are_kept() {
     // √(2·0.9/200) s and √(2·0.9·200) m/s, whatever the output step.
     near("t", t, (2.0f64 * 0.9 / 200.0).sqrt(), 1e-9);
     near("v", speed, (2.0f64 * 0.9 * 200.0).sqrt(), 1e-9);
-    near("end", end, 1.0, 1e-12);
+    near("end", end, 1.0, 2e-9);
 }

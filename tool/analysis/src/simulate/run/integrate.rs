@@ -22,7 +22,7 @@ impl<P> Run<'_, P> {
         P: Plant<N>,
     {
         self.integrate_until(t, end, y, |t, y| {
-            Ok(self.is_over(t, y)? || self.has_passed(self.plant.link(t, y)?[0]))
+            Ok(self.is_over(t, y)? || self.has_passed(self.plant.link(t, y)?.phi))
         })
     }
 
