@@ -161,7 +161,7 @@ impl Duty {
         let largest = (instants.iter()).fold(0.0, |most, i| f64::max(most, i.terms.total().abs()));
         let mechanics = Mechanics {
             falls: unheld > HELD_SHARE * largest,
-            ..Mechanics::new(file, (&instants, &smooth), duration, rest)
+            ..Mechanics::new(file, &instants, &smooth, duration, rest)
         };
         Ok(Self {
             instants,

@@ -1,20 +1,15 @@
 //! `jred reduce`: the reduced link over a turn or a stroke, the motion of every point and link, the force in every joint,
 //! and the drive torque of the motion.
 
-use std::convert::Infallible;
-
-use jred::Domain;
 use jred::error::Error;
 use jred::machine::motion::State;
-use jred::machine::{Frames, Machine, Mechanism as _, Reducible as _};
+use jred::machine::{Frames, Machine, Mechanism as _};
 
-use jred_file::model::coordinate::{Coordinate, positions};
+use jred_file::model::coordinate::Coordinate;
 use jred_file::model::machine::{MachineFile, Machines};
 use jred_file::model::mechanism::AnyMechanism;
-use jred_file::model::motion::Motion;
 use jred_file::model::schedule::ScheduleInstant;
 use jred_file::number::columns::{Column, ColumnQuantity, Columns};
-use jred_file::number::numerics::sides;
 
 mod carriages;
 mod curves;
@@ -22,11 +17,14 @@ mod energy;
 mod largest;
 mod points;
 mod reactions;
+mod rows;
 
 pub use jred_file::model::axis::DrivePoint;
 pub(crate) use largest::between_edges;
 pub use largest::{Largest, largest};
 pub use reactions::joints_with_force;
+use rows::{RowMotion, row_at, rows, rows_at};
+pub use rows::{not_contained, not_contained_at};
 
 jred_file::words! {
     /// Variable that the rows run over.
@@ -107,35 +105,6 @@ fn time_column() -> Column {
     Column::new(ColumnQuantity::Time, "t", "s")
 }
 
-/// The loads and payloads that some rows of the request omit, because these have no time of the motion, or no direction.
-pub fn not_contained(file: &MachineFile, request: &Request) -> Vec<String> {
-    not_in(file, || rows(file, request))
-}
-
-/// The same for [`reduce_at`].
-pub fn not_contained_at(file: &MachineFile, request: &Request, at: &[DrivePoint]) -> Vec<String> {
-    not_in(file, || rows_at(file, request, at))
-}
-
-fn not_in<R: Iterator<Item = RowMotion>>(
-    file: &MachineFile,
-    rows: impl FnOnce() -> R,
-) -> Vec<String> {
-    if file.schedule.is_empty() {
-        return Vec::new();
-    }
-    let (mut timed, mut directed) = (true, true);
-    for row in rows() {
-        timed &= row.now.t.is_some();
-        directed &= row.now.omega.is_some();
-    }
-    let missing = file.scheduled_where(|when| {
-        (when.spans.is_some() && !timed) || (when.travel.is_some() && !directed)
-    });
-    let carriages = file.carriages().filter(|_| !timed);
-    missing.chain(carriages.map(|item| item.what)).collect()
-}
-
 /// A set of columns.
 trait Set {
     /// Their headers.
@@ -180,18 +149,6 @@ pub fn reduce_at(
         of_motion: !given,
     };
     columns(file, request, kind, rows_at(file, request, at))
-}
-
-fn rows_at(
-    file: &MachineFile,
-    request: &Request,
-    at: &[DrivePoint],
-) -> impl Iterator<Item = RowMotion> {
-    let state = state_at(file, request.state);
-    at.iter().map(move |at| match at.state {
-        Some(own) => row_at(at.phi, Some(own), None),
-        None => state(at.phi),
-    })
 }
 
 /// The state of the drive link in the rows.
@@ -296,7 +253,8 @@ pub fn add_columns(
     file: &MachineFile,
     columns: &Columns,
     states: &[(ScheduleInstant, [f64; 3])],
-    (asked, prefix): (Sets, &str),
+    asked: Sets,
+    prefix: &str,
 ) -> Result<Columns, Error> {
     let source = Source::new(file)?;
     let kind = RowKind {
@@ -321,115 +279,4 @@ pub fn add_columns(
         wider.push(row.iter().copied().chain(more));
     }
     Ok(wider)
-}
-
-/// Time (over time only), instant, position and state of a row.
-struct RowMotion {
-    time: Option<f64>,
-    now: ScheduleInstant,
-    phi: f64,
-    state: Option<State<f64>>,
-}
-
-/// The rows, in order.
-fn rows<'f>(file: &'f MachineFile, request: &Request) -> Box<dyn Iterator<Item = RowMotion> + 'f> {
-    if let (Over::Time, Some(motion)) = (request.over, &file.motion) {
-        let last = (request.positions - 1).max(1) as f64;
-        let row = move |k: usize| {
-            let t = motion.duration() * k as f64 / last;
-            let state = motion.at(t);
-            RowMotion {
-                time: Some(t),
-                now: ScheduleInstant::of(t, state.omega),
-                phi: state.phi,
-                state: Some(state),
-            }
-        };
-        return Box::new((0..request.positions).map(row));
-    }
-    let state = state_at(file, request.state);
-    let domain = file.machine.domain();
-    Box::new(positions(domain, request.positions).map(state))
-}
-
-/// The row of a position: with the given state, or with that of the motion, if it passes each position once.
-fn state_at(file: &MachineFile, given: Option<[f64; 2]>) -> impl Fn(f64) -> RowMotion {
-    let pass = match &file.motion {
-        Some(motion) if given.is_none() => Pass::of(motion, file.machine.domain()),
-        _ => None,
-    };
-    move |phi| row_at(phi, given, pass.as_ref())
-}
-
-fn row_at(phi: f64, given: Option<[f64; 2]>, pass: Option<&Pass>) -> RowMotion {
-    let (t, state) = if let Some([omega, alpha]) = given {
-        (None, Some(State { phi, omega, alpha }))
-    } else {
-        let at = pass.and_then(|pass| pass.at(phi));
-        (at.map(|(t, _)| t), at.map(|(_, state)| state))
-    };
-    let omega = state.map(|state| state.omega);
-    RowMotion {
-        time: None,
-        now: ScheduleInstant {
-            t,
-            omega,
-            ..ScheduleInstant::default()
-        },
-        phi,
-        state,
-    }
-}
-
-/// A motion that passes every position at most once: in one direction, through exactly one turn or within the stroke. Dwells count once, at rest.
-struct Pass<'m> {
-    motion: &'m Motion,
-    start: f64,
-    direction: f64,
-    length: f64,
-    turn: bool,
-}
-
-impl<'m> Pass<'m> {
-    fn of(motion: &'m Motion, domain: Domain) -> Option<Self> {
-        let (start, end) = (motion.at(0.0).phi, motion.at(motion.duration()).phi);
-        let direction = (end - start).signum();
-        let length = (end - start).abs();
-        let turn = domain == Domain::Turn;
-        let one_turn = !turn || (length - domain.span()).abs() < 1e-9;
-        let one_way = (0..=1000).all(|k| {
-            let t = motion.duration() * f64::from(k) / 1000.0;
-            motion.at(t).omega * direction >= -1e-12
-        });
-        (one_turn && one_way).then_some(Self {
-            motion,
-            start,
-            direction,
-            length,
-            turn,
-        })
-    }
-
-    /// Time and state at which the motion passes the position `phi`, for a turn modulo 2π.
-    fn at(&self, phi: f64) -> Option<(f64, State<f64>)> {
-        let motion = self.motion;
-        let ahead = (phi - self.start) * self.direction;
-        let distance = if self.turn {
-            ahead.rem_euclid(std::f64::consts::TAU)
-        } else {
-            ahead
-        };
-        // The ends of a stroke are positions too, and rounding must not exclude them.
-        let slack = 1e-12 * self.length;
-        if !self.turn && !(-slack..=self.length + slack).contains(&distance) {
-            return None;
-        }
-        let before = |t: f64| (motion.at(t).phi - self.start) * self.direction < distance;
-        let Ok([_, late]) = sides(|t| Ok::<_, Infallible>(before(t)), 0.0, motion.duration());
-        let state = State {
-            phi,
-            ..motion.at(late)
-        };
-        Some((late, state))
-    }
 }

@@ -1,4 +1,4 @@
-//! `jred simulate`: the free motion φ(t), ω(t) under a motor torque, (7.12) and (7.13).
+//! `jred simulate`: the free motion φ(t), ω(t) under a motor torque, (7.12).
 //!
 //! Besides the motion it integrates the work of the motor, of the signed process loads, and the losses. The energy balance closes only if motion and
 //! reduction agree.
@@ -7,6 +7,7 @@ mod clock;
 mod commander;
 mod control;
 mod coupled;
+mod drive_state;
 mod emergency;
 mod error;
 mod free;
@@ -23,15 +24,14 @@ pub use clock::Moment;
 use commander::{COMMANDED, COMMANDED_WITH_GUESTS, CommandedPlant, Commander};
 pub use coupled::{CoupledMachines, GearedMachine};
 pub use emergency::{Stop, stops};
-pub use error::SimulationError;
+pub use error::{IntegratorStop, NotBeside, SimulationError};
 pub use machine::beside_name;
-pub use observe::{MotorState, NoObserver, Observer};
+pub use observe::{MotorPoint, MotorState, NoObserver, Observer};
 pub use result::{
     BRIEFEST_FLIGHT, Effort, FollowingError, Impacts, Rest, SimulationResult, Stall, TorqueDeficit,
     TorqueLimit, TurnWorks,
 };
 
-use jred_file::model::by_motion::ByMotion;
 use jred_file::model::machine::MachineFile;
 use jred_file::model::motor::Motor;
 use jred_file::model::simulation::Simulation;
@@ -77,7 +77,7 @@ pub fn simulate_under(
     observer: &mut dyn Observer,
 ) -> Result<SimulationResult, SimulationError> {
     use free::{PLAIN, WITH_GUESTS};
-    let has_guests = machines.guests().contains(&true);
+    let has_guests = machines.guests().any();
     let plant = machine::Plant::new(machines.clone(), simulation, motor);
     if let Some((control, motion)) = simulation.control.zip(machines.first.motion.as_ref()) {
         let commander = control::Cascade::new(machines, control, motion)?;
@@ -100,7 +100,7 @@ fn commanded<M: Motor, C: Commander<M>>(
     observer: &mut dyn Observer,
 ) -> Result<SimulationResult, SimulationError> {
     let simulation = plant.simulation;
-    let has_guests = plant.machines.guests().contains(&true);
+    let has_guests = plant.machines.guests().any();
     let plant = CommandedPlant { plant, commander };
     if has_guests {
         run::run::<COMMANDED_WITH_GUESTS>(&plant, simulation, observer)
@@ -111,8 +111,8 @@ fn commanded<M: Motor, C: Commander<M>>(
 
 /// Refuses a machine with parts scheduled by the motion of its file, where that motion is not simulated.
 fn refuse_scheduled(file: &MachineFile) -> Result<(), SimulationError> {
-    match file.scheduled().next() {
-        Some(ByMotion { what, cure }) => Err(SimulationError::Scheduled { what, cure }),
-        None => Ok(()),
-    }
+    let mut scheduled = file.scheduled();
+    scheduled
+        .next()
+        .map_or(Ok(()), |part| Err(SimulationError::Scheduled(part)))
 }

@@ -162,8 +162,8 @@ pub fn steady_together(
         {
             return cycle.map(|_| None);
         }
-        let own = (cycle.as_ref().ok(), guess);
-        let flywheel = Flywheel::of(turning, &search, own, delta, positions)?;
+        let own = cycle.as_ref().ok();
+        let flywheel = Flywheel::of(turning, &search, own, guess, delta, positions)?;
         Ok(Some((cycle, flywheel)))
     });
     let (cycle, flywheel) = match found {
@@ -172,7 +172,7 @@ pub fn steady_together(
         Err(why) if why.is_standstill() => {
             let turning =
                 TurningMachine::new(machines, simulation, motor, search.direction, turns)?;
-            let flywheel = Flywheel::of(&turning, &search, (None, None), delta, positions)?;
+            let flywheel = Flywheel::of(&turning, &search, None, None, delta, positions)?;
             (Err(why), flywheel)
         }
         Ok(None) => return Err(SteadyError::Integrator),

@@ -24,7 +24,7 @@ mod winding;
 
 use std::f64::consts::{PI, TAU};
 
-use jred_analysis::simulate::SimulationResult;
+use jred_analysis::simulate::{SimulationError, SimulationResult};
 use jred_file::units::RPM;
 use serde_json::Value;
 
@@ -39,7 +39,14 @@ pub(crate) fn run(text: &str) -> Result<Columns, String> {
     let simulation = file.simulation.as_ref().unwrap();
     let found =
         jred_analysis::simulate::simulate(&file, simulation).and_then(SimulationResult::whole);
-    let found = found.map_err(|error| rendered(&error))?;
+    let found = found.map_err(|why| match why {
+        SimulationError::Machine(error) => error.to_string(),
+        SimulationError::Parted { t, separation } => format!(
+            "at t = {t:.6} s {}: at {}; {}",
+            separation.what, separation.state, separation.cure
+        ),
+        why => format!("{why:?}"),
+    })?;
     Ok(Columns {
         names: found.names(),
         rows: found.rows().to_vec(),

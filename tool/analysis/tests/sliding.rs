@@ -3,7 +3,7 @@
 use jred_analysis::duty::Duty;
 use jred_analysis::inspect::Findings;
 use jred_analysis::reduce::{Over, Request, Sets, reduce};
-use jred_analysis::simulate::simulate;
+use jred_analysis::simulate::{SimulationError, simulate};
 
 use crate::reading::{machine, parse_in, read};
 use crate::support::machines::{LIFT, LIFT_MOTION};
@@ -77,11 +77,11 @@ fn free_motions_of_a_sliding_drive() {
         .unwrap()
         .whole()
         .unwrap_err();
-    let text = error.to_string();
-    assert!(
-        text.contains("end of its stroke, s = 800 mm, at t = 0.10"),
-        "{text}"
-    );
+    let SimulationError::EndOfStroke { t, end, axis, .. } = error else {
+        panic!("{error:?}");
+    };
+    assert_eq!(axis.place(end), "s = 800 mm");
+    assert!((0.10..0.11).contains(&t), "{t}");
 }
 
 #[test]

@@ -10,7 +10,8 @@
 //! torque from a thousandth above. This keeps the equations continuous, and the largest motor speed is a steady state.
 
 use jred_analysis::simulate::{
-    CoupledMachines, MotorState, Observer, SimulationError, SimulationResult, simulate_under,
+    CoupledMachines, MotorPoint, MotorState, Observer, SimulationError, SimulationResult,
+    simulate_under,
 };
 use jred_file::model::machine::MachineFile;
 use jred_file::model::motor::{Coefficients, Motor};
@@ -29,7 +30,7 @@ use crate::path_dynamics::Actuator;
 pub const EASE: f64 = 1e-3;
 
 /// Why a drive cannot be simulated.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Debug)]
 pub enum UnfitDrive {
     /// Its peak torque is missing.
     NoPeak,
@@ -38,6 +39,14 @@ pub enum UnfitDrive {
         /// The gearbox.
         gearbox: String,
     },
+    /// The machines cannot start.
+    Start(SimulationError),
+}
+
+impl From<SimulationError> for UnfitDrive {
+    fn from(error: SimulationError) -> Self {
+        Self::Start(error)
+    }
 }
 
 /// A motion under a drive.
@@ -244,12 +253,13 @@ impl<'a> LoadObserver<'a> {
         }
     }
 
-    fn see(&mut self, time: f64, working: &MotorState) {
+    fn see(&mut self, at: &MotorPoint) {
+        let MotorPoint { t, motor } = at;
         if let Some(peak) = &mut self.loads.gearbox_torque {
-            peak.see(time, working.phi, working.input_torque.abs());
+            peak.see(*t, motor.phi, motor.input_torque.abs());
         }
-        let speed = working.speed.abs();
-        self.loads.motor_speed.see(time, working.phi, speed);
+        let speed = motor.speed.abs();
+        self.loads.motor_speed.see(*t, motor.phi, speed);
     }
 }
 
@@ -283,22 +293,22 @@ impl Observer for LoadObserver<'_> {
         columns
     }
 
-    fn pass(&mut self, (start, from): (f64, MotorState), (end, to): (f64, MotorState)) {
-        self.see(start, &from);
-        self.see(end, &to);
+    fn pass(&mut self, from: MotorPoint, to: MotorPoint) {
+        self.see(&from);
+        self.see(&to);
         let Some(warming) = &mut self.warming else {
             return;
         };
-        let length = end - start;
+        let length = to.t - from.t;
         let point = |t: f64, working: &MotorState| {
             let state = [working.torque, working.speed];
             (warming.model).point(self.drive.motor, self.prepared, t, state)
         };
-        let course = LossCurve::new(&[point(0.0, &from), point(length, &to)], length);
+        let course = LossCurve::new(&[point(0.0, &from.motor), point(length, &to.motor)], length);
         let (hottest, now) = course.follow(&warming.network, warming.rise, length);
         warming.rise = now;
         if let Some(heat) = &mut self.loads.heat {
-            heat.hottest.see(end, to.phi, hottest[0]);
+            heat.hottest.see(to.t, to.motor.phi, hottest[0]);
         }
     }
 
@@ -339,7 +349,7 @@ pub fn driven(
     machines: &CoupledMachines,
     simulation: &Simulation,
     drive: Drive<'_>,
-) -> Result<Result<DriveSimulation, SimulationError>, UnfitDrive> {
+) -> Result<DriveSimulation, UnfitDrive> {
     let file = machines.first;
     let prepared = MotorLimits::new(drive.motor, drive.amplifier, &file.site);
     let actuator = Actuator::new(&drive, prepared.envelope.clone());
@@ -371,11 +381,11 @@ pub fn driven(
         ..simulation.clone()
     };
     let mut observer = LoadObserver::new(drive, &prepared, file, simulation.duration);
-    let simulated = simulate_under(machines, &at_motor, &motor, &mut observer);
-    Ok(simulated.map(|simulated| DriveSimulation {
+    let simulated = simulate_under(machines, &at_motor, &motor, &mut observer)?;
+    Ok(DriveSimulation {
         simulated,
         loads: observer.loads,
-    }))
+    })
 }
 
 /// The direction of the motor without a controller.

@@ -51,7 +51,8 @@ impl Mechanics {
     /// The figures of a motion; `rest`: the torques at rest without losses.
     pub fn new(
         file: &MachineFile,
-        (instants, smooth): (&[Instant], &Smooth),
+        instants: &[Instant],
+        smooth: &Smooth,
         duration: f64,
         rest: Rest,
     ) -> Self {
@@ -76,7 +77,7 @@ impl Mechanics {
             slides: file.machine.mechanism().coordinate() == Coordinate::Length,
             ..Self::default()
         };
-        motion.with_loads(file, (instants, smooth), 1.0, rest)
+        motion.with_loads(file, instants, smooth, 1.0, rest)
     }
 
     /// The figures of the same motion in `time` times its time, under other loads, from `instants`, which may be only some of them. `rest`: the
@@ -85,7 +86,8 @@ impl Mechanics {
     pub fn with_loads(
         &self,
         file: &MachineFile,
-        (instants, smooth): (&[Instant], &Smooth),
+        instants: &[Instant],
+        smooth: &Smooth,
         time: f64,
         rest: Rest,
     ) -> Self {

@@ -4,16 +4,17 @@
 //! through a stage with losses, or at the input, changes sign is cut there. A panel that contains rows of a recorded motion is cut at a row until it
 //! contains no row.
 
+mod panel;
 mod signs;
 mod stretch;
 
 use super::error::DutyError;
-use super::integrands::{COUNT, PanelTolerance, Sums, integrands, of_whole};
-use super::moving_machine::{DutyInstant, MovingMachine};
+use super::integrands::{COUNT, Sums, integrands, of_whole};
+use super::moving_machine::MovingMachine;
 use super::stretches::turns;
-use super::{INSIDE, Instant, Sampling, Smooth, refined};
+use super::{Instant, Sampling, Smooth, refined};
 use jred_file::number::quadrature::GAUSS_3;
-use jred_file::number::quadrature::kronrod::{KRONROD_7, KRONROD_15, Rule};
+use panel::{PanelEnd, PanelHistory};
 use signs::SIGN_ROUNDING;
 use stretch::{Stretch, near_whole};
 
@@ -29,21 +30,6 @@ const FOR_TURNS: f64 = 1e6;
 /// Most panels that are evaluated for the size of the integrals.
 const MOST_FOR_SIZES: usize = 256;
 
-/// Most cuts of a panel at changes of sign; with more it is halved first.
-const MOST_CUTS: usize = 16;
-
-/// A halving that leaves a larger share of the error than this is ineffective: over a smooth part it leaves a thousandth, at a kink half.
-const INEFFECTIVE: f64 = 0.7;
-
-/// After this number of ineffective halvings, an error up to this share counts as rounding, which smaller panels do not reduce.
-const IDLE: [(u32, f64); 2] = [(2, 1e-10), (5, 1e-6)];
-
-/// Largest error by rounding of the times, in rounding errors.
-const TIME_ROUNDINGS: f64 = 4.0;
-
-/// Most halvings of a panel.
-const DEEPEST: u32 = 60;
-
 /// Factor by which the sum of all panels' errors may exceed the tolerance, because each estimate is cautious.
 const MOST_OF_TOLERANCE: f64 = 4.0;
 
@@ -52,45 +38,11 @@ const MOST_OF_TOLERANCE: f64 = 4.0;
 const OF_ROWS: f64 = 1e-3;
 const OF_LAWS: f64 = 1e-7;
 
-/// An end of a panel.
+/// A span of time [s, s], and its error.
 #[derive(Clone, Copy)]
-struct PanelEnd {
-    t: f64,
-    now: DutyInstant,
-    /// Whether a torque is zero there, so that its sign is rounding.
-    is_zero: bool,
-}
-
-/// History of a panel.
-#[derive(Clone, Copy)]
-struct PanelHistory {
-    /// Halvings.
-    depth: u32,
-    /// Number of the last halvings that hardly reduced the error.
-    idle: u32,
-    /// The error as a share of the integral by time.
+struct SpanError {
+    span: [f64; 2],
     error: f64,
-}
-
-impl Default for PanelHistory {
-    fn default() -> Self {
-        Self {
-            depth: 0,
-            idle: 0,
-            error: f64::INFINITY,
-        }
-    }
-}
-
-impl PanelHistory {
-    fn further(self, error: f64) -> Self {
-        let is_idle = error > INEFFECTIVE * self.error;
-        Self {
-            depth: self.depth + 1,
-            idle: if is_idle { self.idle + 1 } else { 0 },
-            error,
-        }
-    }
 }
 
 /// The duty under construction.
@@ -108,12 +60,12 @@ pub(super) struct Panels<'a, 'm> {
     most_parts: f64,
     of_whole: f64,
     pub(super) sums: Sums,
-    /// The panel with the largest error, and the error.
-    worst: ([f64; 2], f64),
+    /// The panel with the largest error.
+    worst: SpanError,
     /// Gain of energy (J).
     gain: f64,
     /// The stretch with the largest difference of work and energy (J).
-    unbalanced: ([f64; 2], f64),
+    unbalanced: SpanError,
 }
 
 impl<'a, 'm> Panels<'a, 'm> {
@@ -138,7 +90,7 @@ impl<'a, 'm> Panels<'a, 'm> {
                 of_turns: true,
             });
         }
-        let borders: Vec<(Stretch, Vec<f64>)> = (stretches.iter().zip(&each))
+        let stretches: Vec<Stretch> = (stretches.iter().zip(&each))
             .map(|(stretch, turns)| {
                 let (from, to) = *stretch;
                 let by_time = sampling.steps as f64 / 15.0 * (to - from) / duration;
@@ -148,13 +100,15 @@ impl<'a, 'm> Panels<'a, 'm> {
                 } else {
                     by_time.max(turns * of_turn).ceil().max(1.0)
                 };
-                let stretch = Stretch::new(file, motion, *stretch);
-                let borders = stretch.borders(count);
-                (stretch, borders)
+                Stretch::new(file, motion, *stretch, count)
             })
             .collect();
-        let count: usize = borders.iter().map(|(_, borders)| borders.len() - 1).sum();
-        let rows: usize = borders.iter().map(|(stretch, _)| stretch.rows.len()).sum();
+        let count: usize = stretches.iter().map(|s| s.borders.len() - 1).sum();
+        let rows: usize = stretches.iter().map(|s| s.rows.len()).sum();
+        let none = SpanError {
+            span: [0.0, duration],
+            error: 0.0,
+        };
         let mut panels = Self {
             moving,
             tolerance: sampling.tolerance,
@@ -167,25 +121,25 @@ impl<'a, 'm> Panels<'a, 'm> {
             most_parts: refined::most_parts(15 * count),
             of_whole: of_whole(count.max(rows)),
             sums: Sums::default(),
-            worst: ([0.0, duration], 0.0),
+            worst: none,
             gain: 0.0,
-            unbalanced: ([0.0, duration], 0.0),
+            unbalanced: none,
         };
-        panels.look(&borders, count)?;
-        for (stretch, borders) in &borders {
-            panels.stretch(stretch, borders)?;
+        panels.estimate(&stretches, count)?;
+        for stretch in &stretches {
+            panels.stretch(stretch)?;
         }
         panels.judge()?;
         Ok(panels)
     }
 
     /// Approximate sizes of the integrals, and the largest torques.
-    fn look(&mut self, borders: &[(Stretch, Vec<f64>)], count: usize) -> Result<(), DutyError> {
+    fn estimate(&mut self, stretches: &[Stretch], count: usize) -> Result<(), DutyError> {
         let stride = count.div_ceil(MOST_FOR_SIZES);
         let mut number = 0;
         let mut noise = 0.0f64;
-        for (stretch, borders) in borders {
-            for ends in borders.windows(2) {
+        for stretch in stretches {
+            for ends in stretch.borders.windows(2) {
                 number += 1;
                 if (number - 1) % stride != 0 {
                     continue;
@@ -224,7 +178,7 @@ impl<'a, 'm> Panels<'a, 'm> {
         Ok(PanelEnd { t, now, is_zero })
     }
 
-    fn stretch(&mut self, stretch: &Stretch, borders: &[f64]) -> Result<(), DutyError> {
+    fn stretch(&mut self, stretch: &Stretch) -> Result<(), DutyError> {
         let span = [stretch.from, stretch.to];
         let before = self.sums;
         if let Some(direction) = self.moving.starts(span) {
@@ -236,7 +190,7 @@ impl<'a, 'm> Panels<'a, 'm> {
         let first = self.end(stretch, stretch.from, false)?;
         self.instants.push(first.now.instant);
         let mut left = first;
-        for border in borders.get(1..).unwrap_or_default() {
+        for border in stretch.borders.iter().skip(1) {
             let right = self.end(stretch, *border, false)?;
             self.panel(stretch, [&left, &right], PanelHistory::default())?;
             left = right;
@@ -246,9 +200,9 @@ impl<'a, 'm> Panels<'a, 'm> {
             self.gain += gain;
             let [work, spent] = self.sums.work();
             let [work_before, spent_before] = before.work();
-            let off = (work - work_before) - (spent - spent_before) - gain;
-            if off.abs() > self.unbalanced.1 {
-                self.unbalanced = (span, off.abs());
+            let error = ((work - work_before) - (spent - spent_before) - gain).abs();
+            if error > self.unbalanced.error {
+                self.unbalanced = SpanError { span, error };
             }
         } else {
             // Creeping below the standstill speed does no work.
@@ -259,140 +213,12 @@ impl<'a, 'm> Panels<'a, 'm> {
         Ok(())
     }
 
-    /// Adds a panel, or its parts.
-    fn panel(
-        &mut self,
-        stretch: &Stretch,
-        ends: [&PanelEnd; 2],
-        history: PanelHistory,
-    ) -> Result<(), DutyError> {
-        let [from, to] = ends.map(|end| end.t);
-        let inner = stretch.between([from, to]);
-        let by_rows = !stretch.rows.is_empty() && inner.is_empty();
-        let rule: &Rule = if by_rows { &KRONROD_7 } else { &KRONROD_15 };
-        let (middle, half) = (from.midpoint(to), 0.5 * (to - from));
-        let mut places = [ends[0].now; 15];
-        let places = &mut places[..rule.places().len()];
-        for (place, x) in places.iter_mut().zip(rule.places()) {
-            *place = self.moving.at(stretch.clamp(middle + half * x))?;
-        }
-        // Where a move comes to rest the sign of the speed is rounding for about this time.
-        let shortest = INSIDE * (stretch.to - stretch.from);
-        let is_short =
-            half <= shortest.max(4.0 * f64::EPSILON * to.abs()) || history.depth > DEEPEST;
-        if stretch.moves && !is_short {
-            let cuts = self.changes(stretch, ends, places)?;
-            if (1..=MOST_CUTS).contains(&cuts.len()) {
-                return self.parts(stretch, ends, &cuts, true, history.further(f64::INFINITY));
-            }
-            if cuts.len() > MOST_CUTS {
-                return self.parts(
-                    stretch,
-                    ends,
-                    &[middle],
-                    false,
-                    history.further(f64::INFINITY),
-                );
-            }
-        }
-        let allowed = PanelTolerance {
-            tolerance: self.tolerance,
-            sizes: &self.sizes,
-            share: (to - from) / self.duration,
-            of_whole: self.of_whole,
-            largest: (history.idle == 0).then_some(self.largest),
-        };
-        let (sums, [excess, rough]) =
-            Sums::over(rule, places, ends.map(|end| &end.now), half, allowed);
-        let history = history.further(rough);
-        // The times of a short stretch late in a long motion are rounded.
-        let rounded = TIME_ROUNDINGS * f64::EPSILON * to.abs() / (stretch.to - stretch.from);
-        let is_noise = IDLE
-            .iter()
-            .any(|(idle, noise)| history.idle >= *idle && rough <= *noise)
-            || history.idle >= 1 && rough <= rounded;
-        if excess > 1.0 && !is_short && !is_noise {
-            let cut = inner.get(inner.len() / 2).copied().unwrap_or(middle);
-            return self.parts(stretch, ends, &[cut], false, history);
-        }
-        self.accept(stretch, ends, rule, places, &sums)
-    }
-
-    /// The panel cut at these times.
-    fn parts(
-        &mut self,
-        stretch: &Stretch,
-        [first, last]: [&PanelEnd; 2],
-        cuts: &[f64],
-        is_zero: bool,
-        history: PanelHistory,
-    ) -> Result<(), DutyError> {
-        let mut left = *first;
-        for cut in cuts {
-            let right = self.end(stretch, *cut, is_zero)?;
-            self.panel(stretch, [&left, &right], history)?;
-            left = right;
-        }
-        self.panel(stretch, [&left, last], history)
-    }
-
-    fn accept(
-        &mut self,
-        stretch: &Stretch,
-        [left, right]: [&PanelEnd; 2],
-        rule: &Rule,
-        places: &[DutyInstant],
-        sums: &Sums,
-    ) -> Result<(), DutyError> {
-        let span = [left.t, right.t];
-        let half = 0.5 * (right.t - left.t);
-        self.sums.add(sums);
-        let error = sums.error(&self.sizes);
-        if error > self.worst.1 {
-            self.worst = (span, error);
-        }
-        self.smooth.panel(self.instants.len());
-        let mut before = left.now.instant;
-        let mut row = Vec::with_capacity(places.len() + 1);
-        for (now, weight) in places.iter().zip(rule.weights()) {
-            row.push(Instant {
-                weight: half * weight,
-                ..now.instant
-            });
-            self.largest = self.largest.max(now.instant.input_torque.abs());
-        }
-        row.push(right.now.instant);
-        let torques: Vec<(f64, f64)> = ([&before].into_iter().chain(&row))
-            .map(|i| (i.t, i.input_torque))
-            .collect();
-        let parts = refined::parts(&torques, self.largest, self.most_parts);
-        for (next, parts) in row.into_iter().zip(parts) {
-            for k in 1..parts {
-                let t = before.t + (next.t - before.t) * f64::from(k) / f64::from(parts);
-                let now = self.moving.at(stretch.clamp(t))?;
-                self.instants.push(now.instant);
-            }
-            self.instants.push(next);
-            before = next;
-        }
-        if self.instants.len() > MOST_INSTANTS {
-            return Err(DutyError::Fine {
-                until: right.t,
-                duration: self.duration,
-                tolerance: self.tolerance,
-                most: MOST_INSTANTS,
-                of_turns: false,
-            });
-        }
-        Ok(())
-    }
-
     /// Whether the errors are within the tolerance and the energy balances.
     fn judge(&self) -> Result<(), DutyError> {
         let reached = self.sums.reached();
         if reached > MOST_OF_TOLERANCE * self.tolerance {
             return Err(DutyError::Rough {
-                span: self.worst.0,
+                span: self.worst.span,
                 reached,
                 tolerance: self.tolerance,
             });
@@ -417,7 +243,7 @@ impl<'a, 'm> Panels<'a, 'm> {
                 work,
                 spent,
                 share,
-                span: self.unbalanced.0,
+                span: self.unbalanced.span,
             });
         }
         Ok(())

@@ -7,7 +7,8 @@ use jred::machine::{Mechanism as _, Reducible as _};
 use serde::{Serialize, Serializer};
 
 use super::reactions::{self, Reactions};
-use super::{Over, Pass, Request, RowPose, Set as _, Source};
+use super::rows::Pass;
+use super::{Over, Request, RowPose, Set as _, Source};
 use crate::duty::{INSIDE, smooth_stretches};
 use jred_file::model::machine::MachineFile;
 use jred_file::model::motion::Motion;

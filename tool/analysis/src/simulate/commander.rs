@@ -5,7 +5,8 @@ use jred::error::Error;
 use super::SimulationError;
 use super::clock::{Corners, Moment};
 use super::coupled::CoupledMachines;
-use super::free::{PLAIN, WITH_GUESTS, guests_of, slope_in_motion};
+use super::drive_state::DriveState;
+use super::free::{PLAIN, WITH_GUESTS, guests_of, link_of, slope_in_motion};
 use super::machine::{Instant, Plant};
 use super::observe::MotorState;
 use super::result::TorqueDeficit;
@@ -66,14 +67,17 @@ pub(super) struct CommandedPlant<'a, M, C> {
 }
 
 impl<M: Motor, C: Commander<M>> CommandedPlant<'_, M, C> {
-    /// Torque at the motor shaft (of the motor or, once it is switched off, of the brake), requested torque, and rate of the motor's state.
-    fn torque(&self, moment: &Moment, y: [f64; 3]) -> Result<[f64; 3], Error> {
+    /// The torque at the motor shaft: of the motor or, once it is switched off, of the brake.
+    fn torque(&self, moment: &Moment, y: [f64; 3]) -> Result<Command, Error> {
         if self.is_off(moment.t) {
             let brake = self.plant.halted(moment, || 0.0);
-            return Ok([brake, brake, 0.0]);
+            return Ok(Command {
+                torque: brake,
+                asked: brake,
+                rate: 0.0,
+            });
         }
-        let command = self.commander.command(&self.plant, moment.t, y)?;
-        Ok([command.torque, command.asked, command.rate])
+        self.commander.command(&self.plant, moment.t, y)
     }
 
     /// Whether the motor has been switched off.
@@ -81,9 +85,9 @@ impl<M: Motor, C: Commander<M>> CommandedPlant<'_, M, C> {
         (self.plant.simulation.halt).is_some_and(|halt| t >= halt.time)
     }
 
-    fn now(&self, moment: &Moment, y: [f64; 3]) -> Result<(Instant, f64), Error> {
-        let [torque, _, rate] = self.torque(moment, y)?;
-        Ok((self.plant.under(moment, [y[0], y[1]], torque)?, rate))
+    fn now<const N: usize>(&self, moment: &Moment, y: &[f64; N]) -> Result<(Instant, f64), Error> {
+        let Command { torque, rate, .. } = self.torque(moment, commanded(y))?;
+        Ok((self.plant.under(moment, link_of(y), torque)?, rate))
     }
 }
 
@@ -100,22 +104,22 @@ impl<M: Motor, C: Commander<M>, const N: usize> run::Plant<N> for CommandedPlant
     fn slope(&self, moment: &Moment, y: &[f64; N]) -> Result<[f64; N], Error> {
         if moment.direction == 0.0 {
             // The motor's state continues to change until the machine breaks away.
-            let [.., rate] = self.torque(moment, commanded(y))?;
+            let Command { rate, .. } = self.torque(moment, commanded(y))?;
             let mut slope = self.plant.slope_at_rest(moment, y[0], 3)?;
             slope[2] = rate;
             return Ok(slope);
         }
-        let (now, rate) = self.now(moment, commanded(y))?;
+        let (now, rate) = self.now(moment, y)?;
         let mut slope = slope_in_motion(&now, y[1], 3);
         slope[2] = rate;
         Ok(slope)
     }
 
-    fn link(&self, _: f64, y: &[f64; N]) -> Result<[f64; 2], Error> {
-        Ok([y[0], y[1]])
+    fn link(&self, _: f64, y: &[f64; N]) -> Result<DriveState, Error> {
+        Ok(link_of(y))
     }
 
-    fn with_link(&self, t: f64, y: &[f64; N], link: [f64; 2]) -> Result<[f64; N], Error> {
+    fn with_link(&self, t: f64, y: &[f64; N], link: DriveState) -> Result<[f64; N], Error> {
         run::Plant::<N>::with_link(&self.plant, t, y, link)
     }
 
@@ -124,7 +128,7 @@ impl<M: Motor, C: Commander<M>, const N: usize> run::Plant<N> for CommandedPlant
     }
 
     fn alpha(&self, moment: &Moment, y: &[f64; N]) -> Result<f64, Error> {
-        Ok(self.now(moment, commanded(y))?.0.alpha)
+        Ok(self.now(moment, y)?.0.alpha)
     }
 
     fn starts(&self, moment: &Moment, y: &[f64; N]) -> Result<bool, Error> {
@@ -141,8 +145,8 @@ impl<M: Motor, C: Commander<M>, const N: usize> run::Plant<N> for CommandedPlant
             bends = self.commander.bends(&self.plant, moment.t, commanded(y))?;
         }
         if moment.direction != 0.0 {
-            let [torque, ..] = self.torque(moment, commanded(y))?;
-            bends.extend(self.plant.bends_under(moment, [y[0], y[1]], torque)?);
+            let Command { torque, .. } = self.torque(moment, commanded(y))?;
+            bends.extend(self.plant.bends_under(moment, link_of(y), torque)?);
         }
         Ok(bends)
     }
@@ -161,8 +165,8 @@ impl<M: Motor, C: Commander<M>, const N: usize> run::Plant<N> for CommandedPlant
     }
 
     fn working(&self, moment: &Moment, y: &[f64; N]) -> Result<Option<MotorState>, Error> {
-        let [torque, asked, _] = self.torque(moment, commanded(y))?;
-        let working = (self.plant).working_at(moment, [y[0], y[1]], [torque, asked])?;
+        let Command { torque, asked, .. } = self.torque(moment, commanded(y))?;
+        let working = (self.plant).working_at(moment, link_of(y), torque, asked)?;
         let on = !self.is_off(moment.t);
         Ok(Some(MotorState {
             error: (self.commander.error(&self.plant, moment.t, y[0])).filter(|_| on),
@@ -184,7 +188,7 @@ impl<M: Motor, C: Commander<M>, const N: usize> run::Plant<N> for CommandedPlant
         } else {
             self.alpha(moment, y)?
         };
-        let [torque, ..] = self.torque(moment, commanded(y))?;
+        let Command { torque, .. } = self.torque(moment, commanded(y))?;
         let mut row = self.plant.written(moment, [y[0], y[1], alpha], torque)?;
         let on = !self.is_off(moment.t);
         let figure = (self.commander).figure(&self.plant, moment.t, commanded(y), on);

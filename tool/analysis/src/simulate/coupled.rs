@@ -13,7 +13,7 @@ use std::f64::consts::TAU;
 use jred::Domain;
 use jred::machine::Reducible as _;
 
-use super::SimulationError;
+use super::{NotBeside, SimulationError};
 use jred_file::model::coordinate::Coordinate;
 use jred_file::model::machine::MachineFile;
 use jred_file::model::schedule::Schedule;
@@ -70,6 +70,19 @@ impl<'a> GearedMachine<'a> {
     }
 }
 
+/// Whether machines have payloads, and moving carriages.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Guests {
+    pub(super) payloads: bool,
+    pub(super) carriages: bool,
+}
+
+impl Guests {
+    pub(super) const fn any(self) -> bool {
+        self.payloads || self.carriages
+    }
+}
+
 /// Machines on one shaft.
 #[derive(Clone, Debug)]
 pub struct CoupledMachines<'a> {
@@ -97,27 +110,21 @@ impl<'a> CoupledMachines<'a> {
         simulation: &Simulation,
     ) -> Result<Self, SimulationError> {
         for (file, start) in others {
-            let refused = |why: &'static str| SimulationError::NotBeside {
-                title: file.title.clone(),
-                why,
+            let refused = |why| {
+                let title = file.title.clone();
+                Err(SimulationError::NotBeside { title, why })
             };
             if simulation.at == Shaft::DriveLink {
-                return Err(refused(
-                    "the motor of the first machine acts at its drive link: write at = \"motor\"",
-                ));
+                return refused(NotBeside::MotorAtDriveLink);
             }
             if slides(self.first) != slides(file) {
-                return Err(refused(
-                    "one drive train begins at a motor that turns, the other at one that slides",
-                ));
+                return refused(NotBeside::TurnsAndSlides);
             }
             if file.variator.is_some() || self.first.variator.is_some() {
-                return Err(refused("machines with a [variator] run alone"));
+                return refused(NotBeside::Variator);
             }
             if let Domain::Stroke { .. } = file.machine.domain() {
-                return Err(refused(
-                    "its drive link has a stroke, and only the first machine may have one",
-                ));
+                return refused(NotBeside::Stroke);
             }
             let ratio = self.first.drive_train.ratio() / file.drive_train.ratio();
             self.beside.push(GearedMachine {
@@ -157,16 +164,16 @@ impl<'a> CoupledMachines<'a> {
         format!(", on one shaft with {}", beside.join(" and "))
     }
 
-    /// Whether there are payloads, and moving carriages.
-    pub(super) fn guests(&self) -> [bool; 2] {
+    /// The kinds of masses that come, go or move by themselves.
+    pub(super) fn guests(&self) -> Guests {
         let has = |such: fn(&Schedule) -> bool| {
             let mut all = self.all();
             all.any(|machine| such(&machine.file.schedule))
         };
-        [
-            has(|schedule| !schedule.payloads().is_empty()),
-            has(Schedule::flows),
-        ]
+        Guests {
+            payloads: has(|schedule| !schedule.payloads().is_empty()),
+            carriages: has(Schedule::flows),
+        }
     }
 
     /// Whether all machines are in the same position after a turn of the first drive link.

@@ -2,109 +2,89 @@
 
 use jred::error::Error;
 
+use crate::contact::Separation;
+use jred_file::model::axis::Axis;
+use jred_file::model::by_motion::ByMotion;
 use jred_file::number::numerics::dormand_prince::IntegrationError;
 
-/// Why a simulation ended early.
-#[derive(Debug, thiserror::Error, miette::Diagnostic)]
+/// Why a simulation ended early. Times are in s.
+#[derive(Debug)]
 pub enum SimulationError {
     /// The machine cannot be placed.
-    #[error("{error}; {cure}", error = .0, cure = .0.cure())]
     Machine(Error),
     /// No motor is given.
-    #[error("[simulation] gives no motor")]
-    #[diagnostic(help(
-        "give torque, torque_speed, dc_motor or induction_motor in [simulation] (force or force_speed of a link that slides), or a drive of \
-         the catalogue: --drive MOTOR+GEARBOX"
-    ))]
     NoMotor,
     /// A part behind a variator is scheduled by the motion of the file.
-    #[error("{what}: that goes by [motion], and is not simulated behind a [variator]")]
-    #[diagnostic(help(
-        "{cure}, for this command; `jred reduce --over time` and `jred size` contain it"
-    ))]
-    Scheduled {
-        /// The load, payload or carriage.
-        what: String,
-        /// How to simulate without it.
-        cure: String,
-    },
+    Scheduled(ByMotion),
     /// Stops are requested, but the file has no stop.
-    #[error("[simulation] has no `stop` whose instant could be moved")]
-    #[diagnostic(help(
-        "add stop = {{ time = \"3 s\", brake_torque = \"80 N m\", brake_delay = \"40 ms\" }}"
-    ))]
     NoStop,
     /// There is no whole cycle before the stop.
-    #[error("there is no whole cycle before the `stop`")]
-    #[diagnostic(help(
-        "give the stop a later time, after a turn of the drive link or a cycle of [motion] under a controller"
-    ))]
     NoCycle,
     /// A machine cannot run on one shaft with others.
-    #[error("the machine \"{title}\" cannot run on one shaft with others: {why}")]
-    #[diagnostic(help(
-        "simulate it alone, or refer it to the shaft of another machine as a [[drive_train.branch]]"
-    ))]
     NotBeside {
-        /// The machine.
+        /// Its title.
         title: String,
         /// The reason.
-        why: &'static str,
+        why: NotBeside,
     },
-    /// The drive link has passed the end of its stroke.
-    #[error("the drive link hits the end of its stroke, {end}, at t = {t:.6} s, at {speed}")]
-    #[diagnostic(help(
-        "the machine has no end stop: add end_stops to [simulation], reduce its `duration`, start elsewhere, or add a spring or damper as a \
-         buffer and a longer stroke"
-    ))]
+    /// The drive link has passed the end of its stroke, where the machine has no end stop.
     EndOfStroke {
-        /// Time reached (s).
+        /// Time reached.
         t: f64,
-        /// The end that was passed.
-        end: String,
-        /// Speed there.
-        speed: String,
+        /// Coordinate of the stroke.
+        axis: Axis,
+        /// The end of the drive link's stroke (rad, or m), up to rounding.
+        end: f64,
+        /// Speed there, without sign (rad/s, or m/s).
+        speed: f64,
     },
     /// The integrator stopped.
-    #[error("the integrator stopped at t = {t} s: {reason}")]
-    #[diagnostic(help(
-        "look for what is stiff or grows without limit: viscous friction that is large for the inertia, a steep characteristic of the motor, \
-         a controller's gain, a winding's L/R; soften it, or shorten `duration`. A larger `tolerance` in [simulation] may help"
-    ))]
     Integrator {
-        /// Time reached (s).
+        /// Time reached.
         t: f64,
-        /// Message of the integrator.
-        reason: &'static str,
+        /// The reason.
+        why: IntegratorStop,
     },
     /// A constant slip in a contact whose power has reversed.
-    #[error(
-        "at t = {t:.6} s power flows through the variator against its `power_flow`: with a constant slip, the contact \
-         would generate {power:.3e} W, which is impossible"
-    )]
-    #[diagnostic(help(
-        "use a slip that follows the load: creep = {{ slip = \"2 %\", torque = \"80 N m\" }} instead of `slip`; or \
-         reverse `power_flow`"
-    ))]
     PowerFlowsBack {
-        /// Time (s).
+        /// Time.
         t: f64,
         /// Power that the contact would generate (W).
         power: f64,
     },
     /// A follower has left its cam, or a rope is slack.
-    #[error("at t = {t:.6} s {what}: at {state}")]
-    #[diagnostic(help("{cure}"))]
     Parted {
-        /// Time (s).
+        /// Time.
         t: f64,
-        /// The contact that separates.
-        what: String,
-        /// Position and speed.
-        state: String,
-        /// Cure.
-        cure: String,
+        /// The contact.
+        separation: Separation,
     },
+}
+
+/// Why a machine cannot run on one shaft with others.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NotBeside {
+    /// The motor of the first machine acts at the drive link.
+    MotorAtDriveLink,
+    /// One drive train begins with a rotation, the other with a translation.
+    TurnsAndSlides,
+    /// A machine has a variator.
+    Variator,
+    /// The drive link has a stroke.
+    Stroke,
+}
+
+/// Why the integrator stopped.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum IntegratorStop {
+    /// Too many steps would be needed.
+    Steps,
+    /// The step size has become too small for double precision.
+    StepSize,
+    /// The drive link turns round too often within an output step.
+    Reversals,
+    /// The motion of the file has too many corners within an output step.
+    Corners,
 }
 
 impl<E: Into<Error>> From<E> for SimulationError {
@@ -115,12 +95,10 @@ impl<E: Into<Error>> From<E> for SimulationError {
 
 /// Why the integrator stopped, for times counted from `t`.
 pub(super) fn stopped(t: f64, error: IntegrationError<Error>) -> SimulationError {
-    let (x, reason) = match error {
+    let (x, why) = match error {
         IntegrationError::Function(error) => return error.into(),
-        IntegrationError::TooManySteps { x } => (x, "too many steps would be needed"),
-        IntegrationError::StepTooSmall { x } => {
-            (x, "the step size has become too small for double precision")
-        }
+        IntegrationError::TooManySteps { x } => (x, IntegratorStop::Steps),
+        IntegrationError::StepTooSmall { x } => (x, IntegratorStop::StepSize),
     };
-    SimulationError::Integrator { t: t + x, reason }
+    SimulationError::Integrator { t: t + x, why }
 }

@@ -5,6 +5,7 @@ use jred::error::Error;
 use super::SimulationError;
 use super::clock::{Corners, Moment};
 use super::coupled::CoupledMachines;
+use super::drive_state::DriveState;
 use super::machine::{Instant, Plant};
 use super::observe::MotorState;
 use super::result::TorqueDeficit;
@@ -26,8 +27,16 @@ impl<M: Motor> Plant<'_, M> {
     }
 
     /// Derivatives and forces at a state and an instant.
-    fn now(&self, moment: &Moment, [phi, omega]: [f64; 2]) -> Result<Instant, Error> {
-        self.under(moment, [phi, omega], self.torque(moment, omega))
+    fn now(&self, moment: &Moment, link: DriveState) -> Result<Instant, Error> {
+        self.under(moment, link, self.torque(moment, link.omega))
+    }
+}
+
+/// φ and ω, the first values of a state.
+pub(super) fn link_of<const N: usize>(y: &[f64; N]) -> DriveState {
+    DriveState {
+        phi: y[0],
+        omega: y[1],
     }
 }
 
@@ -81,17 +90,17 @@ impl<M: Motor, const N: usize> run::Plant<N> for Plant<'_, M> {
         if moment.direction == 0.0 {
             return self.slope_at_rest(moment, y[0], 2);
         }
-        let now = self.now(moment, [y[0], y[1]])?;
+        let now = self.now(moment, link_of(y))?;
         Ok(slope_in_motion(&now, y[1], 2))
     }
 
-    fn link(&self, _: f64, y: &[f64; N]) -> Result<[f64; 2], Error> {
-        Ok([y[0], y[1]])
+    fn link(&self, _: f64, y: &[f64; N]) -> Result<DriveState, Error> {
+        Ok(link_of(y))
     }
 
-    fn with_link(&self, _: f64, y: &[f64; N], [phi, omega]: [f64; 2]) -> Result<[f64; N], Error> {
+    fn with_link(&self, _: f64, y: &[f64; N], link: DriveState) -> Result<[f64; N], Error> {
         let mut y = *y;
-        (y[0], y[1]) = (phi, omega);
+        (y[0], y[1]) = (link.phi, link.omega);
         Ok(y)
     }
 
@@ -100,12 +109,12 @@ impl<M: Motor, const N: usize> run::Plant<N> for Plant<'_, M> {
     }
 
     fn alpha(&self, moment: &Moment, y: &[f64; N]) -> Result<f64, Error> {
-        Ok(self.now(moment, [y[0], y[1]])?.alpha)
+        Ok(self.now(moment, link_of(y))?.alpha)
     }
 
     fn starts(&self, moment: &Moment, y: &[f64; N]) -> Result<bool, Error> {
         Plant::starts(self, moment, |moment| {
-            Ok(self.now(moment, [y[0], y[1]])?.alpha)
+            Ok(self.now(moment, link_of(y))?.alpha)
         })
     }
 
@@ -117,7 +126,7 @@ impl<M: Motor, const N: usize> run::Plant<N> for Plant<'_, M> {
         if moment.direction == 0.0 {
             return Ok(Vec::new());
         }
-        self.bends_under(moment, [y[0], y[1]], self.torque(moment, y[1]))
+        self.bends_under(moment, link_of(y), self.torque(moment, y[1]))
     }
 
     fn corners(&self) -> Corners {
@@ -134,7 +143,7 @@ impl<M: Motor, const N: usize> run::Plant<N> for Plant<'_, M> {
 
     fn working(&self, moment: &Moment, y: &[f64; N]) -> Result<Option<MotorState>, Error> {
         let torque = self.torque(moment, y[1]);
-        let working = self.working_at(moment, [y[0], y[1]], [torque; 2])?;
+        let working = self.working_at(moment, link_of(y), torque, torque)?;
         Ok(Some(working))
     }
 
@@ -150,7 +159,11 @@ impl<M: Motor, const N: usize> run::Plant<N> for Plant<'_, M> {
         let moments = [Moment::starting(t, push), Moment::new(t, push)];
         let mut needed = f64::NEG_INFINITY;
         for moment in moments {
-            needed = needed.max(sign * self.keeping(&moment, [y[0], push * SIGN_SPEED])?);
+            let link = DriveState {
+                phi: y[0],
+                omega: push * SIGN_SPEED,
+            };
+            needed = needed.max(sign * self.keeping(&moment, link)?);
         }
         Ok((needed > given * sign).then_some(TorqueDeficit {
             phi: y[0],
@@ -160,12 +173,13 @@ impl<M: Motor, const N: usize> run::Plant<N> for Plant<'_, M> {
     }
 
     fn row(&self, moment: &Moment, y: &[f64; N]) -> Result<OutputRow, Error> {
-        let [phi, omega] = [y[0], y[1]];
+        let link = link_of(y);
         let alpha = if moment.direction == 0.0 {
             0.0
         } else {
-            self.now(moment, [phi, omega])?.alpha
+            self.now(moment, link)?.alpha
         };
-        self.written(moment, [phi, omega, alpha], self.torque(moment, omega))
+        let torque = self.torque(moment, link.omega);
+        self.written(moment, [link.phi, link.omega, alpha], torque)
     }
 }

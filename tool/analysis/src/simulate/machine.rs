@@ -8,6 +8,7 @@ use jred::mechanism::{TrainInput, TrainOutput};
 
 use super::clock::{Corners, Moment};
 use super::coupled::{CoupledMachines, GearedMachine};
+use super::drive_state::DriveState;
 use super::point::{ReducedLink, ReducedLinks};
 use bends::Bends;
 use jred_file::model::axis::Axis;
@@ -130,11 +131,11 @@ impl<'a, M: Motor> Plant<'a, M> {
         }
     }
 
-    /// The motor torque that keeps the speed `omega` at the position `phi`.
-    pub(crate) fn keeping(&self, moment: &Moment, [phi, omega]: [f64; 2]) -> Result<f64, Error> {
+    /// The motor torque that keeps the speed.
+    pub(crate) fn keeping(&self, moment: &Moment, link: DriveState) -> Result<f64, Error> {
         match self.simulation.at {
-            Shaft::DriveLink => self.resisting(moment, [phi, omega]),
-            Shaft::Motor => self.required(moment, [phi, omega, 0.0]),
+            Shaft::DriveLink => self.resisting(moment, link),
+            Shaft::Motor => self.required(moment, [link.phi, link.omega, 0.0]),
         }
     }
 
@@ -145,8 +146,9 @@ impl<'a, M: Motor> Plant<'a, M> {
         [phi, omega, alpha]: [f64; 3],
     ) -> Result<f64, Error> {
         let direction = moment.direction;
-        let points = self.points(moment, [phi, omega])?;
-        let loads = points.all().map(|(machine, point)| {
+        let points = self.points(moment, DriveState { phi, omega })?;
+        let loads = points.all().map(|point| {
+            let machine = point.machine;
             let [_, omega, alpha] = machine.state([phi, omega, alpha]);
             let resisting = point.resisting(direction * machine.ratio(), omega);
             let inertia = point.reduction.inertia;
@@ -162,8 +164,8 @@ impl<'a, M: Motor> Plant<'a, M> {
         [phi, omega, alpha]: [f64; 3],
     ) -> Result<Vec<f64>, Error> {
         let first = GearedMachine::first(self.machines.first);
-        let link = [self.inside(phi), omega];
-        let point = ReducedLink::new(&first, moment, link)?;
+        let phi = self.inside(phi);
+        let point = ReducedLink::new(first, moment, DriveState { phi, omega })?;
         let resisting = point.resisting(moment.direction, omega);
         Ok(first.file.drive_train.delivered(&TrainOutput {
             torque: point.reduction.inertia * alpha + resisting,
@@ -215,18 +217,19 @@ impl<'a, M: Motor> Plant<'a, M> {
     }
 
     /// The reduced links at a position and speed.
-    fn points(&self, moment: &Moment, [phi, omega]: [f64; 2]) -> Result<ReducedLinks<'a>, Error> {
+    fn points(&self, moment: &Moment, link: DriveState) -> Result<ReducedLinks<'a>, Error> {
         let first = GearedMachine::first(self.machines.first);
-        let link = [self.inside(phi), omega];
+        let phi = self.inside(link.phi);
+        let link = DriveState { phi, ..link };
         ReducedLinks::new(first, self.machines.beside(), moment, link)
     }
 
-    /// The torque at the first drive link that keeps the speed `omega` at the position `phi`, without the losses of drive trains.
-    pub(crate) fn resisting(&self, moment: &Moment, [phi, omega]: [f64; 2]) -> Result<f64, Error> {
-        let points = self.points(moment, [phi, omega])?;
-        let each = points.all().map(|(machine, point)| {
-            let ratio = machine.ratio();
-            ratio * point.resisting(moment.direction * ratio, omega * ratio)
+    /// The torque at the first drive link that keeps the speed, without the losses of drive trains.
+    pub(crate) fn resisting(&self, moment: &Moment, link: DriveState) -> Result<f64, Error> {
+        let points = self.points(moment, link)?;
+        let each = points.all().map(|point| {
+            let ratio = point.machine.ratio();
+            ratio * point.resisting(moment.direction * ratio, link.omega * ratio)
         });
         Ok(each.sum())
     }
@@ -234,17 +237,17 @@ impl<'a, M: Motor> Plant<'a, M> {
     /// Inertia of the machines at `phi`, of their drive trains and of the motor, all at the first drive link; and the potential energy. Without
     /// schedules.
     pub(crate) fn inertia(&self, phi: f64) -> Result<[f64; 2], Error> {
-        let stored = self.stored(&Moment::default(), [phi, 0.0])?;
+        let stored = self.stored(&Moment::default(), DriveState { phi, omega: 0.0 })?;
         Ok([stored.inertia, stored.potential])
     }
 
     /// Inertia and energies at a position and speed.
-    pub(super) fn stored(&self, moment: &Moment, link: [f64; 2]) -> Result<StoredEnergy, Error> {
+    pub(super) fn stored(&self, moment: &Moment, link: DriveState) -> Result<StoredEnergy, Error> {
         // The motor and the drive trains rotate with the drive link.
         let ratio = self.machines.first.drive_train.ratio();
         let [mut inertia, mut potential, mut beyond] = [0.0; 3];
-        for (machine, point) in self.points(moment, link)?.all() {
-            inertia += point.reduction.inertia * machine.ratio() * machine.ratio();
+        for point in self.points(moment, link)?.all() {
+            inertia += point.reduction.inertia * point.machine.ratio() * point.machine.ratio();
             potential += point.reduction.potential_energy;
             beyond += point.kinetic_beyond();
         }
@@ -259,24 +262,20 @@ impl<'a, M: Motor> Plant<'a, M> {
     ///
     /// The required motor torque is piecewise linear and monotone in α (each stage's efficiency changes sides with its power), so Newton's method
     /// ends after a few steps.
-    pub(crate) fn instant(
-        &self,
-        moment: &Moment,
-        [phi, omega]: [f64; 2],
-    ) -> Result<Instant, Error> {
-        let [torque, _] = self.motor(omega);
-        self.under(moment, [phi, omega], torque)
+    pub(crate) fn instant(&self, moment: &Moment, link: DriveState) -> Result<Instant, Error> {
+        let [torque, _] = self.motor(link.omega);
+        self.under(moment, link, torque)
     }
 
     /// The same under a torque of the motor.
     pub(super) fn under(
         &self,
         moment: &Moment,
-        [phi, omega]: [f64; 2],
+        link: DriveState,
         torque: f64,
     ) -> Result<Instant, Error> {
-        let points = self.points(moment, [phi, omega])?;
-        Ok(self.solved(&points, moment.direction, [phi, omega], torque))
+        let points = self.points(moment, link)?;
+        Ok(self.solved(&points, moment.direction, link, torque))
     }
 
     /// The motor's torque, split into the part at its own shaft and the part at the first drive link. In the second case everything in front of the
@@ -292,7 +291,7 @@ impl<'a, M: Motor> Plant<'a, M> {
         &self,
         points: &ReducedLinks<'a>,
         direction: f64,
-        [phi, omega]: [f64; 2],
+        DriveState { phi, omega }: DriveState,
         torque: f64,
     ) -> Instant {
         let speed = omega * self.ratio();
@@ -302,7 +301,8 @@ impl<'a, M: Motor> Plant<'a, M> {
         let mut input_torque = 0.0;
         let mut loss = 0.0;
         let alpha = newton(|alpha| {
-            let loads = points.all().enumerate().map(|(k, (machine, point))| {
+            let loads = points.all().enumerate().map(|(k, point)| {
+                let machine = point.machine;
                 let [_, omega, alpha] = machine.state([phi, omega, alpha]);
                 let resisting = point.resisting(direction * machine.ratio(), omega);
                 let inertia = point.reduction.inertia;
@@ -314,7 +314,8 @@ impl<'a, M: Motor> Plant<'a, M> {
             [through.torque - at_motor, through.per_alpha]
         });
         let [mut process_power, mut carriage_power] = [0.0; 2];
-        for (machine, point) in points.all() {
+        for point in points.all() {
+            let machine = point.machine;
             let [_, omega, alpha] = machine.state([phi, omega, alpha]);
             let direction = sign(direction * machine.ratio());
             let reduction = &point.reduction;
@@ -337,11 +338,8 @@ impl<'a, M: Motor> Plant<'a, M> {
 
     /// Power of the second axes while friction holds the machine (W).
     pub(super) fn held_power(&self, moment: &Moment, phi: f64) -> Result<f64, Error> {
-        let points = self.points(moment, [phi, 0.0])?;
-        Ok(points
-            .all()
-            .map(|(_, point)| point.carriage_power(0.0))
-            .sum())
+        let points = self.points(moment, DriveState { phi, omega: 0.0 })?;
+        Ok(points.all().map(|point| point.carriage_power(0.0)).sum())
     }
 
     /// Whether the motor would drive the machine from rest in this direction, judged by the acceleration `alpha` at an instant and a speed, both with

@@ -32,13 +32,22 @@ impl MotorState {
     }
 }
 
+/// The motor at a time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MotorPoint {
+    /// The time (s).
+    pub t: f64,
+    /// The motor.
+    pub motor: MotorState,
+}
+
 /// Follows a motor through a simulation, piece by piece, and adds columns to its rows.
 pub trait Observer {
     /// The columns.
     fn columns(&self) -> Vec<Column>;
 
-    /// A piece so short that everything is nearly linear: from one time (s) to the next.
-    fn pass(&mut self, from: (f64, MotorState), to: (f64, MotorState));
+    /// A piece so short that everything is nearly linear.
+    fn pass(&mut self, from: MotorPoint, to: MotorPoint);
 
     /// The figures at the end of the last piece, as many as columns; `now` is the motor's state there.
     fn figures(&self, now: &MotorState) -> Vec<f64>;
@@ -52,7 +61,7 @@ impl Observer for NoObserver {
     fn columns(&self) -> Vec<Column> {
         Vec::new()
     }
-    fn pass(&mut self, _: (f64, MotorState), _: (f64, MotorState)) {}
+    fn pass(&mut self, _: MotorPoint, _: MotorPoint) {}
     fn figures(&self, _: &MotorState) -> Vec<f64> {
         Vec::new()
     }
@@ -114,13 +123,13 @@ impl ControlStatistics {
     /// A piece between two instants; `at` gives the states inside, by their share of it.
     pub(super) fn pass<E>(
         &mut self,
-        [start, end]: [f64; 2],
-        [from, to]: [MotorState; 2],
+        from: MotorPoint,
+        to: MotorPoint,
         at: impl Fn(f64) -> Result<MotorState, E>,
     ) -> Result<(), E> {
-        self.follow(start, &from);
-        self.follow(end, &to);
-        let (share, limited) = match [from, to].map(|working| working.is_limited()) {
+        self.follow(&from);
+        self.follow(&to);
+        let (share, limited) = match [from, to].map(|point| point.motor.is_limited()) {
             [false, false] => {
                 self.limited = false;
                 return Ok(());
@@ -135,12 +144,12 @@ impl ControlStatistics {
                 ([0.0, numerics::edge(limited, 0.0, 1.0)?], false)
             }
         };
-        let [begin, stop] = share.map(|share| start + share * (end - start));
-        let again = self.limited && from.is_limited();
+        let [begin, stop] = share.map(|share| from.t + share * (to.t - from.t));
+        let again = self.limited && from.motor.is_limited();
         let phi = if share[0] > 0.0 {
             at(share[0])?.phi
         } else {
-            from.phi
+            from.motor.phi
         };
         let limit = self.limit.get_or_insert(TorqueLimit {
             time: begin,
@@ -154,14 +163,18 @@ impl ControlStatistics {
         Ok(())
     }
 
-    fn follow(&mut self, t: f64, working: &MotorState) {
-        let Some(error) = working.error else { return };
-        if (self.following).is_none_or(|largest| error.abs() > largest.error.abs()) {
-            self.following = Some(FollowingError {
-                time: t,
-                position: working.phi,
-                error,
-            });
+    fn follow(&mut self, point: &MotorPoint) {
+        let Some(error) = point.motor.error else {
+            return;
+        };
+        let now = FollowingError {
+            time: point.t,
+            position: point.motor.phi,
+            error,
+        };
+        let largest = self.following.get_or_insert(now);
+        if error.abs() > largest.error.abs() {
+            *largest = now;
         }
     }
 }

@@ -5,11 +5,13 @@ use jred::machine::{Frames, Mechanism as _, Reduction};
 
 use super::clock::Moment;
 use super::coupled::GearedMachine;
+use super::drive_state::DriveState;
 use jred_file::model::carriage::Carriage;
 use jred_file::number::numerics::sign;
 
 /// The reduced link of a machine at an instant.
 pub(super) struct ReducedLink<'a> {
+    pub(super) machine: GearedMachine<'a>,
     /// Without the motion of carriages along their guides.
     pub(super) reduction: Reduction,
     /// b and c of the motion-opposing loads that do process work; they are contained in those of the reduction.
@@ -32,13 +34,13 @@ struct CarriageState<'a> {
 impl<'a> ReducedLink<'a> {
     /// The reduced link of a machine at this position and speed of the first drive link.
     pub(super) fn new(
-        machine: &GearedMachine<'a>,
+        machine: GearedMachine<'a>,
         moment: &Moment,
-        [phi, omega]: [f64; 2],
+        DriveState { phi, omega }: DriveState,
     ) -> Result<Self, Error> {
         let [phi, omega, _] = machine.state([phi, omega, 0.0]);
         let file = machine.file;
-        let now = moment.now(machine, omega);
+        let now = moment.now(&machine, omega);
         let own = file.machine_at(&now, phi)?;
         let (reduction, resists) = file.apart(&own, own.bare_reduction(phi)?, phi)?;
         let carried = match now.t.filter(|_| file.schedule.flows()) {
@@ -52,6 +54,7 @@ impl<'a> ReducedLink<'a> {
             None => None,
         };
         Ok(Self {
+            machine,
             working: file.working(&own, phi)?,
             reduction,
             resists,
@@ -96,8 +99,8 @@ impl<'a> ReducedLink<'a> {
 
 /// The reduced links of all machines, at an instant.
 pub(super) struct ReducedLinks<'a> {
-    first: (GearedMachine<'a>, ReducedLink<'a>),
-    beside: Vec<(GearedMachine<'a>, ReducedLink<'a>)>,
+    first: ReducedLink<'a>,
+    beside: Vec<ReducedLink<'a>>,
 }
 
 impl<'a> ReducedLinks<'a> {
@@ -106,18 +109,17 @@ impl<'a> ReducedLinks<'a> {
         first: GearedMachine<'a>,
         beside: &[GearedMachine<'a>],
         moment: &Moment,
-        link: [f64; 2],
+        link: DriveState,
     ) -> Result<Self, Error> {
         let beside = beside.iter();
-        let beside = beside.map(|machine| Ok((*machine, ReducedLink::new(machine, moment, link)?)));
+        let beside = beside.map(|machine| ReducedLink::new(*machine, moment, link));
         Ok(Self {
-            first: (first, ReducedLink::new(&first, moment, link)?),
+            first: ReducedLink::new(first, moment, link)?,
             beside: beside.collect::<Result<_, Error>>()?,
         })
     }
 
-    pub(super) fn all(&self) -> impl Iterator<Item = (GearedMachine<'a>, &ReducedLink<'a>)> {
-        let all = std::iter::once(&self.first).chain(&self.beside);
-        all.map(|(machine, point)| (*machine, point))
+    pub(super) fn all(&self) -> impl Iterator<Item = &ReducedLink<'a>> {
+        std::iter::once(&self.first).chain(&self.beside)
     }
 }

@@ -19,11 +19,12 @@ use std::cell::Cell;
 
 use jred::error::Error;
 
-use super::SimulationError;
 use super::clock::{Corners, EDGE};
+use super::drive_state::{DriveState, Passage};
 use super::observe::{ControlStatistics, EffortSums, Observer};
 use super::result::{Impacts, Rest, SimulationResult, Stall, TurnWorks};
 use super::watch::{LinkState, Watch};
+use super::{IntegratorStop, SimulationError};
 use jred_file::model::machine::MachineFile;
 use jred_file::model::simulation::{EndStops, Halt, Simulation};
 use jred_file::number::columns::Columns;
@@ -49,25 +50,25 @@ pub(super) fn run<const N: usize>(
 ) -> Result<SimulationResult, SimulationError> {
     let machines = plant.machines();
     let corners = plant.corners();
-    let [has_payloads, has_carriages] = machines.guests();
+    let guests = machines.guests();
     let mut run = Run::new(plant, &machines, simulation, observer);
     let mut y = plant.start()?;
     run.direction = run.heading(&y)?;
-    let [begin, speed] = plant.link(0.0, &y)?;
+    let DriveState { phi: begin, omega } = plant.link(0.0, &y)?;
     run.begin = (machines.go_by_turns()).then_some(begin);
-    if run.to_speed.is_some_and(|to| speed.abs() >= to) {
-        run.reached = Some([0.0, begin]);
+    if run.to_speed.is_some_and(|to| omega.abs() >= to) {
+        run.reached = Some(Passage { t: 0.0, phi: begin });
     }
     run.watch.check(run.at(0.0, &y)?)?;
-    if speed == 0.0 {
+    if omega == 0.0 {
         run.misses(0.0, &y)?;
     }
     let figures = plant.heads().into_iter().chain(run.observer.columns());
     let has_brake = (simulation.halt).is_some_and(|halt| halt.brake_torque != 0.0);
     let terms = Terms {
         brake: has_brake,
-        payloads: has_payloads,
-        carriages: has_carriages,
+        payloads: guests.payloads,
+        carriages: guests.carriages,
     };
     let mut columns = Columns::new(heads(figures.collect(), terms));
     let mut states = Vec::new();
@@ -106,13 +107,13 @@ pub(super) fn run<const N: usize>(
         columns.push(cells(t, row, works, start).0);
     }
     let runs_down = run.halt.is_none() && simulation.control.is_none() && ended.is_none();
-    let since_start = |[time, phi]: [f64; 2]| Rest {
-        time,
-        way: phi - begin,
+    let since_start = |at: Passage| Rest {
+        time: at.t,
+        way: at.phi - begin,
     };
     Ok(SimulationResult {
         columns,
-        halted_at: run.halt.map(|[_, phi]| phi),
+        halted_at: run.halt.map(|at| at.phi),
         held: run.held.filter(|_| runs_down).map(since_start),
         turned: run.turned,
         effort: run.giving.effort(),
@@ -153,7 +154,7 @@ struct Run<'a, P> {
     /// Number of the integrator's steps.
     steps: Cell<u64>,
     /// Time and position at which the motor was switched off.
-    halt: Option<[f64; 2]>,
+    halt: Option<Passage>,
     /// Work of the motor until then (J).
     driven: Option<f64>,
     rest: Option<Rest>,
@@ -165,9 +166,9 @@ struct Run<'a, P> {
     giving: EffortSums,
     to_speed: Option<f64>,
     /// Time and position at which that speed was reached.
-    reached: Option<[f64; 2]>,
+    reached: Option<Passage>,
     /// Time and position from which friction holds the drive link.
-    held: Option<[f64; 2]>,
+    held: Option<Passage>,
     observer: &'a mut dyn Observer,
 }
 
@@ -214,15 +215,15 @@ impl<P> Run<'_, P> {
             ];
             y = self.enter(inside, t, y)?;
             if self.halt.is_none() && halt.is_some_and(|halt| halt.time <= t) {
-                let [phi, omega] = self.plant.link(t, &y)?;
-                self.halt = Some([t, phi]);
+                let DriveState { phi, omega } = self.plant.link(t, &y)?;
+                self.halt = Some(Passage { t, phi });
                 self.driven = Some(y[N - 3]);
                 if omega == 0.0 {
-                    self.stands([t, phi]);
+                    self.stands(Passage { t, phi });
                 }
             }
             // A held link may be released now, or a brake may hold a link at rest.
-            if before == Some(t) && self.plant.link(t, &y)?[1] == 0.0 {
+            if before == Some(t) && self.plant.link(t, &y)?.omega == 0.0 {
                 self.leave_rest(t, &y)?;
             }
             if t >= end {
@@ -234,22 +235,22 @@ impl<P> Run<'_, P> {
         }
         Err(SimulationError::Integrator {
             t,
-            reason: "too much changes within one output step by the clock of [motion]",
+            why: IntegratorStop::Corners,
         })
     }
 
     /// The drive link is at rest: held, or reversing.
-    fn stands(&mut self, [t, phi]: [f64; 2]) {
-        let Some([time, way]) = self.halt else {
+    fn stands(&mut self, at: Passage) {
+        let Some(halt) = self.halt else {
             return;
         };
         let rest = Rest {
-            time: t - time,
-            way: phi - way,
+            time: at.t - halt.t,
+            way: at.phi - halt.phi,
         };
         if self.direction == 0.0 {
             self.rest = self.rest.or(Some(rest));
-        } else if t > time {
+        } else if at.t > halt.t {
             self.turned_back = self.turned_back.or(Some(rest));
         }
     }
@@ -269,7 +270,7 @@ impl<P> Run<'_, P> {
             if t >= end {
                 return Ok(y);
             }
-            let [phi, _] = self.plant.link(t, &y)?;
+            let phi = self.plant.link(t, &y)?.phi;
             self.edge = if self.direction == 0.0 {
                 f64::INFINITY
             } else {
@@ -278,7 +279,7 @@ impl<P> Run<'_, P> {
             let steps = self.integrate(t, end, &y)?;
             let [over, passed] = match steps.split_last() {
                 Some(((last, state), [_, ..])) => {
-                    let [phi, _] = self.plant.link(*last, state)?;
+                    let phi = self.plant.link(*last, state)?.phi;
                     [self.is_over(*last, state)?, self.has_passed(phi)]
                 }
                 _ => [false; 2],
@@ -315,9 +316,9 @@ impl<P> Run<'_, P> {
             }
             self.check(&start, &before)?;
             t = after.0.min(end);
-            let [phi, omega] = self.plant.link(t, &after.1)?;
-            if let Some(stop) = self.stop_behind([phi, omega]) {
-                y = self.impact(t, &after.1, [stop, omega])?;
+            let link = self.plant.link(t, &after.1)?;
+            if let Some(phi) = self.stop_behind(link) {
+                y = self.impact(t, &after.1, DriveState { phi, ..link })?;
                 continue;
             }
             // A held link starts where it is released; a reversing link starts from rest.
@@ -326,18 +327,20 @@ impl<P> Run<'_, P> {
             } else {
                 before.1
             };
-            let [phi, _] = self.plant.link(t, &y)?;
-            y = self.plant.with_link(t, &y, [phi, 0.0])?;
+            let phi = self.plant.link(t, &y)?.phi;
+            y = self
+                .plant
+                .with_link(t, &y, DriveState { phi, omega: 0.0 })?;
             self.misses(t, &y)?;
             self.leave_rest(t, &y)?;
-            self.stands([t, phi]);
+            self.stands(Passage { t, phi });
             if self.direction == 0.0 {
-                self.held = self.held.or(Some([t, phi]));
+                self.held = self.held.or(Some(Passage { t, phi }));
             }
         }
         Err(SimulationError::Integrator {
             t,
-            reason: "the drive link turns round again and again",
+            why: IntegratorStop::Reversals,
         })
     }
 
@@ -349,15 +352,15 @@ impl<P> Run<'_, P> {
         if self.direction == 0.0 {
             return Ok(self.start_direction(t, y)? != 0.0);
         }
-        let [phi, omega] = self.plant.link(t, y)?;
-        Ok(omega * self.direction < 0.0 || self.stop_behind([phi, omega]).is_some())
+        let link = self.plant.link(t, y)?;
+        Ok(link.omega * self.direction < 0.0 || self.stop_behind(link).is_some())
     }
 
     fn at<const N: usize>(&self, t: f64, y: &[f64; N]) -> Result<LinkState, Error>
     where
         P: Plant<N>,
     {
-        let [phi, omega] = self.plant.link(t, y)?;
+        let DriveState { phi, omega } = self.plant.link(t, y)?;
         let moment = self.moment(t);
         let alpha = if self.direction == 0.0 {
             0.0

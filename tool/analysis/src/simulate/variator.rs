@@ -9,6 +9,7 @@ use jred::number::RangeError;
 use super::SimulationError;
 use super::clock::{Corners, Moment};
 use super::coupled::CoupledMachines;
+use super::drive_state::DriveState;
 use super::run::{self, OutputRow};
 use jred_file::model::coordinate::Coordinate;
 use jred_file::model::machine::MachineFile;
@@ -231,20 +232,23 @@ impl run::Plant<7> for Plant<'_> {
         ])
     }
 
-    fn link(&self, t: f64, y: &VariatorState) -> Result<[f64; 2], Error> {
+    fn link(&self, t: f64, y: &VariatorState) -> Result<DriveState, Error> {
         let second = if self.creeps() {
             y[3]
         } else {
             self.speed_ratio(t, y)? * y[1]
         };
-        Ok([y[2], second / self.file.drive_train.ratio()])
+        Ok(DriveState {
+            phi: y[2],
+            omega: second / self.file.drive_train.ratio(),
+        })
     }
 
     fn with_link(
         &self,
         t: f64,
         y: &VariatorState,
-        [phi, omega]: [f64; 2],
+        DriveState { phi, omega }: DriveState,
     ) -> Result<VariatorState, Error> {
         let mut y = *y;
         let second = omega * self.file.drive_train.ratio();

@@ -10,6 +10,7 @@ use jred::machine::{Machine, Reducible as _};
 use super::SimulationError;
 use super::clock::Moment;
 use super::coupled::{CoupledMachines, GearedMachine};
+use super::drive_state::DriveState;
 use crate::contact::OneWay;
 use jred_file::model::mechanism::AnyMechanism;
 use jred_file::number::numerics;
@@ -68,7 +69,7 @@ impl<'a> Watch<'a> {
     pub(crate) fn check_between(
         &self,
         [from, to]: [LinkState; 2],
-        alpha: impl Fn(f64, [f64; 2]) -> Result<f64, SimulationError>,
+        alpha: impl Fn(f64, DriveState) -> Result<f64, SimulationError>,
     ) -> Result<(), SimulationError> {
         let span = match self.domain {
             Domain::Turn => std::f64::consts::TAU,
@@ -78,12 +79,12 @@ impl<'a> Watch<'a> {
         let parts = parts.clamp(1.0, 1e6) as u32;
         let way = between([from, to]);
         let at = |share: f64| -> Result<LinkState, SimulationError> {
-            let [phi, omega] = way(share);
+            let link = way(share);
             let t = from.moment.t + share * (to.moment.t - from.moment.t);
-            let alpha = alpha(t, [phi, omega])?;
+            let alpha = alpha(t, link)?;
             Ok(LinkState {
                 moment: Moment { t, ..from.moment },
-                state: [phi, omega, alpha],
+                state: [link.phi, link.omega, alpha],
             })
         };
         let mut closed = 0.0;
@@ -135,30 +136,32 @@ fn machine_at<'f>(
 fn parted(watched: WatchedJoint, force: f64, at: LinkState) -> SimulationError {
     let WatchedJoint { machine, joint } = watched;
     let [phi, omega, _] = machine.state(at.state);
-    let parted =
+    let separation =
         machine_at(&machine, &at).and_then(|machine| joint.parted(&machine, [phi, omega], force));
-    match parted {
-        Ok(parted) => SimulationError::Parted {
+    match separation {
+        Ok(separation) => SimulationError::Parted {
             t: at.moment.t,
-            what: parted.what,
-            state: parted.state,
-            cure: parted.cure,
+            separation,
         },
         Err(error) => error.into(),
     }
 }
 
 /// φ and ω between two states, at a share of the time: the polynomial of fifth degree through their positions, speeds and accelerations.
-pub(super) fn between([from, to]: [LinkState; 2]) -> impl Fn(f64) -> [f64; 2] {
+pub(super) fn between([from, to]: [LinkState; 2]) -> impl Fn(f64) -> DriveState {
     let span = to.moment.t - from.moment.t;
     let ([p, v, a], [q, w, b]) = (from.state, to.state);
     let through =
         (span > 0.0).then(|| Polynomial::between(q - p, span, End::new(v, a), End::new(w, b)));
     move |share| {
-        through.map_or([p, v], |through| {
+        let [way, omega] = through.map_or([0.0, v], |through| {
             let [way, speed, ..] = through.at(share * span);
-            [p + way, speed]
-        })
+            [way, speed]
+        });
+        DriveState {
+            phi: p + way,
+            omega,
+        }
     }
 }
 
@@ -179,7 +182,7 @@ mod tests {
         };
         let ends = [at(0.2), at(0.9)];
         for share in [0.0, 0.3, 0.71, 1.0] {
-            let [phi, omega] = between(ends)(share);
+            let DriveState { phi, omega } = between(ends)(share);
             let expected = at(0.2 + 0.7 * share).state;
             assert!((phi - expected[0]).abs() < 1e-14, "{phi}");
             assert!((omega - expected[1]).abs() < 1e-13, "{omega}");

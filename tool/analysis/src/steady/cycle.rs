@@ -317,7 +317,7 @@ impl TorqueDeficit {
             place: coordinate.place(phi),
             phi,
             given: turning.plant.motor(0.0)[0],
-            needed: turning.plant.keeping(&turning.moment(), state)?,
+            needed: turning.plant.keeping(&turning.moment(), state.into())?,
         })
     }
 }

@@ -177,9 +177,20 @@ pub enum SteadyError {
     ))]
     Integrator,
     /// A contact separates in the steady cycle.
-    #[error(transparent)]
-    #[diagnostic(transparent)]
+    #[error("{}", parted(.0)[0])]
+    #[diagnostic(help("{}", parted(.0)[1]))]
     Parted(SimulationError),
+}
+
+fn parted(error: &SimulationError) -> [String; 2] {
+    let SimulationError::Parted { t, separation } = error else {
+        return [format!("{error:?}"), String::new()];
+    };
+    let what = format!(
+        "at t = {t:.6} s {}: at {}",
+        separation.what, separation.state
+    );
+    [what, separation.cure.clone()]
 }
 
 impl<E: Into<Error>> From<E> for SteadyError {

@@ -93,7 +93,8 @@ impl Flywheel {
     pub(super) fn of(
         turning: &TurningMachine,
         search: &CycleSearch,
-        (own, guess): (Option<&Cycle>, Option<Guess>),
+        own: Option<&Cycle>,
+        guess: Option<Guess>,
         delta: f64,
         positions: usize,
     ) -> Result<Self, SteadyError> {
@@ -324,7 +325,7 @@ impl Classical {
         // flywheel stores it.
         let asked = |x: f64| -> Result<f64, SteadyError> {
             let state = [turning.at(x), turning.direction * speed];
-            Ok(plant.resisting(&turning.moment(), state)? * turning.direction)
+            Ok(plant.resisting(&turning.moment(), state.into())? * turning.direction)
         };
         let places = turning.places(720);
         let size = turning.largest(&places, speed, asked)?;

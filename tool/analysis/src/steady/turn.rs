@@ -144,7 +144,7 @@ impl<'a> TurningMachine<'a> {
     /// Derivatives and forces at a position and speed.
     pub(super) fn instant(&self, x: f64, speed: f64) -> Result<Instant, Error> {
         let link = [self.at(x), self.direction * speed];
-        self.plant.instant(&self.moment(), link)
+        self.plant.instant(&self.moment(), link.into())
     }
 
     /// Exchanged energy per radian at this speed (J): the scale for works.
@@ -227,7 +227,7 @@ impl<'a> TurningMachine<'a> {
             let speed = self.direction * (2.0 * (y[0] * full).max(least)).sqrt();
             let [torque, _] = self.plant.motor(speed);
             let link = [self.at(from + x), speed];
-            self.plant.bends_under(&self.moment(), link, torque)
+            self.plant.bends_under(&self.moment(), link.into(), torque)
         };
         let scaled = std::array::from_fn(|i| y[i] / sizes[i]);
         let steps = accuracy.steps(slope, bends, scaled, to - from, |_, y| {
@@ -275,7 +275,7 @@ impl<'a> TurningMachine<'a> {
     pub(super) fn keeping(&self, speed: f64) -> Result<f64, SteadyError> {
         let needed = |x: f64| {
             let state = [self.at(x), self.direction * speed];
-            self.plant.keeping(&self.moment(), state)
+            self.plant.keeping(&self.moment(), state.into())
         };
         let places = self.places(90);
         let size = self.largest(&places, speed, |x| Ok(needed(x)?))?;

@@ -28,7 +28,7 @@ fn forces_are_those_of_the_state_and_do_the_work_of_the_motor() {
     let alone = CoupledMachines::alone(&file);
     let machine = alone.all().next().unwrap();
     let states = found.states_of(&machine);
-    let all = add_columns(&file, &found.columns, &states, (sets, "")).unwrap();
+    let all = add_columns(&file, &found.columns, &states, sets, "").unwrap();
     let at: Vec<DrivePoint> = (found.states.iter())
         .map(|[phi, omega, alpha]| DrivePoint {
             phi: *phi,

@@ -1,6 +1,8 @@
 //! Several machines on one shaft.
 
-use jred_analysis::simulate::{CoupledMachines, SimulationResult, simulate_together};
+use jred_analysis::simulate::{
+    CoupledMachines, NotBeside, SimulationError, SimulationResult, simulate_together,
+};
 use jred_file::model::machine::MachineFile;
 
 use super::imbalance;
@@ -152,6 +154,8 @@ fn a_machine_with_a_stroke_is_the_first_or_none() {
     let first = table(1.0, 40, 0.0);
     let simulation = first.simulation.as_ref().unwrap();
     let with = CoupledMachines::alone(&first).with([(&stroke, 0.0)], simulation);
-    let why = with.err().unwrap().to_string();
-    assert!(why.contains("has a stroke"), "{why}");
+    let Err(SimulationError::NotBeside { why, .. }) = with else {
+        panic!("{with:?}");
+    };
+    assert_eq!(why, NotBeside::Stroke);
 }

@@ -10,7 +10,9 @@ use crate::options::simulate::Simulate;
 use crate::output;
 use jred_analysis::checked;
 use jred_analysis::reduce::{Sets, add_columns};
-use jred_analysis::simulate::{self, CoupledMachines, SimulationResult, beside_name};
+use jred_analysis::simulate::{
+    CoupledMachines, SimulationResult, beside_name, simulate_together, stops,
+};
 use jred_file::argument::Argument;
 use jred_file::model::coordinate::Coordinate;
 use jred_file::model::machine::MachineFile;
@@ -19,7 +21,7 @@ use jred_file::model::variator;
 use jred_file::number::words::counted;
 use jred_file::plain;
 use jred_file::text::key::SPEED;
-use jred_motion::drive_simulation::{Loads, UnfitDrive, driven};
+use jred_motion::drive_simulation::{DriveSimulation, UnfitDrive, driven};
 use jred_report::list;
 use jred_report::page;
 use jred_sizing::study::chosen::ChosenDrive;
@@ -67,27 +69,28 @@ pub(super) fn run(options: &Simulate) -> Result<Completion> {
     };
     warn_of_motion(&file);
     let starts = starts(&others, &options.phase)?;
-    let machines = CoupledMachines::alone(&file).with(others.iter().zip(starts), simulation)?;
-    let (mut found, drive) = match &chosen {
-        None => (simulate::simulate_together(&machines, simulation)?, None),
-        Some(chosen) => {
-            let (found, drive) = with_drive(chosen, &machines, simulation)?;
-            (found, Some(drive))
+    let machines = CoupledMachines::alone(&file)
+        .with(others.iter().zip(starts), simulation)
+        .map_err(|why| list::simulation::problem(&why))?;
+    let drive = chosen.as_ref().map(ChosenDrive::drive);
+    if let Some(drive) = &drive {
+        variator::refuse(&file, "simulate --drive")?;
+        envelope(drive, &file);
+    }
+    let run = |simulation: &Simulation| match drive {
+        None => Ok((simulate_together(&machines, simulation)?, None)),
+        Some(drive) => {
+            let DriveSimulation { simulated, loads } = driven(&machines, simulation, drive)?;
+            Ok((simulated, Some((drive.name(), loads))))
         }
     };
-    let run = |simulation: &Simulation| -> Result<SimulationResult> {
-        match &chosen {
-            None => Ok(simulate::simulate_together(&machines, simulation)?),
-            Some(chosen) => {
-                let (found, _) = with_drive(chosen, &machines, simulation)?;
-                Ok(found)
-            }
-        }
-    };
+    let refused = |unfit| refusal(&unfit, drive.map(|drive| drive.name()).as_deref());
+    let (mut found, driven) = run(simulation).map_err(refused)?;
     let stops = options
         .stops
-        .map(|count| simulate::stops(&file, simulation, count, run))
-        .transpose()?;
+        .map(|count| stops(&file, simulation, count, |shifted| Ok(run(shifted)?.0)))
+        .transpose()
+        .map_err(refused)?;
     let asked = Sets {
         torques: options.torques,
         points: options.points,
@@ -100,14 +103,17 @@ pub(super) fn run(options: &Simulate) -> Result<Completion> {
         simulation,
         found: &found,
         stops: stops.as_deref(),
-        drive: drive.as_ref().map(|(name, loads)| (name.as_str(), loads)),
+        drive: driven.as_ref().map(|(name, loads)| (name.as_str(), loads)),
     };
     if let Some(path) = &options.plot {
         output::write(path, page::simulation_page(&shown).as_bytes())?;
     }
     let done = print_answer(&shown.answer(), options.format)?;
     // The rows up to that point are written before the reason.
-    found.ended.map_or(Ok(done), |error| Err(error.into()))
+    match &found.ended {
+        None => Ok(done),
+        Some(why) => Err(list::simulation::problem(why).into()),
+    }
 }
 
 /// Reads the further machines.
@@ -148,30 +154,15 @@ fn widen(found: &mut SimulationResult, machines: &CoupledMachines, asked: Sets) 
             .checked_sub(1)
             .map_or_else(String::new, |k| beside_name(k) + " ");
         let states = found.states_of(&machine);
-        let wider = add_columns(machine.file, &found.columns, &states, (asked, &prefix));
+        let wider = add_columns(machine.file, &found.columns, &states, asked, &prefix);
         found.columns = wider.map_err(core_report)?;
     }
     Ok(())
 }
 
-/// The motion under a drive of the catalogue, with the drive's name and loads.
-fn with_drive(
-    chosen: &ChosenDrive,
-    machines: &CoupledMachines,
-    simulation: &Simulation,
-) -> Result<(SimulationResult, (String, Loads))> {
-    let file = machines.first;
-    variator::refuse(file, "simulate --drive")?;
-    let drive = chosen.drive();
-    envelope(&drive, file);
-    let found =
-        driven(machines, simulation, drive).map_err(|unfit| refusal(&unfit, &drive.name()))?;
-    let found = found?;
-    Ok((found.simulated, (drive.name(), found.loads)))
-}
-
-/// Why a drive cannot be simulated.
-fn refusal(unfit: &UnfitDrive, name: &str) -> Report {
+/// Why a machine, or a drive of this name, cannot be simulated.
+fn refusal(unfit: &UnfitDrive, drive: Option<&str>) -> Report {
+    let name = drive.unwrap_or_default();
     match unfit {
         UnfitDrive::NoPeak => miette!(
             help = "fill in peak_torque or peak_curve in the catalogue; docs/catalogue.md describes them",
@@ -181,5 +172,6 @@ fn refusal(unfit: &UnfitDrive, name: &str) -> Report {
             help = "take a gearbox through which the machine can drive the motor",
             "the drive {name} cannot be simulated: the gearbox {gearbox} locks itself, and the equation of motion has no single solution when it does"
         ),
+        UnfitDrive::Start(why) => list::simulation::problem(why).into(),
     }
 }

@@ -35,7 +35,9 @@ pub fn steady(options: &options::Steady) -> Result<Completion> {
     variator::refuse(&file, "steady")?;
     let simulation = simulation(options, &file)?;
     let starts = starts(&others, &options.phase)?;
-    let machines = CoupledMachines::alone(&file).with(others.iter().zip(starts), &simulation)?;
+    let machines = CoupledMachines::alone(&file)
+        .with(others.iter().zip(starts), &simulation)
+        .map_err(|why| list::simulation::problem(&why))?;
     let asked = options.mean_speed.as_deref();
     let speed = rate("mean-speed", asked, Argument::any(SPEED), &file.axis())?;
     let request = SteadyRequest {

@@ -1,6 +1,7 @@
 //! A simulated motion.
 
 mod data;
+mod error;
 mod sentences;
 
 use std::borrow::Cow;
@@ -11,6 +12,7 @@ use jred_file::model::simulation::Simulation;
 use jred_motion::drive_simulation::Loads;
 
 pub(crate) use data::SimulationData;
+pub use error::problem;
 
 /// A simulated motion.
 #[derive(Clone, Copy, Debug)]

@@ -33,7 +33,8 @@ pub struct Gearbox {
     pub efficiency: f64,
     /// Whether the data sheet gives no efficiency and one was assumed.
     pub efficiency_assumed: bool,
-    /// Factor of the torque where power flows back: η again, or 2 − 1/η for friction; negative: self-locking.
+    /// Factor of the torque where power flows back: η again, or 2 − 1/η for friction. Zero or negative: self-locking at rest. While the motor brakes,
+    /// a gearbox with zero still passes on the torque of its rotor; one with less may lock and stop the machine at once.
     pub back_efficiency: f64,
     /// No-load torque at the input (N·m); zero if not given.
     pub no_load_torque: f64,

@@ -148,7 +148,8 @@ impl<'a> DutyModel<'a> {
         Duty {
             mechanics: (self.duty.mechanics).with_loads(
                 self.file,
-                (&instants, &Smooth::default()),
+                &instants,
+                &Smooth::default(),
                 by.time,
                 rest,
             ),

@@ -28,13 +28,12 @@ pub(super) fn measure(context: &Context, findings: &mut impl Record) {
 
 /// The worst stop by the brake alone; `None` if its closing time is not given.
 fn stop(context: &Context, brake: &Brake) -> Option<BrakeStop> {
-    let closing = MotorBrake::new(
-        [
-            brake.dynamic_torque.unwrap_or(brake.torque),
-            brake.closing_time?,
-        ],
-        [context.coefficients.0[0] / context.ratio, context.ratio],
-    );
+    let closing = MotorBrake {
+        torque: brake.dynamic_torque.unwrap_or(brake.torque),
+        time: brake.closing_time?,
+        inertia: context.coefficients.0[0] / context.ratio,
+        ratio: context.ratio,
+    };
     Some(context.cycle.mechanics().run_on.worst(&closing))
 }
 

@@ -63,8 +63,8 @@ fn cycles_per_hour(context: &Context) -> f64 {
 }
 
 /// Torque through the gearbox (N·m) in the worst emergency stop, and the inertia at its output (kg·m²) there. The motor brakes with the larger of its
-/// peak torque at standstill and its brake torque. `None` if that torque is unknown, or if the gearbox is self-locking: then its stiffness stops the
-/// machine.
+/// peak torque at standstill and its brake torque. `None` if that torque is unknown, or if the gearbox locks itself
+/// under the inertia of the machine, so that its stiffness decides: its back efficiency is far enough below zero ([`Braking::torque_at`]).
 fn emergency(context: &Context, gearbox: &Gearbox) -> Option<[f64; 2]> {
     let motor = context.drive.motor;
     let mechanics = context.cycle.mechanics();

@@ -82,6 +82,36 @@ fn the_share_of_the_rotor() {
     near("halves", lossless.torque_at([0.16, 0.0]), 20.0, 1e-14);
 }
 
+/// A self-locking gearbox of the catalogue, with a back efficiency of zero, passes no work of the machine on to the motor, so the motor brakes only
+/// its rotor: T·i·φ = ½·J_1·(i·ω)². On this way the gearbox does the work on the machine: τ·φ = ½·J·ω² + d·φ. So τ = T·J/(J_1·i) + d, at any speed.
+#[test]
+fn no_torque_flows_back() {
+    let locked = Braking {
+        torque: 10.0,
+        inertia: 0.002,
+        ratio: 30.0,
+        back_efficiency: 0.0,
+    };
+    for (inertia, driving, speed) in [(0.3, 0.0, 2.0), (5.0, 40.0, 0.1), (0.01, -20.0, 9.0)] {
+        let rotor = locked.ratio * speed;
+        let way = 0.5 * locked.inertia * rotor * rotor / (locked.torque * locked.ratio);
+        let torque = (0.5 * inertia * speed * speed + driving * way) / way;
+        near(
+            "torque",
+            locked.torque_at([inertia, driving]),
+            torque,
+            1e-14,
+        );
+    }
+    // Friction that takes more than the whole torque holds the rotor back too: without end from J_1·i² = 0.1·J, J = 18 kg m², on.
+    let friction = Braking {
+        back_efficiency: -0.1,
+        ..locked
+    };
+    assert!(friction.torque_at([17.9, 0.0]).is_finite());
+    assert!(friction.torque_at([18.1, 0.0]).is_infinite());
+}
+
 /// The press with a dense set of instants, each at full speed and at standstill.
 #[test]
 fn the_press_stops() {

@@ -34,13 +34,13 @@ pub struct RunOn {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MotorBrake {
     /// Torque while it slips (N·m).
-    torque: f64,
+    pub torque: f64,
     /// Time until it has that torque (s).
-    time: f64,
+    pub time: f64,
     /// Inertia of rotor and gearbox at the motor shaft (kg·m²).
-    inertia: f64,
+    pub inertia: f64,
     /// Ratio of the gearbox.
-    ratio: f64,
+    pub ratio: f64,
 }
 
 /// A stop by the brake.
@@ -52,19 +52,6 @@ pub struct BrakeStop {
     pub falling: f64,
     /// Travel at the input until standstill (rad).
     pub way: f64,
-}
-
-impl MotorBrake {
-    /// A brake with a torque (N·m) while it slips and a closing time (s), on the shaft of rotor and gearbox with an inertia (kg·m²)
-    /// and a ratio.
-    pub const fn new([torque, time]: [f64; 2], [inertia, ratio]: [f64; 2]) -> Self {
-        Self {
-            torque,
-            time,
-            inertia,
-            ratio,
-        }
-    }
 }
 
 impl RunOn {

@@ -49,7 +49,8 @@ pub struct Braking {
 }
 
 impl Braking {
-    /// Torque through the gearbox at its output (N·m); infinite for a self-locking gearbox, because rigid bodies then stop at once.
+    /// Torque through the gearbox at its output (N·m). Without a back efficiency it is T·J/(J_1·i) + d. A negative one makes it infinite where
+    /// J_1·i² + η_back·J ≤ 0: the gearbox locks itself, and rigid bodies then stop at once.
     pub fn torque_at(&self, [inertia, driving]: [f64; 2]) -> f64 {
         let own = self.inertia * self.ratio;
         let below = own * self.ratio + self.back_efficiency * inertia;

@@ -1,7 +1,8 @@
 //! Times within a panel at which the power through a stage with losses, or at the input, changes sign.
 
+use super::Panels;
+use super::panel::PanelEnd;
 use super::stretch::Stretch;
-use super::{PanelEnd, Panels};
 use crate::duty::Instant;
 use crate::duty::error::DutyError;
 use crate::duty::moving_machine::{DutyInstant, MovingMachine};

@@ -16,10 +16,18 @@ pub(super) struct Stretch {
     /// Whether the signs of torques matter.
     pub(super) moves: bool,
     pub(super) rows: Vec<f64>,
+    /// Initial borders of its panels.
+    pub(super) borders: Vec<f64>,
 }
 
 impl Stretch {
-    pub(super) fn new(file: &MachineFile, motion: &Motion, (from, to): (f64, f64)) -> Self {
+    /// A stretch that begins with about `count` panels.
+    pub(super) fn new(
+        file: &MachineFile,
+        motion: &Motion,
+        (from, to): (f64, f64),
+        count: f64,
+    ) -> Self {
         let [first, last] = [[from, to], [to, from]].map(|ends| start_inset(motion, ends));
         let mut rows = motion.rows_within([from, to]);
         for carriage in file.schedule.carriages() {
@@ -31,6 +39,7 @@ impl Stretch {
             to,
             inside: [from + first, (to - last).min(to.next_down().max(from))],
             moves: motion.at(from.midpoint(to)).omega != 0.0,
+            borders: borders([from, to], &rows, count),
             rows,
         }
     }
@@ -46,31 +55,27 @@ impl Stretch {
         let end = self.rows.partition_point(|row| *row < to);
         self.rows.get(first..end).unwrap_or_default()
     }
+}
 
-    /// Initial borders of about `count` panels.
-    pub(super) fn borders(&self, count: f64) -> Vec<f64> {
-        let mut borders = vec![self.from];
-        let mut k = 1.0;
-        while k < count {
-            let even = self.from + (self.to - self.from) * (k / count);
-            let next = self.rows.partition_point(|row| *row < even);
-            let row = self.rows.get(next).copied();
-            let border = if self.rows.is_empty() {
-                Some(even)
-            } else {
-                row
-            };
-            // Between two rows the panels are equal.
-            let last = borders[borders.len() - 1];
-            let border = border.filter(|t| *t > last && *t < self.to);
-            let even = (even > last && even < self.to).then_some(even);
-            let crowded = self.rows.len() as f64 >= count;
-            borders.extend(if crowded { border } else { even });
-            k += 1.0;
-        }
-        borders.push(self.to);
-        borders
+/// Borders of about `count` panels, at rows of recorded motions where these are crowded.
+fn borders([from, to]: [f64; 2], rows: &[f64], count: f64) -> Vec<f64> {
+    let mut borders = vec![from];
+    let mut k = 1.0;
+    while k < count {
+        let even = from + (to - from) * (k / count);
+        let next = rows.partition_point(|row| *row < even);
+        let row = rows.get(next).copied();
+        let border = if rows.is_empty() { Some(even) } else { row };
+        // Between two rows the panels are equal.
+        let last = borders[borders.len() - 1];
+        let border = border.filter(|t| *t > last && *t < to);
+        let even = (even > last && even < to).then_some(even);
+        let crowded = rows.len() as f64 >= count;
+        borders.extend(if crowded { border } else { even });
+        k += 1.0;
     }
+    borders.push(to);
+    borders
 }
 
 /// Rounds a number that is whole except for rounding.

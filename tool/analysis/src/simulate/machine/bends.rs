@@ -8,6 +8,7 @@ use jred::mechanism::TrainOutput;
 use super::{Instant, Plant};
 use crate::simulate::clock::Moment;
 use crate::simulate::coupled::CoupledMachines;
+use crate::simulate::drive_state::DriveState;
 use crate::simulate::point::ReducedLinks;
 use jred_file::model::motor::Motor;
 
@@ -48,21 +49,21 @@ impl<'a, M: Motor> Plant<'a, M> {
     pub(crate) fn bends_under(
         &self,
         moment: &Moment,
-        [phi, omega]: [f64; 2],
+        link: DriveState,
         torque: f64,
     ) -> Result<Vec<f64>, Error> {
-        let speed = omega * self.ratio();
+        let speed = link.omega * self.ratio();
         let speeds = self.bends.speeds.iter();
         let mut values: Vec<f64> = speeds
             .map(|bend| (speed - bend) / (speed.abs() + bend.abs()))
             .collect();
         if self.bends.losses || self.bends.gearbox {
-            let points = self.points(moment, [phi, omega])?;
-            let now = self.solved(&points, moment.direction, [phi, omega], torque);
-            values.extend(self.flows(&points, moment.direction, [phi, omega], &now));
+            let points = self.points(moment, link)?;
+            let now = self.solved(&points, moment.direction, link, torque);
+            values.extend(self.flows(&points, moment.direction, link, &now));
         }
         if self.bends.opposing {
-            self.turning_back(moment, [phi, omega], &mut values)?;
+            self.turning_back(moment, link, &mut values)?;
         }
         Ok(values)
     }
@@ -73,18 +74,19 @@ impl<'a, M: Motor> Plant<'a, M> {
         moment: &Moment,
         [phi, omega, alpha]: [f64; 3],
     ) -> Result<Vec<f64>, Error> {
+        let link = DriveState { phi, omega };
         let mut values = Vec::new();
         if self.bends.losses || self.bends.gearbox {
             let torque = self.required(moment, [phi, omega, alpha])?;
-            let points = self.points(moment, [phi, omega])?;
+            let points = self.points(moment, link)?;
             let now = Instant {
                 alpha,
-                ..self.solved(&points, moment.direction, [phi, omega], torque)
+                ..self.solved(&points, moment.direction, link, torque)
             };
-            values.extend(self.flows(&points, moment.direction, [phi, omega], &now));
+            values.extend(self.flows(&points, moment.direction, link, &now));
         }
         if self.bends.opposing {
-            self.turning_back(moment, [phi, omega], &mut values)?;
+            self.turning_back(moment, link, &mut values)?;
         }
         Ok(values)
     }
@@ -94,13 +96,14 @@ impl<'a, M: Motor> Plant<'a, M> {
         &self,
         points: &ReducedLinks<'a>,
         direction: f64,
-        [phi, omega]: [f64; 2],
+        DriveState { phi, omega }: DriveState,
         now: &Instant,
     ) -> Vec<f64> {
         let [_, at_link] = self.acting(now.motor_torque);
         let mut flows = Vec::new();
         let mut all = f64::MIN_POSITIVE + (now.motor_torque * self.ratio()).abs();
-        for (k, (machine, point)) in points.all().enumerate() {
+        for (k, point) in points.all().enumerate() {
+            let machine = point.machine;
             let ratio = machine.ratio();
             let [_, omega, alpha] = machine.state([phi, omega, now.alpha]);
             let train = &machine.file.drive_train;
@@ -131,7 +134,7 @@ impl<'a, M: Motor> Plant<'a, M> {
     fn turning_back(
         &self,
         moment: &Moment,
-        [phi, omega]: [f64; 2],
+        DriveState { phi, omega }: DriveState,
         values: &mut Vec<f64>,
     ) -> Result<(), Error> {
         for machine in self.machines.all() {

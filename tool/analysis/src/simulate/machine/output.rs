@@ -5,6 +5,7 @@ use jred::machine::motion::State;
 
 use super::{Plant, StoredEnergy, beside_name};
 use crate::simulate::clock::Moment;
+use crate::simulate::drive_state::DriveState;
 use crate::simulate::observe::MotorState;
 use crate::simulate::run::OutputRow;
 use jred_file::model::coordinate::Coordinate;
@@ -16,18 +17,19 @@ impl<M: Motor> Plant<'_, M> {
     fn working(
         &self,
         moment: &Moment,
-        [phi, omega]: [f64; 2],
-        [torque, asked]: [f64; 2],
+        link: DriveState,
+        torque: f64,
+        asked: f64,
     ) -> Result<MotorState, Error> {
         let held = moment.direction == 0.0;
         let now = if held {
             None
         } else {
-            Some(self.under(moment, [phi, omega], torque)?)
+            Some(self.under(moment, link, torque)?)
         };
         Ok(MotorState {
-            phi,
-            speed: omega * self.ratio(),
+            phi: link.phi,
+            speed: link.omega * self.ratio(),
             torque,
             asked,
             // If friction holds the machine at rest, it may take any share.
@@ -40,10 +42,11 @@ impl<M: Motor> Plant<'_, M> {
     pub(in crate::simulate) fn working_at(
         &self,
         moment: &Moment,
-        link: [f64; 2],
-        torques: [f64; 2],
+        link: DriveState,
+        torque: f64,
+        asked: f64,
     ) -> Result<MotorState, Error> {
-        let working = self.working(moment, link, torques)?;
+        let working = self.working(moment, link, torque, asked)?;
         let is_off = (self.simulation.halt).is_some_and(|halt| moment.t >= halt.time);
         Ok(MotorState {
             torque: if is_off { 0.0 } else { working.torque },
@@ -93,7 +96,7 @@ impl<M: Motor> Plant<'_, M> {
             inertia,
             beyond,
             potential,
-        } = self.stored(moment, [phi, omega])?;
+        } = self.stored(moment, DriveState { phi, omega })?;
         let shown = self.axis.state(&State { phi, omega, alpha });
         let own = [
             self.axis.shown(phi),

@@ -8,6 +8,7 @@ use jred::machine::Reducible as _;
 use super::{Plant, Run};
 use crate::simulate::SimulationError;
 use crate::simulate::coupled::{CoupledMachines, GearedMachine};
+use crate::simulate::drive_state::DriveState;
 use jred_file::number::numerics;
 use jred_file::number::numerics::dormand_prince::StatePoint;
 
@@ -98,9 +99,10 @@ impl<P> Run<'_, P> {
     {
         let (edge, direction) = (self.edge, self.direction);
         let (t, y) = self.on_place(edge, start, last)?;
-        let [_, omega] = self.plant.link(t, &y)?;
-        let behind = edge + direction * EDGE_ROUNDING * (1.0 + edge.abs());
-        Ok((t, self.plant.with_link(t, &y, [behind, omega])?))
+        let omega = self.plant.link(t, &y)?.omega;
+        let phi = edge + direction * EDGE_ROUNDING * (1.0 + edge.abs());
+        let behind = DriveState { phi, omega };
+        Ok((t, self.plant.with_link(t, &y, behind)?))
     }
 
     /// The state at a position within the integrator's step between these two.
@@ -119,7 +121,7 @@ impl<P> Run<'_, P> {
             Ok(steps.last().copied().unwrap_or(start))
         };
         let beyond = |(t, y): &StatePoint<N>| -> Result<f64, SimulationError> {
-            Ok((self.plant.link(*t, y)?[0] - place) * direction)
+            Ok((self.plant.link(*t, y)?.phi - place) * direction)
         };
         let ends = [beyond(&start)?, beyond(&last)?];
         let length = last.0 - start.0;

@@ -3,8 +3,8 @@
 use jred::error::Error;
 
 use super::{Plant, Run};
-use crate::simulate::SimulationError;
 use crate::simulate::error::stopped;
+use crate::simulate::{IntegratorStop, SimulationError};
 use jred_file::number::numerics::dormand_prince::StatePoint;
 
 /// Most steps in total, besides some for each row: some ten seconds.
@@ -22,7 +22,7 @@ impl<P> Run<'_, P> {
         P: Plant<N>,
     {
         self.integrate_until(t, end, y, |t, y| {
-            Ok(self.is_over(t, y)? || self.has_passed(self.plant.link(t, y)?[0]))
+            Ok(self.is_over(t, y)? || self.has_passed(self.plant.link(t, y)?.phi))
         })
     }
 
@@ -55,7 +55,7 @@ impl<P> Run<'_, P> {
         if self.steps.get() > MOST_IN_ALL {
             return Err(SimulationError::Integrator {
                 t,
-                reason: "too many steps would be needed",
+                why: IntegratorStop::Steps,
             });
         }
         Ok(steps)

@@ -3,7 +3,8 @@
 use super::{Plant, Run};
 use crate::simulate::SimulationError;
 use crate::simulate::clock::Moment;
-use crate::simulate::observe::{MotorState, PARTS};
+use crate::simulate::drive_state::Passage;
+use crate::simulate::observe::{MotorPoint, MotorState, PARTS};
 use crate::simulate::watch::between;
 use jred_file::number::numerics;
 use jred_file::number::numerics::dormand_prince::StatePoint;
@@ -44,25 +45,27 @@ impl<P> Run<'_, P> {
             let reaches = |omega: f64| omega.abs() >= speed;
             let [_, omega, _] = ends[1].state;
             if reaches(omega) {
-                let slow = |share: f64| Ok::<_, SimulationError>(!reaches(way(share)[1]));
+                let slow = |share: f64| Ok::<_, SimulationError>(!reaches(way(share).omega));
                 let share = if slow(0.0)? {
                     numerics::edge(slow, 0.0, 1.0)?
                 } else {
                     0.0
                 };
                 let t = from.0 + share * length;
-                self.reached = Some([t, way(share)[0]]);
+                let phi = way(share).phi;
+                self.reached = Some(Passage { t, phi });
             }
         }
         for k in 1..=PARTS {
             let shares = [part(k - 1), part(k)];
-            let [before, after] = [seen[k as usize - 1], seen[k as usize]];
-            let times = shares.map(|share| from.0 + share * length);
-            let pair = [before, after];
-            self.controlling.pass(times, pair, |share| {
+            let [before, after] = [k - 1, k].map(|k| MotorPoint {
+                t: from.0 + part(k) * length,
+                motor: seen[k as usize],
+            });
+            self.controlling.pass(before, after, |share| {
                 at(shares[0] + share * (shares[1] - shares[0]))
             })?;
-            self.observer.pass((times[0], before), (times[1], after));
+            self.observer.pass(before, after);
         }
         Ok(())
     }

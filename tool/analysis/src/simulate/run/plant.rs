@@ -6,6 +6,7 @@ use super::OutputRow;
 use crate::simulate::SimulationError;
 use crate::simulate::clock::{Corners, Moment};
 use crate::simulate::coupled::CoupledMachines;
+use crate::simulate::drive_state::DriveState;
 use crate::simulate::observe::MotorState;
 use crate::simulate::result::TorqueDeficit;
 use jred_file::number::columns::Column;
@@ -22,10 +23,10 @@ pub(crate) trait Plant<const N: usize> {
     fn slope(&self, moment: &Moment, y: &[f64; N]) -> Result<[f64; N], Error>;
 
     /// φ and ω of the drive link.
-    fn link(&self, t: f64, y: &[f64; N]) -> Result<[f64; 2], Error>;
+    fn link(&self, t: f64, y: &[f64; N]) -> Result<DriveState, Error>;
 
     /// The state with another φ and ω of the drive link.
-    fn with_link(&self, t: f64, y: &[f64; N], link: [f64; 2]) -> Result<[f64; N], Error>;
+    fn with_link(&self, t: f64, y: &[f64; N], link: DriveState) -> Result<[f64; N], Error>;
 
     /// Index in y of two values for payloads and carriages: the energy that payloads have brought, and the work of the axes that move carriages (J).
     fn guests(&self) -> Option<usize> {

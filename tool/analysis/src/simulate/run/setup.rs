@@ -19,7 +19,6 @@ impl<'a, P> Run<'a, P> {
         observer: &'a mut dyn Observer,
     ) -> Self {
         let file = machines.first;
-        let [has_payloads, _] = machines.guests();
         Self {
             plant,
             file,
@@ -52,7 +51,7 @@ impl<'a, P> Run<'a, P> {
             turned_back: None,
             stuck: None,
             controlling: ControlStatistics::default(),
-            has_payloads,
+            has_payloads: machines.guests().payloads,
             giving: EffortSums::default(),
             to_speed: simulation.to_speed,
             reached: None,

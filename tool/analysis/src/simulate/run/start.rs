@@ -4,6 +4,7 @@ use jred::error::Error;
 
 use super::{Plant, Run, SIGN_SPEED};
 use crate::simulate::clock::Moment;
+use crate::simulate::drive_state::DriveState;
 use crate::simulate::result::Stall;
 
 impl<P> Run<'_, P> {
@@ -12,7 +13,7 @@ impl<P> Run<'_, P> {
     where
         P: Plant<N>,
     {
-        let [_, omega] = self.plant.link(0.0, y)?;
+        let omega = self.plant.link(0.0, y)?.omega;
         if omega == 0.0 {
             self.start_direction(0.0, y)
         } else {
@@ -25,13 +26,14 @@ impl<P> Run<'_, P> {
     where
         P: Plant<N>,
     {
-        let [phi, _] = self.plant.link(t, y)?;
+        let phi = self.plant.link(t, y)?.phi;
         let t = self.within(t);
         for direction in [1.0, -1.0] {
             if self.is_at_stop(phi, direction) {
                 continue;
             }
-            let moved = self.plant.with_link(t, y, [phi, direction * SIGN_SPEED])?;
+            let omega = direction * SIGN_SPEED;
+            let moved = self.plant.with_link(t, y, DriveState { phi, omega })?;
             if self.plant.starts(&Moment::new(t, direction), &moved)? {
                 return Ok(direction);
             }

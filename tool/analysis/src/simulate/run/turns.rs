@@ -20,7 +20,7 @@ impl<P> Run<'_, P> {
         let Some(begin) = self.begin else {
             return Ok(());
         };
-        let [phi, _] = self.plant.link(to.0, &to.1)?;
+        let phi = self.plant.link(to.0, &to.1)?.phi;
         let turns = ((phi - begin) / TAU).trunc();
         if turns.abs() <= self.turned.map_or(0.0, |turned| turned.turns.abs()) {
             return Ok(());

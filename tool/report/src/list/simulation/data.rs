@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::SimulationView;
+use super::{SimulationView, problem};
 use crate::answer::schema::Data;
 use jred_analysis::simulate::{Impacts, Rest, Stop};
 use jred_file::model::axis::Axis;
@@ -218,7 +218,7 @@ impl SimulationView<'_> {
                 position: position(following.position),
             }),
             drive: self.drive.map(|(name, loads)| drive(axis, name, loads)),
-            ended: found.ended.as_ref().map(ToString::to_string),
+            ended: found.ended.as_ref().map(|why| problem(why).to_string()),
         }
     }
 }
