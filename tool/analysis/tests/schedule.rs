@@ -299,11 +299,9 @@ fn the_steady_cycle_refuses() {
     );
     let simulation = file.simulation.as_ref().unwrap();
     let request = steady::SteadyRequest::default();
-    let message = steady::steady(&file, simulation, &request)
-        .unwrap_err()
-        .to_string();
-    assert!(
-        message.starts_with("load \"load\" acts backward: that goes by [motion]"),
-        "{message}"
-    );
+    let why = steady::steady(&file, simulation, &request).unwrap_err();
+    let steady::SteadyError::Scheduled(part) = why else {
+        panic!("{why:?}");
+    };
+    assert_eq!(part.what, "load \"load\" acts backward");
 }

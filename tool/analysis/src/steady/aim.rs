@@ -1,14 +1,11 @@
 //! The aim of a steady cycle: the given motor, or a mean speed for which the motor or a load is scaled.
 
-use std::borrow::Cow;
-
 use jred::machine::{Action, Load};
 use schemars::JsonSchema;
 use serde::{Serialize, Serializer};
 
 use super::SteadyError;
 use super::cycle::{self, CycleResult};
-use super::speed as shown;
 use super::turn::{TurnEnd, TurningMachine};
 use crate::simulate::CoupledMachines;
 use jred_file::model::characteristic::Characteristic;
@@ -238,8 +235,8 @@ impl CycleSearch<'_> {
             }
             let Some((other, there)) = found else {
                 return Err(SteadyError::NoLevel {
-                    what: by.in_words(),
-                    speed: shown(self.direction * begin),
+                    by: by.clone(),
+                    speed: self.direction * begin,
                 });
             };
             factor = numerics::zero(rise, [guess, other], [first, there], 1e-15)?;
@@ -277,8 +274,8 @@ impl CycleSearch<'_> {
             Ok(factor)
         } else {
             Err(SteadyError::NoLevel {
-                what: by.in_words(),
-                speed: shown(self.direction * speed),
+                by: by.clone(),
+                speed: self.direction * speed,
             })
         }
     }
@@ -293,8 +290,8 @@ const MOST_DOUBLINGS: u32 = 30;
 
 fn no_level(aim: &MeanSpeed) -> SteadyError {
     SteadyError::NoLevel {
-        what: aim.by.in_words(),
-        speed: shown(aim.speed),
+        by: aim.by.clone(),
+        speed: aim.speed,
     }
 }
 
@@ -303,13 +300,6 @@ impl Level {
         match self {
             Self::Motor => serializer.serialize_none(),
             Self::Load(name) => serializer.serialize_some(name),
-        }
-    }
-
-    fn in_words(&self) -> Cow<'static, str> {
-        match self {
-            Self::Motor => "torque of the motor".into(),
-            Self::Load(name) => format!("size of the load \"{name}\"").into(),
         }
     }
 }
@@ -323,10 +313,9 @@ fn with_load(file: &MachineFile, name: &str, factor: f64) -> Result<MachineFile,
         found = true;
     }
     if !found {
-        let names = file.loads.iter().map(|named| format!("\"{}\"", named.name));
         return Err(SteadyError::NoLoad {
             name: name.to_owned(),
-            names: names.collect::<Vec<_>>().join(", "),
+            names: file.loads.iter().map(|named| named.name.clone()).collect(),
         });
     }
     file.rebuild([], [])?;
