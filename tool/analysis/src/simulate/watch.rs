@@ -140,9 +140,9 @@ fn parted(watched: WatchedJoint, force: f64, at: LinkState) -> SimulationError {
     match parted {
         Ok(parted) => SimulationError::Parted {
             t: at.moment.t,
-            what: parted.what,
-            state: parted.state,
-            cure: parted.cure,
+            what: parted.what(),
+            state: parted.state(),
+            cure: parted.cure(),
         },
         Err(error) => error.into(),
     }
