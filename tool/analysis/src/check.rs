@@ -129,12 +129,14 @@ fn contacts(unchecked: &UncheckedFile) -> Result<()> {
     let parted = lost.parted;
     let message = format!(
         "{} in the prescribed motion: at {}, {}",
-        parted.what, parted.state, parted.force
+        parted.what(),
+        parted.state(),
+        parted.required_force()
     );
     let label = if lost.joint.rope {
         "in this mechanism"
     } else {
         "in this cam"
     };
-    Err(unchecked.in_mechanism(Problem::new(message).help(parted.cure), label))
+    Err(unchecked.in_mechanism(Problem::new(message).help(parted.cure()), label))
 }

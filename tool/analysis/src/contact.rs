@@ -2,18 +2,16 @@
 //! still have a solution, but the real machine has lost contact.
 
 mod over_motion;
+mod words;
 
 pub use over_motion::{ContactLoss, lost};
 
-use std::f64::consts::TAU;
-
 use jred::error::Error;
 use jred::machine::{Machine, Mechanism as _};
-use jred::mechanism::cam::{contact_force, lift_off};
+use jred::mechanism::cam::{LiftOff, contact_force, lift_off};
 
 use jred_file::model::coordinate::{Coordinate, positions};
 use jred_file::model::mechanism::AnyMechanism;
-use jred_file::number::rounding::figure;
 
 /// A rope force above minus this value (N) is a rounding error, not slack.
 const ROUNDING: f64 = 1e-6;
@@ -30,17 +28,23 @@ pub struct OneWay {
     pub rope: bool,
 }
 
-/// A contact that has separated: where, and the cure.
+/// A contact that has separated.
 #[derive(Clone, Debug)]
 pub struct Separation {
-    /// The contact that separates.
-    pub what: String,
-    /// Position and speed.
-    pub state: String,
-    /// The required force.
-    pub force: String,
-    /// Cure.
-    pub cure: String,
+    /// Whether it is a rope.
+    pub rope: bool,
+    /// Name of the joint; `None` for the only cam contact of a mechanism.
+    pub joint: Option<String>,
+    /// Coordinate of the drive link.
+    pub coordinate: Coordinate,
+    /// Position of the drive link (rad, or m).
+    pub phi: f64,
+    /// Its speed (rad/s, or m/s).
+    pub omega: f64,
+    /// The required force (N), negative for a rope that would have to push.
+    pub force: f64,
+    /// The constant speed at which the follower of a cam that turns lifts off.
+    pub lift_off: Option<LiftOff>,
 }
 
 impl OneWay {
@@ -69,15 +73,15 @@ impl OneWay {
         Ok(contact_force(machine, self.joint, phi, omega, alpha)?)
     }
 
-    /// Warning about a contact that separates somewhere in the range of the drive link at this speed and acceleration (rad/s, rad/s²; or m/s, m/s²),
-    /// for results computed as if it did not.
+    /// A contact that separates somewhere in the range of the drive link at this speed and acceleration (rad/s, rad/s²; or m/s, m/s²), where its
+    /// force is least.
     ///
     /// # Errors
     /// Errors of the machine.
-    pub fn warning(
+    pub fn separation(
         machine: &Machine<AnyMechanism>,
         [omega, alpha]: [f64; 2],
-    ) -> Result<Option<String>, Error> {
+    ) -> Result<Option<Separation>, Error> {
         for joint in Self::all(machine.mechanism()) {
             let mut worst = (f64::INFINITY, 0.0);
             for phi in positions(machine.mechanism().domain(), POSITIONS) {
@@ -88,11 +92,7 @@ impl OneWay {
             }
             let (force, phi) = worst;
             if !joint.holds(force) {
-                let parted = joint.parted(machine, [phi, omega], force)?;
-                return Ok(Some(format!(
-                    "warning: {} ({}): {}; results are valid only if contact is maintained by other means",
-                    parted.what, parted.state, parted.force
-                )));
+                return joint.parted(machine, [phi, omega], force).map(Some);
             }
         }
         Ok(None)
@@ -107,7 +107,7 @@ impl OneWay {
         }
     }
 
-    /// Why contact is lost at the state φ, ω with this force.
+    /// The loss of contact at the state φ, ω with this force.
     ///
     /// # Errors
     /// Errors of the machine.
@@ -118,58 +118,25 @@ impl OneWay {
         force: f64,
     ) -> Result<Separation, Error> {
         let mechanism = machine.mechanism();
-        let name = mechanism.joint_names().get(self.joint);
         let coordinate = mechanism.coordinate();
-        let state = match coordinate {
-            Coordinate::Length => format!("{}, {} m/s", coordinate.place(phi), figure(omega)),
-            Coordinate::Angle => {
-                let degrees = if self.rope { phi } else { phi.rem_euclid(TAU) }.to_degrees();
-                format!("φ = {degrees:.2}°, {} rpm", figure(omega * 60.0 / TAU))
+        let mut contacts = mechanism.contacts().iter();
+        let contact = contacts.find(|contact| !self.rope && contact.joint == self.joint);
+        let is_named = contact.is_none_or(|contact| contact.named);
+        let lift_off = match contact {
+            Some(contact) if coordinate == Coordinate::Angle => {
+                lift_off(machine, self.joint, contact.pieces.iter().copied(), omega)?
             }
+            _ => None,
         };
-        if self.rope {
-            return Ok(Separation {
-                what: format!("the {} goes slack", name.map_or("rope", String::as_str)),
-                state,
-                force: format!(
-                    "it would have to push with {} N, but a rope can only pull",
-                    figure(-force)
-                ),
-                cure: "accelerate or brake more gently, or hang more weight on this rope"
-                    .to_owned(),
-            });
-        }
-        let joint = mechanism.contact_prefix(self.joint);
+        let joint = mechanism.joint_names().get(self.joint);
         Ok(Separation {
-            what: format!("{joint}the follower leaves the cam"),
-            state,
-            force: format!("the contact force would be {} N", figure(force)),
-            cure: self.cam_cure(machine, coordinate, omega)?,
+            rope: self.rope,
+            joint: joint.filter(|_| is_named).cloned(),
+            coordinate,
+            phi,
+            omega,
+            force,
+            lift_off,
         })
-    }
-
-    fn cam_cure(
-        self,
-        machine: &Machine<AnyMechanism>,
-        coordinate: Coordinate,
-        omega: f64,
-    ) -> Result<String, Error> {
-        const FORM: &str = "write closure = \"form\" for a grooved or conjugate cam, which guides the follower on both sides";
-        if coordinate == Coordinate::Length {
-            return Ok(format!(
-                "use a stiffer spring, more preload or a slower motion; {FORM}"
-            ));
-        }
-        let contacts = machine.mechanism().contacts();
-        let Some(contact) = contacts.iter().find(|c| c.joint == self.joint) else {
-            return Ok(FORM.to_owned());
-        };
-        let pieces = contact.pieces.iter().copied();
-        let limit = lift_off(machine, self.joint, pieces, omega)?;
-        let cure = limit.map_or_else(
-            || "the follower would not lift off: accelerate more gently, or add preload".to_owned(),
-            |limit| limit.to_string(),
-        );
-        Ok(format!("at constant speed: {cure}; {FORM}"))
     }
 }

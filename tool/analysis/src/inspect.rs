@@ -8,35 +8,33 @@
 
 use jred::Domain;
 use jred::error::Error;
-use jred::machine::{Body, Frame, Frames, Joint, Jointed as _, Joints, Mechanism as _};
-use jred::mechanism::cam::lift_off;
-use serde::Serialize;
+use jred::machine::{Frame, Jointed as _, Mechanism as _};
+use jred::mechanism::cam::{LiftOff, lift_off};
 
 use crate::warnings::warnings;
-use jred_file::model::coordinate::{Coordinate, whole_range};
+use jred_file::model::by_motion::ByMotion;
+use jred_file::model::coordinate::Coordinate;
 use jred_file::model::machine::{MachineFile, Machines};
-use jred_file::model::mechanism::{AnyMechanism, Fact};
-use jred_file::number::numerics;
-use jred_file::number::rounding::short;
+use jred_file::model::mechanism::{AnyMechanism, ChangePoint, Contact, Fact};
 
 mod agreement;
 mod centres;
 mod course;
+mod joints;
+mod smallest;
 mod transmission;
 
 pub use agreement::{Agreement, Inertia};
-pub use centres::Travel;
+pub use centres::{Travel, TravelKind};
 pub use course::{MotionFindings, SegmentFinding};
-use transmission::{Index, Structure};
+pub use joints::JointFinding;
+pub use smallest::Transmission;
 
 /// Below this index a mechanism is too close to a dead point.
 pub const NEAR_DEAD_POINT: f64 = 0.3;
 
 /// sin 40°: textbooks recommend at least this transmission index.
 pub const RECOMMENDED: f64 = 0.642_787_609_686_539_3;
-
-/// An index that changes by less is constant.
-const CONSTANT: f64 = 1e-9;
 
 /// Allowed difference of the links' speeds after a turn, as a share of the size of the mechanism (or of the drive speed).
 const CLOSURE_TOLERANCE: f64 = 1e-9;
@@ -47,45 +45,30 @@ const TORQUE_TOLERANCE: f64 = 1e-10;
 /// Allowed difference of work and energy, as a share of the energy exchanged by the drive.
 const BALANCE_TOLERANCE: f64 = 1e-9;
 
-/// One joint.
-#[derive(Clone, Debug, Serialize, schemars::JsonSchema)]
-pub struct JointFinding {
-    /// Its name.
-    pub name: String,
-    /// Pin, guide, and so on.
-    pub kind: &'static str,
-    /// The two bodies: the first acts on the second.
-    pub bodies: [String; 2],
-    /// Degrees of freedom that it removes.
-    pub constraints: usize,
-    /// Whether the drive moves it.
-    pub driven: bool,
+/// A violated rule.
+#[derive(Clone, Debug)]
+pub enum Violation {
+    /// This number of degrees of freedom instead of one.
+    Freedoms(i64),
+    /// The speeds of the links differ after a turn, by this share.
+    Closure(f64),
+    /// The mechanism comes too close to a dead point.
+    NearDeadPoint(Transmission),
+    /// It passes through a dead point and changes its branch.
+    BranchChanges,
+    /// The two drive torques differ by this share.
+    Torques(f64),
+    /// Work and energy over the motion differ by this share.
+    Energy(f64),
 }
 
-/// The smallest transmission index.
-#[derive(Clone, Debug, Serialize, schemars::JsonSchema)]
-pub struct Transmission {
-    /// The index, 0 (dead point) to 1.
-    pub index: f64,
-    /// The transmission angle of a dyad with this index (deg); `None` for a contact or a mesh.
-    #[serde(rename = "angle [deg]")]
-    pub angle: Option<f64>,
-    /// Position of the drive link (rad or m); `None` if the index is the same everywhere.
-    pub at: Option<f64>,
-    /// The links of the group.
-    pub links: Vec<String>,
-    /// Whether the determinant of every group keeps its sign, and so its branch.
-    pub branch_kept: bool,
-}
-
-impl Transmission {
-    /// Place of the smallest index as text.
-    pub fn place(&self, coordinate: Coordinate) -> String {
-        self.at.map_or_else(
-            || "everywhere".to_owned(),
-            |at| format!("at {}", coordinate.place(at)),
-        )
-    }
+/// The constant speed at which the follower of a cam lifts off.
+#[derive(Clone, Debug)]
+pub struct ContactLimit {
+    /// Name of the joint, if the file gives it one.
+    pub joint: Option<String>,
+    /// The speed; `None`: contact is maintained at any.
+    pub limit: Option<LiftOff>,
 }
 
 /// Result of the check.
@@ -117,8 +100,16 @@ pub struct Findings {
     pub motion: Option<MotionFindings>,
     /// Figures of its kind.
     pub facts: Vec<Fact>,
-    /// Remarks.
-    pub notes: Vec<String>,
+    /// Where its followers lift off.
+    pub lift_offs: Vec<ContactLimit>,
+    /// About the integrability of its variator, in words.
+    pub integrability: Option<String>,
+    /// Possible mistakes.
+    pub warnings: Vec<String>,
+    /// Positions at which the linkage lies flat and is taken to be guided.
+    pub change_points: Vec<ChangePoint>,
+    /// Its parts that depend on the motion.
+    pub scheduled: Vec<ByMotion>,
 }
 
 impl Findings {
@@ -140,24 +131,19 @@ impl Findings {
             coordinate: mechanism.coordinate(),
             domain,
             links: mechanism.own_links(),
-            joints: joint_findings(mechanism, &joints),
+            joints: joints::findings(mechanism, &joints),
             closure: closure(mechanism)?,
             travels: centres::travels(mechanism)?,
-            transmission: transmission(file)?,
+            transmission: smallest::transmission(file)?,
             inertia: agreement::inertia(file, &machine, &machines)?,
             agreement: agreement::agreement(file, &machines)?,
             motion: MotionFindings::of(file),
-            facts: facts(file)?,
-            notes: jred_file::model::variator::integrability_text(file)
-                .into_iter()
-                .chain(
-                    warnings(file)?
-                        .iter()
-                        .map(|words| format!("warning: {words}")),
-                )
-                .chain(change_points(mechanism))
-                .chain(file.scheduled().map(|item| item.what))
-                .collect(),
+            facts: mechanism.facts().to_vec(),
+            lift_offs: lift_offs(file)?,
+            integrability: jred_file::model::variator::integrability_text(file),
+            warnings: warnings(file)?,
+            change_points: mechanism.change_points().to_vec(),
+            scheduled: file.scheduled().collect(),
         })
     }
 
@@ -171,61 +157,26 @@ impl Findings {
         self.joints.iter().map(|joint| joint.constraints).sum()
     }
 
-    /// Names of the checks.
-    pub fn checked(&self) -> Vec<&'static str> {
+    /// The violated rules.
+    pub fn violations(&self) -> Vec<Violation> {
+        let transmission = self.transmission.as_ref();
+        let close = transmission.filter(|found| found.index < NEAR_DEAD_POINT);
+        let changed = transmission.filter(|found| !found.branch_kept);
+        let Agreement {
+            dalembert, energy, ..
+        } = self.agreement;
+        let torques = Some(dalembert).filter(|off| *off > TORQUE_TOLERANCE);
+        let closure = self.closure.filter(|gap| *gap > CLOSURE_TOLERANCE);
+        let energy = energy.filter(|off| *off > BALANCE_TOLERANCE);
         let all = [
-            (true, "one degree of freedom"),
-            (self.closure.is_some(), "closure after a turn"),
-            (
-                self.transmission.is_some(),
-                "distance from dead points, branch",
-            ),
-            (true, "two ways to the drive torque"),
-            (self.agreement.energy.is_some(), "energy over the motion"),
+            (self.freedoms() != 1).then(|| Violation::Freedoms(self.freedoms())),
+            closure.map(Violation::Closure),
+            close.cloned().map(Violation::NearDeadPoint),
+            changed.map(|_| Violation::BranchChanges),
+            torques.map(Violation::Torques),
+            energy.map(Violation::Energy),
         ];
-        all.into_iter()
-            .filter_map(|(done, what)| done.then_some(what))
-            .collect()
-    }
-
-    /// Messages about violated rules.
-    pub fn violations(&self) -> Vec<String> {
-        let mut violations = Vec::new();
-        if self.freedoms() != 1 {
-            violations.push(format!(
-                "{} degrees of freedom instead of one",
-                self.freedoms()
-            ));
-        }
-        if let Some(gap) = self.closure.filter(|gap| *gap > CLOSURE_TOLERANCE) {
-            violations.push(format!("the mechanism does not close: after a turn, the speeds of its links differ by {gap:.1e}"));
-        }
-        if let Some(transmission) = &self.transmission {
-            if transmission.index < NEAR_DEAD_POINT {
-                violations.push(format!(
-                    "too close to a dead point: transmission index {} {}, at least {NEAR_DEAD_POINT} is required",
-                    short(transmission.index),
-                    transmission.place(self.coordinate)
-                ));
-            }
-            if !transmission.branch_kept {
-                violations.push(
-                    "the mechanism changes its branch: it passes through a dead point".to_owned(),
-                );
-            }
-        }
-        if self.agreement.dalembert > TORQUE_TOLERANCE {
-            violations.push(format!(
-                "drive torques by d'Alembert's principle and by reduction differ by {:.1e}",
-                self.agreement.dalembert
-            ));
-        }
-        if let Some(off) = self.agreement.energy.filter(|off| *off > BALANCE_TOLERANCE) {
-            violations.push(format!(
-                "work and energy over the motion differ by {off:.1e} of the energy that the drive moves"
-            ));
-        }
-        violations
+        all.into_iter().flatten().collect()
     }
 
     /// Whether every rule is satisfied.
@@ -234,105 +185,25 @@ impl Findings {
     }
 }
 
-/// Assumption for a linkage that passes change points.
-pub fn change_points(mechanism: &AnyMechanism) -> Option<String> {
-    let points = mechanism.change_points();
-    let coordinate = mechanism.coordinate();
-    let places: Vec<String> = (points.iter())
-        .map(|point| coordinate.place(point.at))
-        .collect();
-    points.first().map(|first| {
-        format!(
-            "the linkage lies flat at {} and is taken to be guided there, so that it stays on its branch (a second crank, teeth, \
-             another coupler); the forces in its joints are those without the guide: they grow towards these positions, and within \
-             {} {} of them they are not determined",
-            places.join(" and "),
-            short(coordinate.shown(first.within)),
-            coordinate.unit()
-        )
-    })
-}
-
-/// Properties of this kind of mechanism, and the speeds at which its followers lift off.
-fn facts(file: &MachineFile) -> Result<Vec<Fact>, Error> {
+/// The speeds at which the followers of a cam that turns lift off.
+fn lift_offs(file: &MachineFile) -> Result<Vec<ContactLimit>, Error> {
     let mechanism = file.machine.mechanism();
-    let mut facts = mechanism.facts().to_vec();
     if mechanism.coordinate() == Coordinate::Length {
-        return Ok(facts);
+        return Ok(Vec::new());
     }
     // The direction of the motion; an oscillating cam has the limit of its forward direction.
     let direction = file.motion.as_ref().map_or(1.0, |motion| {
         motion.at(motion.duration()).phi - motion.at(0.0).phi
     });
-    for contact in mechanism.contacts() {
-        let joint = mechanism.contact_prefix(contact.joint);
+    let limit = |contact: &Contact| {
+        let name = mechanism.joint_names().get(contact.joint);
         let pieces = contact.pieces.iter().copied();
-        let text = match lift_off(&file.machine, contact.joint, pieces, direction)? {
-            None => "none: contact is maintained at any constant speed".to_owned(),
-            Some(limit) => format!(
-                "{} rpm at {}",
-                short(limit.omega * 60.0 / std::f64::consts::TAU),
-                Coordinate::Angle.place(limit.phi)
-            ),
-        };
-        facts.push(Fact {
-            label: format!("{joint}constant speed at which the follower lifts off"),
-            text,
-        });
-    }
-    Ok(facts)
-}
-
-fn body_name(mechanism: &AnyMechanism, body: Body) -> String {
-    match body {
-        Body::Ground => "ground".to_owned(),
-        Body::Link(k) => mechanism.link_names().get(k).cloned().unwrap_or_default(),
-    }
-}
-
-fn joint_findings(mechanism: &AnyMechanism, joints: &[Joint]) -> Vec<JointFinding> {
-    // Links that represent curves, each with two joints that remove its three freedoms, are not parts of the machine.
-    let names = mechanism.joint_names().iter();
-    let finding = |(k, (joint, name)): (usize, (&Joint, &String))| JointFinding {
-        name: name.clone(),
-        kind: match joint {
-            Joint::Revolute(_) => "pin",
-            Joint::Prismatic(_) => "guide",
-            Joint::Fixed(_) => "rigid",
-            Joint::PinInSlot(_) => "pin in slot",
-            Joint::Transmission(_) => "transmission",
-        },
-        bodies: joint.bodies().map(|body| body_name(mechanism, body)),
-        constraints: joint.constraints(),
-        driven: k == mechanism.drive(),
+        Ok(ContactLimit {
+            joint: name.filter(|_| contact.named).cloned(),
+            limit: lift_off(&file.machine, contact.joint, pieces, direction)?,
+        })
     };
-    joints.iter().zip(names).enumerate().map(finding).collect()
-}
-
-/// The size of a mechanism: the largest distance between two of its joints (m).
-fn size(joints: &[Joint], frames: &Frames) -> f64 {
-    let points: Vec<[f64; 2]> = joints
-        .iter()
-        .flat_map(|joint| points(joint, frames))
-        .collect();
-    let mut most = 0.0f64;
-    for a in &points {
-        for b in &points {
-            most = most.max((a[0] - b[0]).hypot(a[1] - b[1]));
-        }
-    }
-    if most > 0.0 { most } else { 1.0 }
-}
-
-/// The points of a joint.
-fn points(joint: &Joint, frames: &Frames) -> Vec<[f64; 2]> {
-    match joint {
-        Joint::Revolute(m) | Joint::Prismatic(m) | Joint::Fixed(m) | Joint::PinInSlot(m) => {
-            let of = |m: &jred::machine::Marker| m.position(frames).map(|c| c.value);
-            m.iter().map(of).collect()
-        }
-        Joint::Transmission(_) => Vec::new(),
-    }
+    mechanism.contacts().iter().map(limit).collect()
 }
 
 /// Difference of the links' speeds from those one turn earlier: |r_c′| relative to the size of the mechanism, and ψ′. Positions may advance, as of a
@@ -346,7 +217,7 @@ fn closure(mechanism: &AnyMechanism) -> Result<Option<f64>, Error> {
     for k in 0..8 {
         let phi = TAU * f64::from(k) / 8.0;
         let (now, later) = (mechanism.frames(phi)?, mechanism.frames(phi + TAU)?);
-        let length = size(&mechanism.joints(phi, &now)?, &now);
+        let length = joints::size(&mechanism.joints(phi, &now)?, &now);
         for ((a, b), link) in now.iter().zip(&later).zip(mechanism.links()) {
             let speed = |frame: &Frame| {
                 let [x, y] = frame.point(link.com());
@@ -357,92 +228,4 @@ fn closure(mechanism: &AnyMechanism) -> Result<Option<f64>, Error> {
         }
     }
     Ok(Some(most))
-}
-
-/// The smallest index over the motion, or over the whole range without one.
-fn transmission(file: &MachineFile) -> Result<Option<Transmission>, Error> {
-    const STEPS: usize = 1440;
-    const SAMPLES: usize = 24;
-    let mechanism = file.machine.mechanism();
-    if !mechanism.change_points().is_empty() {
-        // It passes its dead points, guided.
-        return Ok(None);
-    }
-    let drive = mechanism.drive();
-    let start = mechanism.domain().position(0.0);
-    let joints = mechanism.joints(start, &mechanism.frames(start)?)?;
-    let placed = |phi: f64| -> Result<(Joints, Frames, f64), Error> {
-        let frames = mechanism.frames(phi)?;
-        let joints = mechanism.joints(phi, &frames)?;
-        let length = size(&joints, &frames);
-        Ok((joints, frames, length))
-    };
-    let samples = whole_range(mechanism.domain(), SAMPLES)
-        .map(placed)
-        .collect::<Result<Vec<_>, Error>>()?;
-    let structure = Structure::new(&joints, drive, mechanism.links().len(), &samples);
-    let at = |phi: f64| -> Result<Vec<Index>, Error> {
-        let (joints, frames, length) = placed(phi)?;
-        Ok(structure.indices(&joints, &frames, length))
-    };
-    let places: Vec<f64> = match &file.motion {
-        Some(motion) => (0..=STEPS)
-            .map(|k| motion.at(motion.duration() * k as f64 / STEPS as f64).phi)
-            .collect(),
-        None => whole_range(mechanism.domain(), STEPS).collect(),
-    };
-    let values = places
-        .iter()
-        .map(|&phi| at(phi))
-        .collect::<Result<Vec<_>, Error>>()?;
-    let mut worst: Option<(f64, usize, usize)> = None;
-    let mut branch_kept = true;
-    for (k, row) in values.iter().enumerate() {
-        for (block, index) in row.iter().enumerate() {
-            if worst.is_none_or(|(least, ..)| index.value.abs() < least) {
-                worst = Some((index.value.abs(), k, block));
-            }
-            let first = values.first().and_then(|first| first.get(block));
-            let same = first.is_some_and(|first| first.value * index.value > 0.0);
-            branch_kept &= !index.bilateral || same;
-        }
-    }
-    let Some((_, k, block)) = worst else {
-        return Ok(None);
-    };
-    let [low, high] = [places[k.saturating_sub(1)], places[(k + 1).min(STEPS)]];
-    let index = |phi: f64| -> Result<f64, Error> {
-        Ok(at(phi)?.get(block).map_or(1.0, |index| index.value.abs()))
-    };
-    let middle = numerics::least(index, low, high)?;
-    let (phi, least) = if index(middle)? < index(places[k])? {
-        (middle, index(middle)?)
-    } else {
-        (places[k], index(places[k])?)
-    };
-    let names = mechanism.link_names();
-    let here = values[k].get(block).copied();
-    let group = here.map_or(0, |index| index.group);
-    let most = values
-        .iter()
-        .filter_map(|row| Some(row.get(block)?.value.abs()))
-        .fold(0.0, f64::max);
-    let shown = if mechanism.domain() == Domain::Turn {
-        phi.rem_euclid(std::f64::consts::TAU)
-    } else {
-        phi
-    };
-    let links = structure.links(group);
-    Ok(Some(Transmission {
-        index: least,
-        angle: here
-            .is_some_and(|index| index.bilateral)
-            .then(|| least.min(1.0).asin().to_degrees()),
-        at: (most - least > CONSTANT).then_some(shown),
-        links: links
-            .iter()
-            .filter_map(|&k| names.get(k).cloned())
-            .collect(),
-        branch_kept,
-    }))
 }

@@ -18,20 +18,14 @@ pub use figures::{Energies, MotorPower, MotorTorque, SteadyFigures};
 pub use flywheel::{Classical, Flywheel, ShaftFlywheel, Wheel};
 pub use start::Start;
 
-use jred::Domain;
-use jred::machine::Reducible as _;
-use schemars::JsonSchema;
-use serde::Serialize;
-
 use crate::simulate::CoupledMachines;
 use crate::simulate::run::SIGN_SPEED;
 use aim::CycleSearch;
-use jred_file::model::by_motion::ByMotion;
+use jred::Domain;
+use jred::machine::Reducible as _;
 use jred_file::model::machine::{MachineFile, least_common_multiple};
 use jred_file::model::motor::OwnMotor;
 use jred_file::model::simulation::Simulation;
-use jred_file::number::rounding::{rounded, short};
-use jred_file::units::RPM;
 use turn::TurningMachine;
 
 /// Tolerance within which the turns of a machine are a whole number: rounding.
@@ -62,12 +56,11 @@ impl Default for SteadyRequest {
 }
 
 /// The steady motion of a machine.
-#[derive(Debug, Serialize, JsonSchema)]
+#[derive(Debug)]
 pub struct Steady {
     /// The cycle without a further flywheel.
     pub cycle: Option<Cycle>,
     /// Why the machine has no steady cycle without a further flywheel.
-    #[schemars(with = "Option<String>")]
     pub no_cycle: Option<SteadyError>,
     /// Whether the inductance of the motor's winding is neglected: the torque is that of the settled current at each speed.
     pub inductance_left_out: bool,
@@ -111,20 +104,18 @@ pub fn steady_together(
     let file = machines.first;
     if let Domain::Stroke { from, to } = file.machine.domain() {
         let coordinate = file.machine.mechanism().coordinate();
-        return Err(SteadyError::Stroke {
-            range: format!("{} to {}", coordinate.place(from), coordinate.place(to)),
-        });
+        return Err(SteadyError::Stroke(coordinate, [from, to]));
     }
     let turns = turns(machines, request)?;
     for machine in machines.all() {
-        if let Some(ByMotion { what, cure }) = machine.file.scheduled().next() {
-            return Err(SteadyError::Scheduled { what, cure });
+        if let Some(part) = machine.file.scheduled().next() {
+            return Err(SteadyError::Scheduled(part));
         }
         let own = machine.ratio().abs() * f64::from(turns);
         if (own - own.round()).abs() > TURNS_TOLERANCE * own || own < 0.5 {
             return Err(SteadyError::NotWhole {
                 title: machine.file.title.clone(),
-                turns: short(own),
+                turns: own,
                 of_first: turns,
             });
         }
@@ -241,17 +232,9 @@ fn direction(
             return Ok(asked.signum());
         }
         return Err(SteadyError::WrongSign {
-            torque: torque(motor.torque(0.0)),
-            speed: speed(asked),
+            torque: motor.torque(0.0),
+            speed: asked,
         });
     }
     Ok(at_rest.signum())
-}
-
-fn speed(omega: f64) -> String {
-    format!("{} rpm", rounded(omega / RPM))
-}
-
-fn torque(torque: f64) -> String {
-    format!("{} N m", short(torque))
 }

@@ -44,7 +44,7 @@ fn checked(found: Result<Steady, SteadyError>) -> Steady {
 
 #[track_caller]
 fn checked_to(residual: f64, found: Result<Steady, SteadyError>) -> Steady {
-    let found = found.unwrap_or_else(|error| panic!("{}", rendered(&error)));
+    let found = found.unwrap();
     let own = found.cycle.as_ref();
     for cycle in own
         .into_iter()

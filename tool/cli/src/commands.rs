@@ -37,7 +37,7 @@ use jred_file::model::machine::MachineFile;
 use jred_file::plain;
 use jred_file::read;
 use jred_report::answer::Answer;
-use jred_report::list::{inspection, rule_list};
+use jred_report::list::{contact, inspection, rule_list};
 use jred_report::table::output::Format;
 use jred_sizing::catalogue::{Catalogue, Drive};
 use jred_sizing::motor::envelope::{Envelope, MotorLimits};
@@ -147,8 +147,8 @@ fn print_parts(parts: impl IntoIterator<Item = String>) -> Result<Completion> {
 
 /// Warns on standard error if a contact separates at this speed and acceleration; the result is computed anyway.
 fn warn(file: &MachineFile, state: [f64; 2]) -> Result<()> {
-    if let Some(words) = OneWay::warning(&file.machine, state).map_err(core_report)? {
-        terminal::say(&words);
+    if let Some(parted) = OneWay::separation(&file.machine, state).map_err(core_report)? {
+        terminal::warn(&contact::warning(&parted));
     }
     Ok(())
 }

@@ -4,7 +4,6 @@ use schemars::Schema;
 
 use crate::answer::schema::{of, of_sheet};
 use crate::list;
-use jred_analysis::steady::Steady;
 use jred_export::data::ExportData;
 
 /// All schemas, each with the name of its form.
@@ -24,7 +23,7 @@ pub fn all() -> Vec<(&'static str, Schema)> {
         of::<list::rule_list::SetsData>(),
         of::<list::simulation::SimulationData>(),
         of::<list::split::SplitData>(),
-        of::<Steady>(),
+        of::<list::steady::SteadyData>(),
         of::<list::listing::SizeData>(),
         of_sheet(list::tolerance::FORM, &list::tolerance::COLUMNS),
     ]

@@ -6,7 +6,6 @@ use jred::machine::{Body, Joint, Jointed as _, Mechanism as _};
 use jred::number::Transfer;
 use serde::Serialize;
 
-use jred_file::model::coordinate::Coordinate;
 use jred_file::model::mechanism::AnyMechanism;
 use jred_file::number::numerics::edge;
 
@@ -19,13 +18,27 @@ const REST_TOLERANCE: f64 = 1e-9;
 /// Places (rad) closer than this to a whole turn are its start.
 const ROUNDING: f64 = 1e-8;
 
+/// How a link on the ground moves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, schemars::JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum TravelKind {
+    /// To and fro along a guide.
+    Slides,
+    /// To and fro on a pin.
+    Swings,
+    /// Along a guide without end.
+    Advances,
+    /// On a pin without end.
+    Turns,
+}
+
 /// Motion of one link on the ground.
 #[derive(Clone, Debug, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct Travel {
     /// Name of the link.
     pub link: String,
-    /// `slides`, `swings`, or, without end, `advances` (along a guide) or `turns`.
-    pub way: &'static str,
+    /// How it moves.
+    pub way: TravelKind,
     /// Stroke, swing, or advance over a turn of the drive (m or rad).
     pub stroke: f64,
     /// Distance that an advancing or turning link moves backwards during a turn of the drive (m or rad).
@@ -303,10 +316,10 @@ fn travel(
     let advance = rests.ends[1] - rests.ends[0];
     let on = domain == Domain::Turn && advance.abs() > 1e-9 * range.max(1.0);
     let (way, stroke, back) = match (slides, on) {
-        (true, true) => ("advances", advance, rests.back(advance)),
-        (false, true) => ("turns", advance, rests.back(advance)),
-        (true, false) => ("slides", range, 0.0),
-        (false, false) => ("swings", range, 0.0),
+        (true, true) => (TravelKind::Advances, advance, rests.back(advance)),
+        (false, true) => (TravelKind::Turns, advance, rests.back(advance)),
+        (true, false) => (TravelKind::Slides, range, 0.0),
+        (false, false) => (TravelKind::Swings, range, 0.0),
     };
     Ok(Travel {
         link: String::new(),
@@ -316,57 +329,6 @@ fn travel(
         dead_centres: rests.dead_centres,
         dwells: rests.dwells,
     })
-}
-
-impl Travel {
-    /// As one sentence.
-    pub fn sentence(&self, drive: Coordinate) -> String {
-        let own = if ["slides", "advances"].contains(&self.way) {
-            Coordinate::Length
-        } else {
-            Coordinate::Angle
-        };
-        let number = |x: f64| jred_file::number::rounding::rounded((x * 1e6).round() / 1e6 + 0.0);
-        let at = |phi: f64| format!("{} {}", number(drive.shown(phi)), drive.unit());
-        let centres: Vec<String> = (self.dead_centres.iter())
-            .map(|[place, own_place]| {
-                let own_place = number(own.shown(*own_place));
-                format!("{} ({own_place} {})", at(*place), own.unit())
-            })
-            .collect();
-        let centres = match centres.len() {
-            0 => "no dead centre".to_owned(),
-            1 => format!("dead centre at {} = {}", drive.symbol(), centres[0]),
-            _ => format!(
-                "dead centres at {} = {}",
-                drive.symbol(),
-                centres.join(", ")
-            ),
-        };
-        let dwells: Vec<String> = self
-            .dwells
-            .iter()
-            .map(|d| format!("{} to {}", at(d[0]), at(d[1])))
-            .collect();
-        let rests = if dwells.is_empty() {
-            String::new()
-        } else {
-            format!("; dwells from {}", dwells.join(", "))
-        };
-        let stroke = format!("{} {}", number(own.shown(self.stroke)), own.unit());
-        let way = match self.way {
-            way @ ("turns" | "advances") if self.dead_centres.is_empty() => {
-                format!("{way} by {stroke} per turn")
-            }
-            way @ ("turns" | "advances") => format!(
-                "{way} by {stroke} per turn and goes back by {} {} in between",
-                number(own.shown(self.back)),
-                own.unit()
-            ),
-            way => format!("{way} by {stroke}"),
-        };
-        format!("{} {way}; {centres}{rests}", self.link)
-    }
 }
 
 #[cfg(test)]

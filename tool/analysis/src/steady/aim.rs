@@ -1,14 +1,11 @@
 //! The aim of a steady cycle: the given motor, or a mean speed for which the motor or a load is scaled.
 
-use std::borrow::Cow;
-
 use jred::machine::{Action, Load};
 use schemars::JsonSchema;
 use serde::{Serialize, Serializer};
 
 use super::SteadyError;
 use super::cycle::{self, CycleResult};
-use super::speed as shown;
 use super::turn::{TurnEnd, TurningMachine};
 use crate::simulate::CoupledMachines;
 use jred_file::model::characteristic::Characteristic;
@@ -278,8 +275,8 @@ const MOST_DOUBLINGS: u32 = 30;
 
 fn no_level(by: &Level, speed: f64) -> SteadyError {
     SteadyError::NoLevel {
-        what: by.in_words(),
-        speed: shown(speed),
+        by: by.clone(),
+        speed,
     }
 }
 
@@ -288,13 +285,6 @@ impl Level {
         match self {
             Self::Motor => serializer.serialize_none(),
             Self::Load(name) => serializer.serialize_some(name),
-        }
-    }
-
-    fn in_words(&self) -> Cow<'static, str> {
-        match self {
-            Self::Motor => "torque of the motor".into(),
-            Self::Load(name) => format!("size of the load \"{name}\"").into(),
         }
     }
 }
@@ -308,10 +298,9 @@ fn with_load(file: &MachineFile, name: &str, factor: f64) -> Result<MachineFile,
         found = true;
     }
     if !found {
-        let names = file.loads.iter().map(|named| format!("\"{}\"", named.name));
         return Err(SteadyError::NoLoad {
             name: name.to_owned(),
-            names: names.collect::<Vec<_>>().join(", "),
+            names: file.loads.iter().map(|named| named.name.clone()).collect(),
         });
     }
     file.rebuild([], [])?;

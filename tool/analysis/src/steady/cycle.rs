@@ -3,14 +3,13 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
+use super::SteadyError;
 use super::aim::{CycleOutcome, Scaling};
 use super::figures::SteadyFigures;
 use super::start::Start;
 use super::turn::{TurnEnd, TurningMachine};
-use super::{SteadyError, speed, torque};
 use crate::simulate::run::SIGN_SPEED;
 use jred_file::number::numerics;
-use jred_file::number::rounding::short;
 
 /// Range of the drive link's speeds in the search (rad/s).
 const FASTEST: f64 = 1e5;
@@ -129,8 +128,8 @@ fn search(turning: &TurningMachine) -> Result<CycleResult, SteadyError> {
             None if gain > 0.0 => {
                 let [inertia, _] = turning.plant.inertia(turning.at(0.0))?;
                 return Err(SteadyError::Surplus {
-                    speed: speed(at),
-                    surplus: short(gain * 0.5 * inertia * at * at),
+                    speed: at,
+                    surplus: gain * 0.5 * inertia * at * at,
                 });
             }
             Some((speed, lost)) if gain > 0.0 => {
@@ -167,9 +166,7 @@ fn between(turning: &TurningMachine, ends: [f64; 2], gains: [f64; 2]) -> Result<
         if turning.gain(ends[1] * (1.0 + SMALL_CHANGE))? < 0.0 {
             return Ok(ends[1]);
         }
-        return Err(SteadyError::Indifferent {
-            speed: speed(turning.direction * ends[1]),
-        });
+        return Err(SteadyError::Indifferent(turning.direction * ends[1]));
     }
     let rises = [turning.rise(ends[0])?, turning.rise(ends[1])?];
     if rises[0] > CANCELLATION && rises[1] < -CANCELLATION {
@@ -258,9 +255,7 @@ pub(super) fn standstill(turning: &TurningMachine, from: f64) -> Result<SteadyEr
             break;
         }
     }
-    Ok(SteadyError::Dying {
-        speed: speed(turning.direction * now),
-    })
+    Ok(SteadyError::Dying(turning.direction * now))
 }
 
 /// The missing torque at the place where the motor is weakest at rest; `None` if it can start the machine everywhere.
@@ -274,29 +269,17 @@ fn held_up(turning: &TurningMachine) -> Result<Option<SteadyError>, SteadyError>
             worst = Some(here);
         }
     }
-    Ok(worst.map(lacks))
+    Ok(worst.map(SteadyError::Stuck))
 }
 
 /// The missing torque at the place where the machine stopped.
 pub(super) fn stuck(turning: &TurningMachine, x: f64) -> Result<SteadyError, SteadyError> {
-    Ok(lacks(TorqueDeficit::at(turning, x)?))
-}
-
-fn lacks(missing: TorqueDeficit) -> SteadyError {
-    SteadyError::Stuck {
-        place: missing.place,
-        given: torque(missing.given),
-        needed: torque(missing.needed),
-        missing: torque((missing.needed - missing.given).abs()),
-    }
+    Ok(SteadyError::Stuck(TorqueDeficit::at(turning, x)?))
 }
 
 /// A place where the motor is too weak to start or keep the machine moving.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct TorqueDeficit {
-    /// The place in words.
-    #[serde(skip)]
-    pub place: String,
     /// Position there (rad), within the cycle.
     #[serde(rename = "stuck_at")]
     pub phi: f64,
@@ -312,9 +295,7 @@ impl TorqueDeficit {
     pub(super) fn at(turning: &TurningMachine, x: f64) -> Result<Self, SteadyError> {
         let phi = turning.at(x).rem_euclid(turning.span());
         let state = [phi, turning.direction * SIGN_SPEED];
-        let coordinate = turning.machines.first.machine.mechanism().coordinate();
         Ok(Self {
-            place: coordinate.place(phi),
             phi,
             given: turning.plant.motor(0.0)[0],
             needed: turning.plant.keeping(&turning.moment(), state.into())?,

@@ -15,13 +15,12 @@ use crate::simulate::run::SIGN_SPEED;
 use jred_file::model::machine::{MachineFile, ReductionCache};
 use jred_file::model::simulation::Shaft;
 use jred_file::number::numerics;
-use jred_file::number::rounding::short;
 
 /// The largest flywheel that is tried (kg·m²).
 const LARGEST: f64 = 1e8;
 
 /// The flywheel for a coefficient of speed fluctuation.
-#[derive(Debug, Serialize, JsonSchema)]
+#[derive(Debug)]
 pub struct Flywheel {
     /// Requested δ.
     pub delta: f64,
@@ -38,16 +37,13 @@ pub struct Flywheel {
 }
 
 /// A shaft of the drive train, and the flywheel on it, or why none there makes the fluctuation this small.
-#[derive(Debug, Serialize, JsonSchema)]
+#[derive(Debug)]
 pub struct ShaftFlywheel {
     /// The stage that the shaft drives, counted from 0; the number of stages means the drive link.
     pub shaft: usize,
     /// The flywheel.
-    #[serde(flatten)]
     pub wheel: Option<Wheel>,
     /// Why no flywheel here makes the fluctuation this small.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(with = "Option<String>")]
     pub no_flywheel: Option<SteadyError>,
 }
 
@@ -265,16 +261,12 @@ impl FlywheelSearch<'_> {
                 return self.running(shaft, found);
             }
             if high >= LARGEST {
-                let why = if at_high <= -1.0 / self.delta {
-                    "the machine stops".to_owned()
-                } else {
-                    format!("it is {}", short(1.0 / (at_high + 1.0 / self.delta)))
-                };
+                let runs = at_high > -1.0 / self.delta;
                 return Err(SteadyError::NoFlywheel {
-                    delta: short(self.delta),
-                    inertia: short(high),
-                    why,
-                    torque: short(self.mean_torque()?),
+                    delta: self.delta,
+                    inertia: high,
+                    reached: runs.then(|| 1.0 / (at_high + 1.0 / self.delta)),
+                    torque: self.turning.keeping(SIGN_SPEED)?.abs(),
                 });
             }
             (low, at_low) = (high, at_high);
@@ -293,11 +285,6 @@ impl FlywheelSearch<'_> {
             more *= 8.0;
         }
         Ok(with)
-    }
-
-    /// The motor torque with which a slow turn neither gains nor loses energy.
-    fn mean_torque(&self) -> Result<f64, SteadyError> {
-        Ok(self.turning.keeping(SIGN_SPEED)?.abs())
     }
 }
 

@@ -126,7 +126,7 @@ fn a_load_is_found_for_a_mean_speed() {
         ..SteadyRequest::default()
     };
     let why = asked(&rotor(friction, motor), &request).unwrap_err();
-    assert!(matches!(why, SteadyError::NoLoad { .. }), "{why}");
+    assert!(matches!(why, SteadyError::NoLoad { .. }), "{why:?}");
 }
 
 /// A cycle of turns that the loads do not repeat after is refused; twice as many are the same.
@@ -141,7 +141,7 @@ fn turns_are_those_of_the_loads() {
     let why = asked(&text, &with(3)).unwrap_err();
     assert!(
         matches!(why, SteadyError::Turns { own: 2, asked: 3 }),
-        "{why}"
+        "{why:?}"
     );
     let [two, four] =
         [2, 4].map(|turns| asked(&text, &with(turns)).unwrap().cycle.unwrap().figures);

@@ -91,9 +91,9 @@ fn report(options: &options::balance::Balance, fault: &BalanceError, links: &[St
         BalanceError::Parts(parted) => miette!(
             help = "keep the spring that closes the contact as it is, or choose another --least",
             "with the optimum, {} ({}): {}",
-            parted.what,
-            parted.state,
-            parted.force
+            parted.what(),
+            parted.state(),
+            parted.required_force()
         ),
         BalanceError::NoEffect => {
             let (such, or) = match options.least {

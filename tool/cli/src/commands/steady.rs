@@ -46,16 +46,17 @@ pub fn steady(options: &options::Steady) -> Result<Completion> {
         turns: options.turns,
         positions: options.positions as usize,
     };
-    let steady = steady::steady_together(&machines, &simulation, &request)?;
+    let solve = |request: &SteadyRequest| {
+        let found = steady::steady_together(&machines, &simulation, request);
+        found.map_err(|why| list::steady::problem(&why))
+    };
+    let steady = solve(&request)?;
     if let Some(path) = &options.report {
         let finer = SteadyRequest {
             positions: request.positions.max(DRAWN),
             ..request.clone()
         };
-        let page = page::steady_page(
-            &machines,
-            &steady::steady_together(&machines, &simulation, &finer)?,
-        );
+        let page = page::steady_page(&machines, &solve(&finer)?);
         output::write(path, page.as_bytes())?;
     }
     let mut answer = list::steady::answer(&machines, &steady);

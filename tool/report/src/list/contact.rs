@@ -1,5 +1,6 @@
 //! Text about a one-sided contact that a motion loses.
 
+use jred_analysis::contact::Separation;
 use jred_file::model::axis::Axis;
 use jred_file::number::rounding::short;
 use jred_motion::contact::ContactLimits;
@@ -9,17 +10,27 @@ fn state(broken: &ContactLimits) -> String {
     let lost = &broken.lost;
     format!(
         "{} at {}, after {} s: {}",
-        lost.parted.what,
-        lost.parted.state,
+        lost.parted.what(),
+        lost.parted.state(),
         short(lost.t),
-        lost.parted.force
+        lost.parted.required_force()
+    )
+}
+
+/// For results that are computed as if the contact did not separate.
+pub fn warning(parted: &Separation) -> String {
+    format!(
+        "{} ({}): {}; results are valid only if contact is maintained by other means",
+        parted.what(),
+        parted.state(),
+        parted.required_force()
     )
 }
 
 /// For a fastest motion, with the limits that keep the contact.
 pub fn of_fastest(broken: &ContactLimits, axis: &Axis) -> String {
     let Some(limits) = broken.limits else {
-        return format!("{}; {}", state(broken), broken.lost.parted.cure);
+        return format!("{}; {}", state(broken), broken.lost.parted.cure());
     };
     let [_, column] = axis.coordinate.rates();
     let options = ["max-acceleration", "max-deceleration"].iter().zip(limits);
@@ -41,7 +52,7 @@ pub fn of_gentlest(broken: &ContactLimits) -> String {
     format!(
         "{}; give the move more time, or {}",
         state(broken),
-        broken.lost.parted.cure
+        broken.lost.parted.cure()
     )
 }
 

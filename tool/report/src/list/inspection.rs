@@ -1,21 +1,21 @@
 //! The check of a machine.
 
+mod data;
+mod words;
+
 use jred::Domain;
-use schemars::JsonSchema;
-use serde::Serialize;
 
 use crate::answer::Answer;
-use crate::answer::schema::Data;
 use crate::table::output::Format as Full;
 use crate::table::reading::Reading;
-use jred_analysis::inspect::{
-    Agreement, Findings, Inertia, JointFinding, MotionFindings, NEAR_DEAD_POINT, RECOMMENDED,
-    Transmission, Travel,
-};
+use jred_analysis::inspect::{Findings, MotionFindings, NEAR_DEAD_POINT, RECOMMENDED};
 use jred_file::model::coordinate::Coordinate;
-use jred_file::model::mechanism::Fact;
 use jred_file::number::rounding::{short, shown};
 use jred_sizing::study::cell::Cell;
+
+pub(crate) use data::CheckData;
+pub(crate) use words::change_points;
+use words::exponent;
 
 jred_file::words! {
     /// Format of an answer without columns.
@@ -40,8 +40,8 @@ impl From<AnswerFormat> for Full {
 pub fn answer(findings: &Findings) -> Answer<'static> {
     let c = findings.coordinate;
     let title = format!("{}: {}", findings.title, findings.kind);
-    let mut answer = Answer::new(findings.title.clone(), &data(findings)).titled(title);
-    let violations = findings.violations();
+    let mut answer = Answer::new(findings.title.clone(), &data::data(findings)).titled(title);
+    let violations = words::violations(findings);
     for violation in &violations {
         answer.fact("violated", violation);
     }
@@ -50,7 +50,7 @@ pub fn answer(findings: &Findings) -> Answer<'static> {
             "result",
             format!(
                 "every check is satisfied: {}; `jred size` judges drives",
-                findings.checked().join(", ")
+                words::checked(findings).join(", ")
             ),
         );
     }
@@ -106,7 +106,13 @@ pub fn answer(findings: &Findings) -> Answer<'static> {
             ),
         );
     }
-    for note in &findings.notes {
+    for note in words::before(findings) {
+        answer.sentence(note);
+    }
+    for warning in &findings.warnings {
+        answer.warning(warning);
+    }
+    for note in words::after(findings) {
         answer.sentence(note);
     }
     if let Some(motion) = &findings.motion {
@@ -174,7 +180,7 @@ fn inertia(findings: &Findings, answer: &mut Answer) {
 fn motions(findings: &Findings, answer: &mut Answer) {
     let c = findings.coordinate;
     for travel in &findings.travels {
-        answer.fact("travel", travel.sentence(c));
+        answer.fact("travel", words::travel(travel, c));
     }
     if let Some(transmission) = &findings.transmission {
         let verdict = if transmission.index < NEAR_DEAD_POINT {
@@ -192,7 +198,7 @@ fn motions(findings: &Findings, answer: &mut Answer) {
             format!(
                 "at least {} {} ({angle}{}): {verdict}",
                 short(transmission.index),
-                transmission.place(c),
+                words::place(transmission, c),
                 transmission.links.join(", ")
             ),
         );
@@ -203,8 +209,8 @@ fn motions(findings: &Findings, answer: &mut Answer) {
         };
         answer.fact("branch", branch);
     }
-    for fact in &findings.facts {
-        answer.fact(&*fact.label, &*fact.text);
+    for fact in words::facts(findings) {
+        answer.fact(fact.label, fact.text);
     }
 }
 
@@ -273,91 +279,4 @@ fn segments(motion: &MotionFindings, drive: Coordinate, answer: &mut Answer) {
         whole: columns.len(),
         ..Reading::default()
     });
-}
-
-/// The JSON of `jred check` (SI units).
-#[derive(Serialize, JsonSchema)]
-pub(crate) struct CheckData<'a> {
-    /// Kind of the mechanism.
-    mechanism: &'static str,
-    /// Coordinate of the drive link.
-    #[serde(rename = "drive coordinate")]
-    coordinate: &'static str,
-    /// Degrees of freedom: 3·links − constraints.
-    #[serde(rename = "degrees of freedom")]
-    freedoms: i64,
-    /// Number of moving links.
-    links: usize,
-    /// Number of constraints.
-    constraints: usize,
-    /// The joints.
-    joints: &'a [JointFinding],
-    /// Range of the drive link.
-    range: Range,
-    /// Difference of the links' speeds after a turn, as a share; none for a stroke.
-    closure: Option<f64>,
-    /// Travels of the links.
-    travels: &'a [Travel],
-    /// The smallest transmission index; none without a group of links.
-    transmission: Option<&'a Transmission>,
-    /// Inertia.
-    inertia: &'a Inertia,
-    /// Agreement of independent methods.
-    agreement: &'a Agreement,
-    /// The motion; none without one.
-    motion: Option<&'a MotionFindings>,
-    /// Figures of its kind.
-    facts: &'a [Fact],
-    /// Remarks.
-    notes: &'a [String],
-    /// Violated checks; empty: every check is satisfied.
-    violations: Vec<String>,
-}
-
-impl Data for CheckData<'_> {
-    const FORM: &'static str = "jred-check/1";
-}
-
-/// A whole turn, or a stroke between two positions (rad, or m).
-#[derive(Serialize, JsonSchema)]
-#[serde(untagged)]
-enum Range {
-    Turn(#[schemars(extend("const" = "turn"))] &'static str),
-    Stroke([f64; 2]),
-}
-
-fn data(findings: &Findings) -> CheckData<'_> {
-    CheckData {
-        mechanism: findings.kind,
-        coordinate: match findings.coordinate {
-            Coordinate::Angle => "angle [rad]",
-            Coordinate::Length => "displacement [m]",
-        },
-        freedoms: findings.freedoms(),
-        links: findings.links,
-        constraints: findings.constraints(),
-        joints: &findings.joints,
-        range: match findings.domain {
-            Domain::Turn => Range::Turn("turn"),
-            Domain::Stroke { from, to } => Range::Stroke([from, to]),
-        },
-        closure: findings.closure,
-        travels: &findings.travels,
-        transmission: findings.transmission.as_ref(),
-        inertia: &findings.inertia,
-        agreement: &findings.agreement,
-        motion: findings.motion.as_ref(),
-        facts: &findings.facts,
-        notes: &findings.notes,
-        violations: findings.violations(),
-    }
-}
-
-/// A small share, such as `1.6e-16`.
-fn exponent(x: f64) -> String {
-    if x == 0.0 {
-        "0".to_owned()
-    } else {
-        format!("{x:.1e}")
-    }
 }

@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use crate::answer::Answer;
 use crate::answer::schema::Data;
-use jred_analysis::inspect;
+use crate::list::inspection::change_points;
 use jred_analysis::reduce::{Largest, Sets};
 use jred_file::model::machine::MachineFile;
 use jred_file::number::columns::Columns;
@@ -76,7 +76,9 @@ impl<'a> ReductionView<'a> {
         let mut notes = Vec::new();
         if self.sets.reactions {
             notes.push("force of a joint: acts from the first on the second body listed by `jred check`; flywheel and drive train turn with the drive link".to_owned());
-            notes.extend(inspect::change_points(self.file.machine.mechanism()));
+            let mechanism = self.file.machine.mechanism();
+            let points = mechanism.change_points();
+            notes.extend(change_points(points, mechanism.coordinate()));
         }
         if !self.passed {
             let cure = if self.is_at_positions {

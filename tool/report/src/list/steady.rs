@@ -1,24 +1,25 @@
 //! The steady cycle and the flywheel.
 
 mod cycle;
+mod data;
+mod error;
 
 use std::borrow::Cow;
 
 use crate::answer::Answer;
-use crate::answer::schema::Data;
 use cycle::{describe, rpm};
+pub(crate) use data::SteadyData;
+pub use error::problem;
 use jred_analysis::simulate::CoupledMachines;
 use jred_analysis::steady::{Cycle, Flywheel, ShaftFlywheel, Steady, Wheel};
 use jred_file::number::rounding::{percent, short};
 
-impl Data for Steady {
-    const FORM: &'static str = "jred-steady/1";
-    const HAS_COURSE: bool = true;
-}
-
 /// The flywheel and the cycle with it, if one was requested; then the cycle of the machine as it is.
 pub fn answer<'s>(machines: &CoupledMachines, steady: &'s Steady) -> Answer<'s> {
-    let mut answer = Answer::new(format!("{}: steady cycle", machines.title()), steady);
+    let mut answer = Answer::new(
+        format!("{}: steady cycle", machines.title()),
+        &SteadyData::of(steady),
+    );
     if let Some(last) = steady.last() {
         answer.course(Cow::Borrowed(&last.figures.course));
     }
@@ -34,7 +35,7 @@ pub fn answer<'s>(machines: &CoupledMachines, steady: &'s Steady) -> Answer<'s> 
         describe(&mut answer, cycle);
     }
     if let Some(why) = &steady.no_cycle {
-        answer.fact("no steady cycle", why.to_string());
+        answer.fact("no steady cycle", problem(why).to_string());
     }
     if steady.inductance_left_out {
         answer.warning(
@@ -98,7 +99,10 @@ fn wheel(answer: &mut Answer, flywheel: &Flywheel, own: Option<&Cycle>) {
         answer.heading("where it can sit, for the same δ");
         for place in &flywheel.places {
             let seat = place.wheel.as_ref().map(seat);
-            let no = place.no_flywheel.as_ref().map(ToString::to_string);
+            let no = place
+                .no_flywheel
+                .as_ref()
+                .map(|why| problem(why).to_string());
             answer.fact(shaft(place, flywheel), seat.or(no).unwrap_or_default());
         }
     }

@@ -12,7 +12,7 @@ fn a_link_that_turns_on_and_goes_back() {
     };
     let found = travel(Domain::Turn, false, &angle).unwrap();
     let turn = (-2.0f64 / 3.0).acos();
-    assert_eq!(found.way, "turns");
+    assert_eq!(found.way, TravelKind::Turns);
     assert!((found.stroke - TAU).abs() < 1e-12, "{found:?}");
     let back = 2.0 * (turn + 1.5 * turn.sin()) - TAU;
     assert!((found.back - back).abs() < 1e-12, "{found:?}");
@@ -21,11 +21,6 @@ fn a_link_that_turns_on_and_goes_back() {
         assert!((centre[0] - place).abs() < 1e-9);
         assert!((centre[1] - (place + 1.5 * place.sin())).abs() < 1e-9);
     }
-    let sentence = found.sentence(Coordinate::Angle);
-    assert!(
-        sentence.contains("turns by 360 deg per turn and goes back by 31.7379 deg in between"),
-        "{sentence}"
-    );
 }
 
 /// The same against the drive.
@@ -36,7 +31,7 @@ fn a_slide_that_advances_the_other_way() {
         Ok((phi * 2.0).sin_cos().0 * 1e-3 - phi * 1e-3)
     };
     let found = travel(Domain::Turn, true, &way).unwrap();
-    assert_eq!(found.way, "advances");
+    assert_eq!(found.way, TravelKind::Advances);
     assert!((found.stroke + 1e-3 * TAU).abs() < 1e-15);
     // cos 2φ > 1/2 twice a turn, over ±π/6: forward by 2·(sin(π/3) − π/6).
     let back = 2.0 * 2.0 * ((TAU / 6.0).sin() - TAU / 12.0) * 1e-3;

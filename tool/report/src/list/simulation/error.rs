@@ -62,10 +62,10 @@ pub fn problem(error: &SimulationError) -> Problem {
              would generate {power:.3e} W, which is impossible"
         ),
         E::Parted { t, separation } => problem!(
-            help = separation.cure.as_str(),
+            help = separation.cure().as_str(),
             "at t = {t:.6} s {}: at {}",
-            separation.what,
-            separation.state
+            separation.what(),
+            separation.state()
         ),
     }
 }

@@ -9,7 +9,7 @@ use jred_file::units::RPM;
 use jred_motion::drive_simulation::{Loads, Peak};
 
 use super::SimulationView;
-use crate::answer::Answer;
+use crate::answer::{Answer, Block};
 use crate::list::driven::{Turns, driven};
 
 impl SimulationView<'_> {
@@ -17,43 +17,38 @@ impl SimulationView<'_> {
     pub(super) fn sentences(&self, answer: &mut Answer) {
         let axis = self.machines.first.axis();
         let effort = self.effort_unit();
-        let mut lines = self.by_motion();
+        let mut lines: Vec<Block> = self.by_motion().into_iter().map(Block::Sentence).collect();
         if let Some(stuck) = self.found.missing {
             let missing = (stuck.missing.needed - stuck.missing.given).abs();
-            lines.push(format!(
+            lines.push(Block::Sentence(format!(
                 "the motor does not drive the machine beyond {}, at {} s: at rest it gives {} {effort} there, {} {effort} are needed, {} {effort} are missing",
                 axis.place(stuck.missing.phi),
                 self.time(stuck.time),
                 short(stuck.missing.given.abs()),
                 short(stuck.missing.needed.abs()),
                 short(missing)
-            ));
+            )));
         }
-        lines.extend(self.reached(&axis));
-        lines.extend(self.effort());
-        lines.extend(self.torque_limit(&axis));
+        lines.extend(self.reached(&axis).map(Block::Sentence));
+        lines.extend(self.effort().map(Block::Sentence));
+        lines.extend(self.torque_limit(&axis).map(Block::Warning));
         if let Some(following) = self.found.following {
-            lines.push(format!(
+            lines.push(Block::Sentence(format!(
                 "largest following error: {} {} at {} s, {}",
                 self.way(&axis, following.error),
                 axis.coordinate.unit(),
                 self.time(following.time),
                 axis.place(following.position)
-            ));
+            )));
         }
         if let Some((_, loads)) = self.drive {
             lines.extend(drive_sentences(loads, &axis, self.machines.first));
         }
-        lines.extend(self.driven());
-        lines.extend(self.impacts(&axis));
-        lines.extend(self.rest(&axis));
+        lines.extend(self.driven().map(Block::Warning));
+        lines.extend(self.impacts(&axis).map(Block::Warning));
+        lines.extend(self.rest(&axis).map(Block::Sentence));
         lines.extend(self.worst_stop(&axis));
-        for line in lines {
-            match line.strip_prefix("warning: ") {
-                Some(warning) => answer.warning(warning),
-                None => answer.sentence(line),
-            }
-        }
+        answer.blocks.extend(lines);
     }
 
     /// An instant (s); 0 below the rounding error of the whole time.
@@ -62,7 +57,7 @@ impl SimulationView<'_> {
     }
 
     /// The longest of the stops over a cycle.
-    fn worst_stop(&self, axis: &Axis) -> Option<String> {
+    fn worst_stop(&self, axis: &Axis) -> Option<Block> {
         let stops = self.stops?;
         let count = stops.len();
         let unit = axis.coordinate.unit();
@@ -74,10 +69,10 @@ impl SimulationView<'_> {
             )
         };
         if let Some(moving) = stops.iter().find(|stop| stop.rest.is_none()) {
-            return Some(format!(
-                "warning: of {count} instants over the cycle before, {} the machine has not come to rest by the end",
+            return Some(Block::Warning(format!(
+                "of {count} instants over the cycle before, {} the machine has not come to rest by the end",
                 from(moving)
-            ));
+            )));
         }
         let longest = |of: fn(&Rest) -> f64| {
             let rests = stops.iter().filter_map(|stop| Some((stop, stop.rest?)));
@@ -85,7 +80,7 @@ impl SimulationView<'_> {
         };
         let (far, way) = longest(|rest| rest.way.abs())?;
         let (slow, time) = longest(|rest| rest.time)?;
-        Some(format!(
+        Some(Block::Sentence(format!(
             "of {count} instants over the cycle before, the longest distance to rest is {} {unit}, in {} s, {}; the longest time {} s, {} {unit}, {}",
             self.way(axis, way.way),
             self.time(way.time),
@@ -93,7 +88,7 @@ impl SimulationView<'_> {
             self.time(time.time),
             self.way(axis, time.way),
             from(slow)
-        ))
+        )))
     }
 
     /// Loads, payloads and carriages of each machine that follow the clock of `[motion]`.
@@ -194,7 +189,7 @@ impl SimulationView<'_> {
             kinetic,
             is_backwards: turned.turns < 0.0,
         })?;
-        Some(format!("warning: the process loads {driven}"))
+        Some(format!("the process loads {driven}"))
     }
 
     fn torque_limit(&self, axis: &Axis) -> Option<String> {
@@ -204,7 +199,7 @@ impl SimulationView<'_> {
             count => format!("{count} times"),
         };
         Some(format!(
-            "warning: the motor is at the limit of its torque {times}, for {} s in all; first at {} s, {}",
+            "the motor is at the limit of its torque {times}, for {} s in all; first at {} s, {}",
             short(limit.duration),
             self.time(limit.time),
             axis.place(limit.position)
@@ -223,7 +218,7 @@ impl SimulationView<'_> {
             count => format!("; {count} impacts in all"),
         };
         Some(format!(
-            "warning: the drive link hits its end stop, {}, at {} s with {} {}{all}",
+            "the drive link hits its end stop, {}, at {} s with {} {}{all}",
             axis.place(impacts.position),
             self.time(impacts.time),
             short(axis.rate(impacts.speed)),
@@ -271,29 +266,33 @@ impl SimulationView<'_> {
 }
 
 /// Limits of the drive that are exceeded, and the temperature rise.
-fn drive_sentences(loads: &Loads, axis: &Axis, file: &MachineFile) -> Vec<String> {
+fn drive_sentences(loads: &Loads, axis: &Axis, file: &MachineFile) -> Vec<Block> {
     let place = |peak: &Peak| format!("at {} s, {}", short(peak.time), axis.place(peak.phi));
     let mut lines = Vec::new();
     if let Some(peak) = loads.gearbox_torque.filter(Peak::exceeds) {
-        lines.push(format!(
-            "warning: the gearbox carries up to {} N m, {}; its acceleration torque is {} N m",
+        lines.push(Block::Warning(format!(
+            "the gearbox carries up to {} N m, {}; its acceleration torque is {} N m",
             short(peak.value),
             place(&peak),
             short(peak.allowed.unwrap_or_default())
-        ));
+        )));
     }
     if loads.motor_speed.exceeds() {
         let peak = loads.motor_speed;
-        lines.push(format!(
-            "warning: the motor turns the gearbox with up to {} rpm, {}; its largest input speed is {} rpm",
+        lines.push(Block::Warning(format!(
+            "the motor turns the gearbox with up to {} rpm, {}; its largest input speed is {} rpm",
             short(peak.value / RPM),
             place(&peak),
             short(peak.allowed.unwrap_or_default() / RPM)
-        ));
+        )));
     }
     if let Some(heat) = loads.heat {
         let peak = heat.hottest;
-        let over = if peak.exceeds() { "warning: " } else { "" };
+        let block = if peak.exceeds() {
+            Block::Warning
+        } else {
+            Block::Sentence
+        };
         let ambient = file.site.surroundings.ambient;
         let (value, allowed) = if heat.relative {
             let percent = |share: f64| format!("{} % of its rated rise", short(100.0 * share));
@@ -304,10 +303,10 @@ fn drive_sentences(loads: &Loads, axis: &Axis, file: &MachineFile) -> Vec<String
         };
         let allowed =
             allowed.map_or_else(String::new, |allowed| format!("; {allowed} are allowed"));
-        lines.push(format!(
-            "{over}the motor, cold at the start, reaches {value}, {}{allowed}",
+        lines.push(block(format!(
+            "the motor, cold at the start, reaches {value}, {}{allowed}",
             place(&peak)
-        ));
+        )));
     }
     lines
 }

@@ -161,7 +161,7 @@ fn started(start: &Start) -> String {
             };
             format!(
                 "{what} {}: the motor gives {} N m at rest and {} N m would be needed, {} N m are missing",
-                missing.place,
+                Coordinate::Angle.place(missing.phi),
                 short(missing.given),
                 short(missing.needed),
                 short((missing.needed - missing.given).abs())
