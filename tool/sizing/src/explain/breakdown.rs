@@ -4,11 +4,12 @@
 //!
 //! ```text
 //! T = Σ links, flywheel (J_k·α + ½·J_k′·ω²)/(i_t·i) + Σ links U_k′/(i_t·i) + Σ springs + Σ loads + Σ dampers
-//!   + train: J_t·i·α_in + (τ − τ_lossless)/i + gearbox: J_G·i·α_in + (T_out(τ) − τ/i) + no-load torque + (J_M + J_B)·i·α_in
+//!   + train: J_t·α_in/i + (τ − τ_lossless)/i + gearbox: J_G·i·α_in + (T_out(τ) − τ/i) + no-load torque + (J_M + J_B)·i·α_in
 //!   + motor friction
 //! ```
 //!
-//! i_t is the ratio of the machine's drive train, i the ratio of the gearbox, τ the torque at the input of the drive train. A loss is the torque of a
+//! i_t is the ratio of the machine's drive train, i the ratio of the gearbox, J_t the inertia of the drive train at its input, α_in and τ the
+//! acceleration and the torque there. A loss is the torque of a
 //! stage beyond its lossless torque. The contributions of an instant add up to the motor torque (test `tests/explain.rs`, 1e-12 of the largest).
 //!
 //! The share of each in the mean square is ⟨T_k·T⟩/⟨T²⟩, its projection on the whole: the shares add up to one. A share may be negative: without that

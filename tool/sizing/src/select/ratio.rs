@@ -13,8 +13,8 @@
 //! T_rms²(i) = ⟨A²⟩·i² + 2⟨AC⟩·i + 2⟨AB⟩ + ⟨C²⟩ + 2⟨BC⟩/i + ⟨B²⟩/i²
 //! ```
 //!
-//! Without Coulomb friction it is smallest at i* = √(B_rms/A_rms), which for b = 0 is √(τ_rms/(J·a_rms)). There T_rms² = J·β with the load factor β =
-//! 2(a_rms·τ_rms + ⟨a·τ⟩). A motor of rated torque T_N can do the duty with some ratio if its accelerating factor T_N²/J is not below β. These ratios
+//! Without Coulomb friction it is smallest at i* = √(B_rms/A_rms). There T_rms² = J·β with the load factor β = 2(A_rms·B_rms + ⟨A·B⟩)/J. For b = 0
+//! and η = η_back = 1, i* is √(τ_rms/(J·a_rms)) and β is 2(a_rms·τ_rms + ⟨a·τ⟩), which does not depend on the motor. A motor of rated torque T_N can do the duty with some ratio if its accelerating factor T_N²/J is not below β. These ratios
 //! follow from the biquadratic ⟨A²⟩·i⁴ + (2⟨AB⟩ − T_N²)·i² + ⟨B²⟩ = 0 (Giberti, Cinquemani, Legnani: Effects of transmission mechanical
 //! characteristics on the choice of a motor-reducer, Mechatronics 20, 2010). With Coulomb friction i* and the ends of the range are found
 //! numerically, and β is T_rms²(i*)/J.

@@ -12,12 +12,13 @@
 use crate::judge::Findings;
 use crate::judge::broken;
 use crate::study::chosen::ChosenDrive;
-use crate::study::common::{Study, sentence};
+use crate::study::common::Study;
 use crate::study::edge::{Grid, Trial};
 use crate::study::edit::Edit;
 use crate::threads;
 use jred_file::model::rule::Rule;
 use jred_file::model::rules::{Limit, RuleSet};
+use jred_file::text::problem::{Problem, Result};
 
 /// One rule's dependence on one quantity.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,14 +34,14 @@ pub struct Slope {
 }
 
 /// How far a quantity may change in one direction.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Debug)]
 pub enum Room {
     /// No violation within the search range: this relative change.
     AtLeast(f64),
     /// Up to this relative change; beyond it, the rule is violated.
     UpTo(f64, Rule),
     /// Up to this relative change; beyond it, the machine file is invalid for this reason.
-    Refused(f64, String),
+    Refused(f64, Problem),
     /// A rule is already violated.
     Broken,
 }
@@ -55,8 +56,21 @@ impl Room {
     }
 }
 
+/// Why a quantity is not varied.
+#[derive(Debug)]
+pub enum Fixed {
+    /// Zero has no relative change.
+    Zero,
+    /// The machine file with a changed quantity is invalid.
+    Refused(Problem),
+    /// The machine file with a count one less is invalid.
+    OneLess(Problem),
+    /// The machine file with a count one more is invalid.
+    OneMore(Problem),
+}
+
 /// Dependence on one quantity.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub struct Dependence {
     /// Index of the quantity in the document.
     pub quantity: usize,
@@ -91,14 +105,14 @@ impl Dependence {
 }
 
 /// Result of a sensitivity analysis.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub struct Sensitivity {
     /// The original shares of the limits.
     pub shares: Vec<(Rule, f64)>,
     /// By quantity; the one that affects a rule most comes first.
     pub dependences: Vec<Dependence>,
     /// Quantities that were not changed, and why.
-    pub fixed: Vec<(usize, String)>,
+    pub fixed: Vec<(usize, Fixed)>,
     /// Number of quantities in `[simulation]` and `[tolerance]`, which are omitted because no rule depends on them.
     pub left_out: usize,
 }
@@ -145,7 +159,7 @@ struct LimitUse {
 
 impl Room {
     /// The room up to a change, from the drive after a larger one.
-    fn before(held: f64, stopped: Result<LimitUse, String>) -> Self {
+    fn before(held: f64, stopped: Result<LimitUse>) -> Self {
         match stopped {
             Ok(LimitUse {
                 broken: Some(rule), ..
@@ -162,7 +176,7 @@ fn of_rule(all: &[(Rule, f64)], rule: Rule) -> Option<f64> {
 
 impl Mover<'_> {
     /// The drive after a relative change of the quantity.
-    fn at(&self, change: f64) -> Result<LimitUse, String> {
+    fn at(&self, change: f64) -> Result<LimitUse> {
         let number = self.number * (1.0 + change);
         // A count changed by its own step is whole except for rounding.
         let whole = number.round();
@@ -175,10 +189,7 @@ impl Mover<'_> {
             },
             unit: self.unit,
         };
-        let machine = self
-            .study
-            .machine(&[edit])
-            .map_err(|report| sentence(&report))?;
+        let machine = self.study.machine(&[edit])?;
         let findings = self.one.findings(&machine);
         let rules = &machine.file.rules;
         Ok(LimitUse {
@@ -189,9 +200,9 @@ impl Mover<'_> {
     }
 
     /// The slopes for `change`, and the drive at both ends, downwards and upwards.
-    fn slopes(&self, change: f64) -> Result<(Vec<Slope>, [LimitUse; 2]), String> {
+    fn slopes(&self, change: f64) -> Result<(Vec<Slope>, [LimitUse; 2])> {
         // Upwards first: if both ends are refused, its reason is given.
-        let ends = |step: f64| -> Result<[LimitUse; 2], String> {
+        let ends = |step: f64| -> Result<[LimitUse; 2]> {
             let above = self.at(step)?;
             Ok([self.at(-step)?, above])
         };
@@ -215,7 +226,7 @@ impl Mover<'_> {
     }
 
     /// The dependence on the quantity: by a small relative change; for a count, where that is impossible, by one.
-    fn dependence(&self, reach: Reach, holds: bool) -> Result<Dependence, String> {
+    fn dependence(&self, reach: Reach, holds: bool) -> Result<Dependence, Fixed> {
         let dependence = |whole: bool, slopes: Vec<Slope>, room: [Room; 2]| Dependence {
             quantity: self.quantity,
             whole,
@@ -238,7 +249,7 @@ impl Mover<'_> {
                 };
                 Ok(dependence(true, slopes, room))
             }
-            Err(why) => Err(why),
+            Err(why) => Err(Fixed::Refused(why)),
         }
     }
 
@@ -252,14 +263,14 @@ impl Mover<'_> {
     }
 
     /// The drive with the count increased by `by`.
-    fn more(&self, by: f64) -> Result<LimitUse, String> {
+    fn more(&self, by: f64) -> Result<LimitUse> {
         self.at(by / self.number)
     }
 
-    fn slopes_by_one(&self) -> Result<Vec<Slope>, String> {
-        let below = self.more(-1.0).map_err(|why| format!("one less: {why}"))?;
-        let [same, above] = [0.0, 1.0].map(|by| self.more(by));
-        let (same, above) = (same?, above.map_err(|why| format!("one more: {why}"))?);
+    fn slopes_by_one(&self) -> Result<Vec<Slope>, Fixed> {
+        let below = self.more(-1.0).map_err(Fixed::OneLess)?;
+        let same = self.more(0.0).map_err(Fixed::Refused)?;
+        let above = self.more(1.0).map_err(Fixed::OneMore)?;
         let slope = |(rule, above): &(Rule, f64)| {
             let [below, same] = [
                 of_rule(&below.shares, *rule)?,
@@ -284,8 +295,7 @@ impl Mover<'_> {
         } else {
             most
         };
-        let holds =
-            |tried: &Result<LimitUse, String>| matches!(tried, Ok(LimitUse { broken: None, .. }));
+        let holds = |tried: &Result<LimitUse>| matches!(tried, Ok(LimitUse { broken: None, .. }));
         let (mut held, mut step) = (0.0, 1.0f64);
         let mut stopped = loop {
             let by = step.min(most);
@@ -328,7 +338,7 @@ impl Mover<'_> {
             tried = (2.0 * tried).min(reach.most);
             there = self.at(sign * tried);
         };
-        let trial = |what: Result<LimitUse, String>| Trial {
+        let trial = |what: Result<LimitUse>| Trial {
             holds: matches!(what, Ok(LimitUse { broken: None, .. })),
             // Without a file there is no share: the step is halved.
             height: what.as_ref().map_or(f64::NAN, |judged| judged.load - 1.0),
@@ -371,7 +381,7 @@ impl Sensitivity {
         one: &ChosenDrive,
         reach: Reach,
         progress: impl Fn() + Sync,
-    ) -> jred_file::text::problem::Result<Self> {
+    ) -> Result<Self> {
         let machine = study.machine(&[])?;
         let findings = one.findings(&machine);
         let rules = &machine.file.rules;
@@ -386,7 +396,7 @@ impl Sensitivity {
         let quantities = study.document.quantities().iter().enumerate();
         let quantities: Vec<_> = quantities.filter(|(_, q)| !apart(&q.path)).collect();
         let left_out = study.document.quantities().len() - quantities.len();
-        let found: Vec<(usize, Result<Dependence, String>)> =
+        let found: Vec<(usize, Result<Dependence, Fixed>)> =
             threads::map(&quantities, |&(index, quantity)| {
                 let mover = Mover {
                     study,
@@ -397,7 +407,7 @@ impl Sensitivity {
                     load,
                 };
                 let dependence = if quantity.number() == 0.0 {
-                    Err("zero has no relative change".to_owned())
+                    Err(Fixed::Zero)
                 } else {
                     mover.dependence(reach, holds)
                 };
@@ -424,7 +434,7 @@ impl Sensitivity {
     /// Whether the original drive already violates a rule, so that there is no room.
     pub fn is_broken(&self) -> bool {
         let mut all = self.dependences.iter();
-        all.any(|d| d.room.contains(&Room::Broken))
+        all.any(|d| matches!(d.room, [Room::Broken, _] | [_, Room::Broken]))
     }
 
     /// The quantity with the smallest change that violates a rule, and its room.
