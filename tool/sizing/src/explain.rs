@@ -6,7 +6,6 @@ mod course;
 mod duty_model;
 mod remedy;
 mod seek;
-mod words;
 
 pub use breakdown::{Breakdown, InertiaShare, Share};
 pub use contributions::{Contribution, Contributions, Effect};

@@ -1,7 +1,7 @@
 //! Servo sizing for machines whose inertia depends on the angle: selects the drives of a catalogue that suit a machine.
 //!
-//! This crate lies between [`jred_analysis`], which computes the duty of a machine, and `jred-report`, which writes the results; nothing is
-//! printed.
+//! This crate lies between [`jred_analysis`], which analyses the machine that [`jred_file`] reads, and `jred-report`, which writes the results.
+//! Nothing is printed.
 //!
 //! 1. [`catalogue`]: motors, gearboxes, amplifiers and resistors, and their allowed combinations.
 //! 2. [`motor`]: the limits of a motor: winding, torque-speed envelope.

@@ -97,15 +97,18 @@ fn end(envelope: &Envelope) -> f64 {
     envelope.max_speed().min(jred::duty::MOST_SPEED)
 }
 
-/// The share of a rating that a rule allows; `Err`: why there is no share.
-fn share(rules: &RuleSet, rule: Rule, kind: &Vocabulary) -> Result<RatingShare, String> {
+/// The share of a rating that a rule allows, if the rule is checked.
+fn share(rules: &RuleSet, rule: Rule) -> Option<RatingShare> {
     let limit = rules.limit(rule);
-    let share = limit.fail.or(limit.warn);
-    let share = share.ok_or_else(|| format!("the rule \"{}\" is not checked", rule.named(kind)))?;
-    Ok(RatingShare {
+    let share = limit.fail.or(limit.warn)?;
+    Some(RatingShare {
         share,
         warns: limit.fail.is_none(),
     })
+}
+
+fn unchecked(rule: Rule, kind: &Vocabulary) -> String {
+    format!("the rule \"{}\" is not checked", rule.named(kind))
 }
 
 /// An allowed share of a rating.
@@ -129,7 +132,8 @@ impl RatingShare {
 /// The limit of a figure: the smallest limit of several rules.
 fn figure(
     field: Field,
-    (rules, kind): (&RuleSet, &Vocabulary),
+    rules: &RuleSet,
+    kind: &Vocabulary,
     findings: &Findings,
     judged: &[(Rule, &str)],
 ) -> MeterLimit {
@@ -139,10 +143,10 @@ fn figure(
         let Some(finding) = findings.get(rule) else {
             continue;
         };
-        match share(rules, rule, kind) {
-            Err(why) => open.push(why),
-            Ok(_) if !finding.rating.is_finite() => open.push(format!("no data for {rating}")),
-            Ok(share) => {
+        match share(rules, rule) {
+            None => open.push(unchecked(rule, kind)),
+            Some(_) if !finding.rating.is_finite() => open.push(format!("no data for {rating}")),
+            Some(share) => {
                 let limit = share.share * finding.rating;
                 if least.as_ref().is_none_or(|(other, _)| limit < *other) {
                     least = Some((limit, share.words(rating)));
@@ -164,14 +168,15 @@ fn figure(
 
 fn curve(
     field: Field,
-    (rules, kind): (&RuleSet, &Vocabulary),
+    rules: &RuleSet,
+    kind: &Vocabulary,
     rule: Rule,
     rating: &str,
     of: impl Fn(f64) -> Option<LowerCurve>,
 ) -> MeterLimit {
-    let (bound, words) = match share(rules, rule, kind) {
-        Err(why) => (Bound::Open, why),
-        Ok(share) => match of(share.share) {
+    let (bound, words) = match share(rules, rule) {
+        None => (Bound::Open, unchecked(rule, kind)),
+        Some(share) => match of(share.share) {
             None => (Bound::Open, format!("no data for the {rating}")),
             Some(curve) => {
                 let mut words = share.words(rating);
@@ -197,7 +202,7 @@ impl<'a> MeterLimits<'a> {
         let envelope = &context.motor.envelope;
         let kind = context.vocabulary();
         let torque = kind.torque;
-        let of = |field, judged: &[_]| figure(field, (rules, kind), &findings, judged);
+        let of = |field, judged: &[_]| figure(field, rules, kind, &findings, judged);
         let mut output_mean = of(
             Field::OutputMean,
             &[(Rule::GearboxCubicMean, "gearbox's rated torque T2N")],
@@ -210,14 +215,16 @@ impl<'a> MeterLimits<'a> {
         let entries = vec![
             curve(
                 Field::Continuous,
-                (rules, kind),
+                rules,
+                kind,
                 Rule::RmsTorque,
                 &format!("S1 {torque}"),
                 |share| continuous(envelope, share),
             ),
             curve(
                 Field::Peak,
-                (rules, kind),
+                rules,
+                kind,
                 Rule::PeakTorque,
                 &format!("peak {torque}"),
                 |share| peak(envelope, share),
@@ -299,7 +306,8 @@ impl<'a> MeterLimits<'a> {
 fn regenerative_power(context: &Context, rules: &RuleSet, findings: &Findings) -> MeterLimit {
     let mut entry = figure(
         Field::RegenerativePower,
-        (rules, context.vocabulary()),
+        rules,
+        context.vocabulary(),
         findings,
         &[(
             Rule::ResistorPower,

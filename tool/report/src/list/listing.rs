@@ -7,6 +7,7 @@ mod comma;
 mod explanation;
 mod full;
 mod json;
+mod remedy;
 
 use jred_analysis::duty::Duty;
 use jred_file::model::machine::MachineFile;

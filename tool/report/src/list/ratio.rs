@@ -1,10 +1,11 @@
 //! Gear ratios for every motor as a sheet.
 
+mod obstacle;
+
 use crate::answer::sheet::Sheet;
 use crate::table::reading::Reading;
 use jred_file::model::rule::Rule;
 use jred_file::number::rounding::{short, significant};
-use jred_sizing::select::ratio::obstacle::Obstacle;
 use jred_sizing::select::ratio::{Gear, Range};
 use jred_sizing::study::cell::Cell;
 use jred_sizing::study::ratio::{MotorRatio, Ratios};
@@ -176,7 +177,7 @@ fn why(row: &MotorRatio) -> String {
         Ok(_) => String::new(),
         Err(obstacle) => obstacle.as_ref().map_or_else(
             || "narrower than the step of the search".to_owned(),
-            Obstacle::words,
+            obstacle::words,
         ),
     }
 }

@@ -7,8 +7,8 @@ use jred_file::number::words::counted;
 use jred_file::units::Vocabulary;
 use jred_sizing::study::cell::Cell;
 use jred_sizing::study::chosen::ChosenDrive;
-use jred_sizing::study::common::Study;
-use jred_sizing::study::sensitivity::{Dependence, Reach, Room, Sensitivity};
+use jred_sizing::study::common::{Study, sentence};
+use jred_sizing::study::sensitivity::{Dependence, Fixed, Reach, Room, Sensitivity};
 
 /// Name and version of the form in JSON, and its columns; one more for each rule.
 pub(crate) const FORM: &str = "jred-sensitivity/1";
@@ -122,6 +122,7 @@ fn notes(study: &Study, found: &Sensitivity, reach: Reach, words: &Vocabulary) -
             if let Room::Refused(change, why) = room {
                 let change = significant(change * 100.0, 3);
                 let path = path(dependence.quantity);
+                let why = sentence(why);
                 notes.push(format!("invalid beyond {change} % of {path}: {why}"));
             }
         }
@@ -135,9 +136,19 @@ fn notes(study: &Study, found: &Sensitivity, reach: Reach, words: &Vocabulary) -
         ));
     }
     notes.extend(
-        (found.fixed.iter()).map(|(index, why)| format!("not varied: {}: {why}", path(*index))),
+        (found.fixed.iter())
+            .map(|(index, why)| format!("not varied: {}: {}", path(*index), fixed(why))),
     );
     notes
+}
+
+fn fixed(why: &Fixed) -> String {
+    match why {
+        Fixed::Zero => "zero has no relative change".to_owned(),
+        Fixed::Refused(why) => sentence(why),
+        Fixed::OneLess(why) => format!("one less: {}", sentence(why)),
+        Fixed::OneMore(why) => format!("one more: {}", sentence(why)),
+    }
 }
 
 /// The table for reading; shows the uncertainty of a slope only if it affects the digits shown.
@@ -197,7 +208,7 @@ fn room(room: &Room, words: &Vocabulary) -> [Cell; 2] {
     match room {
         Room::AtLeast(_) => [percent, "still satisfied".into()],
         Room::UpTo(_, rule) => [percent, rule.named(words).into()],
-        Room::Refused(_, why) => [percent, format!("invalid: {why}").into()],
+        Room::Refused(_, why) => [percent, format!("invalid: {}", sentence(why)).into()],
         Room::Broken => [Cell::Empty, Cell::Empty],
     }
 }

@@ -53,8 +53,10 @@ fn of_cylinder(inertia: f64, mass: Option<f64>) -> f64 {
 fn mass(
     remarks: &mut Remarks,
     place: &dyn Fn() -> String,
-    [key, column]: [&str; 2],
-    (inertia, mass): (f64, Option<f64>),
+    key: &str,
+    column: &str,
+    inertia: f64,
+    mass: Option<f64>,
     most: f64,
 ) {
     let share = of_cylinder(inertia, mass);
@@ -103,8 +105,10 @@ pub(super) fn motor(remarks: &mut Remarks, place: &dyn Fn() -> String, motor: &M
         mass(
             remarks,
             place,
-            [key, "rotor_inertia"],
-            (motor.rotor_inertia, motor.mass),
+            key,
+            "rotor_inertia",
+            motor.rotor_inertia,
+            motor.mass,
             ROTOR,
         );
         if let Some((torque, speed)) = rated.zip(speed) {
@@ -214,8 +218,10 @@ pub(super) fn gearbox(remarks: &mut Remarks, place: &dyn Fn() -> String, gearbox
     mass(
         remarks,
         place,
-        [key, "input_inertia"],
-        (gearbox.inertia, gearbox.mass),
+        key,
+        "input_inertia",
+        gearbox.inertia,
+        gearbox.mass,
         GEARS,
     );
     let stages = f64::from(gearbox.stages.unwrap_or(1));

@@ -135,13 +135,13 @@ impl Contributions {
             } else {
                 ScheduleInstant::of(t, instant.omega / share)
             };
-            machine(&mut contributions, file, drive, (instant, &now, share))?;
+            machine(&mut contributions, file, drive, instant, &now, share)?;
             drive_parts(&mut contributions, file, drive, instant);
         }
         Ok(contributions)
     }
 
-    fn add(&mut self, (kind, part): (PartKind, &str), effect: Effect, torque: f64) {
+    fn add(&mut self, kind: PartKind, part: &str, effect: Effect, torque: f64) {
         if self.next == self.torques.len() {
             self.torques.push(Contribution {
                 kind,
@@ -168,7 +168,9 @@ fn machine(
     contributions: &mut Contributions,
     file: &MachineFile,
     drive: &Drive,
-    (instant, now, pace): (&Instant, &ScheduleInstant, f64),
+    instant: &Instant,
+    now: &ScheduleInstant,
+    pace: f64,
 ) -> Result<(), Error> {
     let machine = file.machine_at(now, instant.phi)?;
     let mechanism = machine.mechanism();
@@ -185,25 +187,26 @@ fn machine(
     // A carriage has its own share, apart from the link that carries it.
     let unladen = file.machine_among(now).mechanism();
     let links = unladen.links().iter().copied().zip(&frames).zip(names);
-    let links = links.map(|((link, frame), name)| (link, frame, (PartKind::Link, name.as_str())));
+    let links = links.map(|((link, frame), name)| (link, frame, PartKind::Link, name.as_str()));
     let mut parts: Vec<_> = links.collect();
     for carriage in file.schedule.carriages() {
         if let Some((t, frame)) = now.t.zip(frames.get(carriage.mass.link)) {
-            let part = (PartKind::Load, carriage.name.as_str());
-            parts.push((carriage.placed(t).alone()?, frame, part));
+            let (kind, part) = (PartKind::Load, carriage.name.as_str());
+            parts.push((carriage.placed(t).alone()?, frame, kind, part));
         }
     }
-    for (link, frame, part) in parts {
+    for (link, frame, kind, part) in parts {
         let [inertia, slope, _] = link.reduced_inertia(frame);
         let [_, weight] = link.potential_energy(frame, machine.gravity());
-        contributions.add(part, Effect::Acceleration, inertia * alpha / total);
+        contributions.add(kind, part, Effect::Acceleration, inertia * alpha / total);
         let velocity = 0.5 * slope * omega * omega;
-        contributions.add(part, Effect::Velocity, velocity / total);
-        contributions.add(part, Effect::Weight, weight / total);
-        contributions.add_inertia(part.1, inertia / (total * total));
+        contributions.add(kind, part, Effect::Velocity, velocity / total);
+        contributions.add(kind, part, Effect::Weight, weight / total);
+        contributions.add_inertia(part, inertia / (total * total));
     }
     contributions.add(
-        (PartKind::Drive, "flywheel"),
+        PartKind::Drive,
+        "flywheel",
         Effect::Acceleration,
         machine.flywheel() * alpha / total,
     );
@@ -212,7 +215,7 @@ fn machine(
         let curves = frames.get(load.link());
         let curves = curves.map(|frame| load.reduce(frame, instant.phi));
         let curves = curves.unwrap_or_default();
-        let part = (PartKind::Load, named.name.as_str());
+        let (kind, part) = (PartKind::Load, named.name.as_str());
         let effect = if mechanism.is_weight(load) {
             Effect::Weight
         } else {
@@ -223,18 +226,23 @@ fn machine(
         } else {
             (effect, 1.0)
         };
-        contributions.add(part, effect, -curves.process * scale / total);
-        contributions.add(part, Effect::Viscous, curves.viscous * omega / total);
-        contributions.add(part, Effect::Coulomb, curves.coulomb * sign / total);
+        contributions.add(kind, part, effect, -curves.process * scale / total);
+        contributions.add(kind, part, Effect::Viscous, curves.viscous * omega / total);
+        contributions.add(kind, part, Effect::Coulomb, curves.coulomb * sign / total);
     }
     for (element, named) in machine.elements().iter().zip(&file.elements) {
         let slope = element.length(&frames).d1;
         let still = element.effort(&frames, 0.0);
         let moving = element.effort(&frames, omega);
         // The effort acts on the element's end; the drive applies the opposite.
-        let part = (PartKind::Element, named.name.as_str());
-        contributions.add(part, Effect::Springs, -still * slope / total);
-        contributions.add(part, Effect::Viscous, (still - moving) * slope / total);
+        let (kind, part) = (PartKind::Element, named.name.as_str());
+        contributions.add(kind, part, Effect::Springs, -still * slope / total);
+        contributions.add(
+            kind,
+            part,
+            Effect::Viscous,
+            (still - moving) * slope / total,
+        );
     }
     Ok(())
 }
@@ -253,24 +261,22 @@ fn drive_parts(
     let lossless = instant.terms.total() / train.ratio() + behind * instant.input_alpha;
     let loss = (instant.input_torque - lossless) / ratio;
     contributions.add(
-        (PartKind::Drive, "drive train"),
+        PartKind::Drive,
+        "drive train",
         Effect::Train,
         behind * instant.input_alpha / ratio,
     );
-    contributions.add((PartKind::Drive, "drive train"), Effect::TrainLoss, loss);
+    contributions.add(PartKind::Drive, "drive train", Effect::TrainLoss, loss);
     contributions.add_inertia("drive train", behind / (ratio * ratio));
     let [_, driving, back, speed, sign] = loads(instant);
     let [_, to_machine, from_machine, viscous, coulomb] = drive.coefficients().0;
     let losses = driving * (to_machine - 1.0 / ratio) + back * (from_machine - 1.0 / ratio);
     let [own_coulomb, _] = drive.motor.friction;
     let gearbox = drive.gearbox.map_or(0.0, |g| g.inertia);
+    contributions.add(PartKind::Drive, "gearbox", Effect::Gearbox, gearbox * alpha);
     contributions.add(
-        (PartKind::Drive, "gearbox"),
-        Effect::Gearbox,
-        gearbox * alpha,
-    );
-    contributions.add(
-        (PartKind::Drive, "gearbox"),
+        PartKind::Drive,
+        "gearbox",
         Effect::GearboxLoss,
         losses + (coulomb - own_coulomb) * sign,
     );
@@ -278,19 +284,22 @@ fn drive_parts(
     let rotor = drive.motor.kind.vocabulary().rotor;
     let brake = drive.motor.brake_inertia();
     contributions.add(
-        (PartKind::Drive, rotor),
+        PartKind::Drive,
+        rotor,
         Effect::Rotor,
         drive.motor.rotor_inertia * alpha,
     );
     contributions.add_inertia(rotor, drive.motor.rotor_inertia);
     contributions.add(
-        (PartKind::Drive, "brake of the motor"),
+        PartKind::Drive,
+        "brake of the motor",
         Effect::Rotor,
         brake * alpha,
     );
     contributions.add_inertia("brake of the motor", brake);
     contributions.add(
-        (PartKind::Drive, "motor friction"),
+        PartKind::Drive,
+        "motor friction",
         Effect::Friction,
         viscous * speed + own_coulomb * sign,
     );

@@ -117,6 +117,20 @@ pub struct Remedy {
     pub best_use: Option<f64>,
 }
 
+impl Remedy {
+    /// The closest value at which every rule is satisfied, and the rule at its limit there; `None` if no value helps or the current one is suitable.
+    pub fn change(&self) -> Option<Edge> {
+        let [low, high] = self.range?;
+        if self.now < low.value {
+            Some(low)
+        } else if self.now > high.value {
+            Some(high)
+        } else {
+            None
+        }
+    }
+}
+
 /// A rule that a drive violates.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct RuleViolation {

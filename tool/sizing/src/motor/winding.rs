@@ -33,7 +33,7 @@ impl Commutation {
     }
 
     /// Copper loss as a multiple of R·I².
-    pub const fn loss_factor(self) -> f64 {
+    const fn loss_factor(self) -> f64 {
         match self {
             Self::Sine => 1.5,
             Self::Block => 1.0,

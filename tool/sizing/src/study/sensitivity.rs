@@ -9,15 +9,18 @@
 //! steps. A quantity that is zero has no relative change, and some quantities cannot be changed alone (the moves of a cycle add up to whole turns).
 //! These are listed with the reason.
 
+mod mover;
+
+use mover::{Mover, load};
+
 use crate::judge::Findings;
 use crate::judge::broken;
 use crate::study::chosen::ChosenDrive;
-use crate::study::common::{Study, sentence};
-use crate::study::edge::{Grid, Trial};
-use crate::study::edit::Edit;
+use crate::study::common::Study;
 use crate::threads;
 use jred_file::model::rule::Rule;
 use jred_file::model::rules::{Limit, RuleSet};
+use jred_file::text::problem::{Problem, Result};
 
 /// One rule's dependence on one quantity.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,14 +36,14 @@ pub struct Slope {
 }
 
 /// How far a quantity may change in one direction.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Debug)]
 pub enum Room {
     /// No violation within the search range: this relative change.
     AtLeast(f64),
     /// Up to this relative change; beyond it, the rule is violated.
     UpTo(f64, Rule),
     /// Up to this relative change; beyond it, the machine file is invalid for this reason.
-    Refused(f64, String),
+    Refused(f64, Problem),
     /// A rule is already violated.
     Broken,
 }
@@ -55,8 +58,21 @@ impl Room {
     }
 }
 
+/// Why a quantity is not varied.
+#[derive(Debug)]
+pub enum Fixed {
+    /// Zero has no relative change.
+    Zero,
+    /// The machine file with a changed quantity is invalid.
+    Refused(Problem),
+    /// The machine file with a count one less is invalid.
+    OneLess(Problem),
+    /// The machine file with a count one more is invalid.
+    OneMore(Problem),
+}
+
 /// Dependence on one quantity.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub struct Dependence {
     /// Index of the quantity in the document.
     pub quantity: usize,
@@ -91,14 +107,14 @@ impl Dependence {
 }
 
 /// Result of a sensitivity analysis.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub struct Sensitivity {
     /// The original shares of the limits.
     pub shares: Vec<(Rule, f64)>,
     /// By quantity; the one that affects a rule most comes first.
     pub dependences: Vec<Dependence>,
     /// Quantities that were not changed, and why.
-    pub fixed: Vec<(usize, String)>,
+    pub fixed: Vec<(usize, Fixed)>,
     /// Number of quantities in `[simulation]` and `[tolerance]`, which are omitted because no rule depends on them.
     pub left_out: usize,
 }
@@ -122,245 +138,6 @@ pub fn shares(rules: &RuleSet, findings: &Findings) -> Vec<(Rule, f64)> {
     used.filter(|(_, used)| used.is_finite()).collect()
 }
 
-/// A quantity of a study, to be changed.
-struct Mover<'a> {
-    study: &'a Study,
-    one: &'a ChosenDrive,
-    quantity: usize,
-    number: f64,
-    unit: &'a str,
-    /// The largest share of a limit for the original file.
-    load: f64,
-}
-
-/// A drive in a machine with one quantity changed.
-struct LimitUse {
-    /// Shares of the limits.
-    shares: Vec<(Rule, f64)>,
-    /// The violated rule.
-    broken: Option<Rule>,
-    /// The largest share of a limit that can refuse the drive; above one it is refused.
-    load: f64,
-}
-
-impl Room {
-    /// The room up to a change, from the drive after a larger one.
-    fn before(held: f64, stopped: Result<LimitUse, String>) -> Self {
-        match stopped {
-            Ok(LimitUse {
-                broken: Some(rule), ..
-            }) => Self::UpTo(held, rule),
-            Err(why) => Self::Refused(held, why),
-            Ok(LimitUse { broken: None, .. }) => Self::AtLeast(held),
-        }
-    }
-}
-
-fn of_rule(all: &[(Rule, f64)], rule: Rule) -> Option<f64> {
-    Some(all.iter().find(|(other, _)| *other == rule)?.1)
-}
-
-impl Mover<'_> {
-    /// The drive after a relative change of the quantity.
-    fn at(&self, change: f64) -> Result<LimitUse, String> {
-        let number = self.number * (1.0 + change);
-        // A count changed by its own step is whole except for rounding.
-        let whole = number.round();
-        let edit = Edit {
-            quantity: self.quantity,
-            number: if (number - whole).abs() <= 1e-9 * whole.abs() {
-                whole
-            } else {
-                number
-            },
-            unit: self.unit,
-        };
-        let machine = self
-            .study
-            .machine(&[edit])
-            .map_err(|report| sentence(&report))?;
-        let findings = self.one.findings(&machine);
-        let rules = &machine.file.rules;
-        Ok(LimitUse {
-            shares: shares(rules, &findings),
-            broken: broken(rules, &findings),
-            load: load(rules, &findings),
-        })
-    }
-
-    /// The slopes for `change`, and the drive at both ends, downwards and upwards.
-    fn slopes(&self, change: f64) -> Result<(Vec<Slope>, [LimitUse; 2]), String> {
-        // Upwards first: if both ends are refused, its reason is given.
-        let ends = |step: f64| -> Result<[LimitUse; 2], String> {
-            let above = self.at(step)?;
-            Ok([self.at(-step)?, above])
-        };
-        let outer = ends(change)?;
-        let coarse = differences(&outer, change);
-        let [half, quarter] = [0.5 * change, 0.25 * change];
-        let middle = differences(&ends(half)?, half);
-        let fine = differences(&ends(quarter)?, quarter);
-        let slope = |(rule, fine): &(Rule, f64)| {
-            let (coarse, middle) = (of_rule(&coarse, *rule)?, of_rule(&middle, *rule)?);
-            let extrapolated = |d: f64, half: f64| (4.0 * half - d) / 3.0;
-            let (first, second) = (extrapolated(coarse, middle), extrapolated(middle, *fine));
-            Some(Slope {
-                rule: *rule,
-                refuses: self.study.nominal.rules.limit(*rule).fail.is_some(),
-                slope: second,
-                uncertainty: (second - first).abs(),
-            })
-        };
-        Ok((fine.iter().filter_map(slope).collect(), outer))
-    }
-
-    /// The dependence on the quantity: by a small relative change; for a count, where that is impossible, by one.
-    fn dependence(&self, reach: Reach, holds: bool) -> Result<Dependence, String> {
-        let dependence = |whole: bool, slopes: Vec<Slope>, room: [Room; 2]| Dependence {
-            quantity: self.quantity,
-            whole,
-            slopes,
-            room,
-        };
-        let broken = [Room::Broken, Room::Broken];
-        match self.slopes(reach.change) {
-            Ok((slopes, _)) if !holds => Ok(dependence(false, slopes, broken)),
-            Ok((slopes, [below, above])) => {
-                let room = [self.room(-1.0, reach, below), self.room(1.0, reach, above)];
-                Ok(dependence(false, slopes, room))
-            }
-            Err(_) if self.counts() => {
-                let slopes = self.slopes_by_one()?;
-                let room = if holds {
-                    [-1.0, 1.0].map(|sign| self.room_by_one(sign, reach))
-                } else {
-                    broken
-                };
-                Ok(dependence(true, slopes, room))
-            }
-            Err(why) => Err(why),
-        }
-    }
-
-    /// Whether it is a count, and not an entry of a list that refers to something by its number.
-    fn counts(&self) -> bool {
-        let quantity = self.study.document.quantities().get(self.quantity);
-        quantity.is_some_and(|quantity| {
-            let last = quantity.path.rsplit('.').next().unwrap_or_default();
-            quantity.is_whole() && self.number >= 1.0 && last.parse::<f64>().is_err()
-        })
-    }
-
-    /// The drive with the count increased by `by`.
-    fn more(&self, by: f64) -> Result<LimitUse, String> {
-        self.at(by / self.number)
-    }
-
-    fn slopes_by_one(&self) -> Result<Vec<Slope>, String> {
-        let below = self.more(-1.0).map_err(|why| format!("one less: {why}"))?;
-        let [same, above] = [0.0, 1.0].map(|by| self.more(by));
-        let (same, above) = (same?, above.map_err(|why| format!("one more: {why}"))?);
-        let slope = |(rule, above): &(Rule, f64)| {
-            let [below, same] = [
-                of_rule(&below.shares, *rule)?,
-                of_rule(&same.shares, *rule)?,
-            ];
-            Some(Slope {
-                rule: *rule,
-                refuses: self.study.nominal.rules.limit(*rule).fail.is_some(),
-                slope: 0.5 * self.number * (above - below),
-                uncertainty: 0.5 * self.number * (above - 2.0 * same + below).abs(),
-            })
-        };
-        Ok(above.shares.iter().filter_map(slope).collect())
-    }
-
-    /// Room of a count in the direction of `sign`: by doubling steps, then by bisection of the last.
-    fn room_by_one(&self, sign: f64, reach: Reach) -> Room {
-        let share = |by: f64| sign * by / self.number;
-        let most = (reach.most * self.number).floor().max(1.0);
-        let most = if sign < 0.0 {
-            most.min(self.number - 1.0)
-        } else {
-            most
-        };
-        let holds =
-            |tried: &Result<LimitUse, String>| matches!(tried, Ok(LimitUse { broken: None, .. }));
-        let (mut held, mut step) = (0.0, 1.0f64);
-        let mut stopped = loop {
-            let by = step.min(most);
-            if held >= most {
-                return Room::AtLeast(share(held));
-            }
-            let tried = self.more(sign * by);
-            if !holds(&tried) {
-                break (by, tried);
-            }
-            (held, step) = (by, 2.0 * step);
-        };
-        while stopped.0 - held > 1.0 {
-            let by = (0.5 * (held + stopped.0)).floor();
-            let tried = self.more(sign * by);
-            if holds(&tried) {
-                held = by;
-            } else {
-                stopped = (by, tried);
-            }
-        }
-        Room::before(share(held), stopped.1)
-    }
-
-    /// Room of the quantity in the direction of `sign`, by doubling steps, then on a [`Grid`] of the last one; `first` is the drive after the first
-    /// step.
-    fn room(&self, sign: f64, reach: Reach, first: LimitUse) -> Room {
-        let (mut held, mut tried) = ((0.0, self.load), reach.change);
-        let mut there = Ok(first);
-        let stopped = loop {
-            match there {
-                Ok(LimitUse {
-                    broken: None, load, ..
-                }) => held = (tried, load),
-                stopped => break stopped,
-            }
-            if tried >= reach.most {
-                return Room::AtLeast(sign * tried);
-            }
-            tried = (2.0 * tried).min(reach.most);
-            there = self.at(sign * tried);
-        };
-        let trial = |what: Result<LimitUse, String>| Trial {
-            holds: matches!(what, Ok(LimitUse { broken: None, .. })),
-            // Without a file there is no share: the step is halved.
-            height: what.as_ref().map_or(f64::NAN, |judged| judged.load - 1.0),
-            what,
-        };
-        let grid = Grid {
-            from: held.0,
-            to: tried,
-        };
-        let at = |change: f64| trial(self.at(sign * change));
-        let (held, stopped) = grid.last_held(held.1 - 1.0, trial(stopped), at);
-        Room::before(sign * held, stopped)
-    }
-}
-
-/// The largest share of a limit that can refuse a drive.
-fn load(rules: &RuleSet, findings: &Findings) -> f64 {
-    let uses = findings
-        .iter()
-        .map(|(rule, finding)| rules.use_of_limit(rule, finding));
-    uses.fold(0.0, f64::max)
-}
-
-/// (u(ε) − u(−ε))/(2ε) of every rule.
-fn differences([below, above]: &[LimitUse; 2], change: f64) -> Vec<(Rule, f64)> {
-    let pairs = above.shares.iter().filter_map(|(rule, above)| {
-        let below = of_rule(&below.shares, *rule)?;
-        Some((*rule, (above - below) / (2.0 * change)))
-    });
-    pairs.collect()
-}
-
 impl Sensitivity {
     /// Changes every quantity of the study's machine file; `progress` is called for each.
     ///
@@ -371,7 +148,7 @@ impl Sensitivity {
         one: &ChosenDrive,
         reach: Reach,
         progress: impl Fn() + Sync,
-    ) -> jred_file::text::problem::Result<Self> {
+    ) -> Result<Self> {
         let machine = study.machine(&[])?;
         let findings = one.findings(&machine);
         let rules = &machine.file.rules;
@@ -386,7 +163,7 @@ impl Sensitivity {
         let quantities = study.document.quantities().iter().enumerate();
         let quantities: Vec<_> = quantities.filter(|(_, q)| !apart(&q.path)).collect();
         let left_out = study.document.quantities().len() - quantities.len();
-        let found: Vec<(usize, Result<Dependence, String>)> =
+        let found: Vec<(usize, Result<Dependence, Fixed>)> =
             threads::map(&quantities, |&(index, quantity)| {
                 let mover = Mover {
                     study,
@@ -397,7 +174,7 @@ impl Sensitivity {
                     load,
                 };
                 let dependence = if quantity.number() == 0.0 {
-                    Err("zero has no relative change".to_owned())
+                    Err(Fixed::Zero)
                 } else {
                     mover.dependence(reach, holds)
                 };
@@ -424,7 +201,7 @@ impl Sensitivity {
     /// Whether the original drive already violates a rule, so that there is no room.
     pub fn is_broken(&self) -> bool {
         let mut all = self.dependences.iter();
-        all.any(|d| d.room.contains(&Room::Broken))
+        all.any(|d| matches!(d.room, [Room::Broken, _] | [_, Room::Broken]))
     }
 
     /// The quantity with the smallest change that violates a rule, and its room.

@@ -163,23 +163,10 @@ fn no_value_helps_where_the_rotor_alone_is_too_heavy() {
         alpha * (800.0 + 0.5 * 1.0) / 10.0,
         budget::SAME_SUMS,
     );
-    assert!(
-        found
-            .sentence(1.0, remedies.words)
-            .contains("moving masses 100 %: no value from 50 % to 100 % helps; at 50 %, the best")
-    );
     assert_eq!(found.change(), None);
-    // As in the table of checks, figures beyond ten times the limit have few digits.
-    let words = remedies.misses[0].sentence(remedies.words);
-    assert!(
-        words.contains("RMS torque uses > 1000 % of its limit"),
-        "{words}"
-    );
-    assert!(
-        found
-            .sentence(1.0, remedies.words)
-            .contains("> 1000 % of its limit")
-    );
+    let miss = &remedies.misses[0];
+    assert_eq!(miss.rule, Rule::RmsTorque);
+    assert!(miss.used > Some(10.0), "{miss:?}");
 }
 
 /// With few steps the peak torque is resolved by instants without a weight, so a range ends at the peak of the motion law: α = 10/√3·s/t².
@@ -308,14 +295,9 @@ fn nobody_is_told_to_make_the_machine_heavier() {
     let alpha = stand.duty.figures(|i| i.alpha).rms;
     let mut rules = only_rms();
     let remedies = stand.remedies(&rules);
-    for (lever, words) in [
-        (Lever::CycleTime, "no value from 0.5 s to 2 s helps"),
-        (Lever::MovingMass, "no value from 50 % to 100 % helps"),
-    ] {
+    for lever in [Lever::CycleTime, Lever::MovingMass] {
         let found = remedy(&remedies, lever);
         assert_eq!((found.range, found.change()), (None, None));
-        let said = found.sentence(1.0, remedies.words);
-        assert!(said.contains(words), "{said}");
     }
     let fail = Some(6.0);
     rules.set(Rule::RmsTorque, Limit { fail, warn: None });

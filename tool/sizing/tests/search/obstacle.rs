@@ -100,61 +100,7 @@ fn reasons_where_no_ratio_holds() {
                 }
                 Obstacle::Together { .. } => seen[2] += 1,
             }
-            assert!(!obstacle.words().is_empty());
         }
     }
     assert!(seen[0] > 10 && seen[1] > 5, "{seen:?}");
-}
-
-/// Each reason as text: a voltage does not depend on the ratio, and a limit of zero has no share.
-#[test]
-fn reasons_in_words() {
-    let always = |rule, used| Obstacle::Always {
-        rule,
-        used,
-        ratio: 12.34,
-    };
-    let together = |used| Obstacle::Together {
-        rule: Rule::Speed,
-        used,
-        ratio: 12.34,
-    };
-    let words = |obstacle: Obstacle| obstacle.words();
-    let [voltage, torque, speed] =
-        [Rule::MotorVoltage, Rule::RmsTorque, Rule::Speed].map(Rule::name);
-    for (obstacle, expected) in [
-        (
-            always(Rule::MotorVoltage, 1.25),
-            format!("{voltage}: 125 % of its limit, whatever the ratio"),
-        ),
-        (
-            always(Rule::RmsTorque, 1.25),
-            format!("{torque}: 125 % of its limit at best, at ratio 12.3"),
-        ),
-        (
-            always(Rule::RmsTorque, f64::INFINITY),
-            format!("{torque}: nothing of its limit is left at any ratio; at best at ratio 12.3"),
-        ),
-        (
-            Obstacle::Apart {
-                least: (Rule::RmsTorque, 20.0),
-                most: (Rule::Speed, 10.0),
-            },
-            format!("{torque} needs 20 or more, {speed} 10 or less"),
-        ),
-        (
-            together(1.25),
-            format!(
-                "not all rules at once: at ratio 12.3, the best, {speed} uses 125 % of its limit"
-            ),
-        ),
-        (
-            together(f64::INFINITY),
-            format!(
-                "not all rules at once: at ratio 12.3, the best, nothing is left of the limit of {speed}"
-            ),
-        ),
-    ] {
-        assert_eq!(words(obstacle), expected);
-    }
 }

@@ -3,7 +3,7 @@
 use jred::error::Error;
 use serde::Serialize;
 
-use super::table;
+use super::{remedy, table};
 use crate::answer::Answer;
 use crate::table::reading::ColumnKind::{self, Quantity, Words};
 use jred_analysis::duty::Duty;
@@ -144,15 +144,16 @@ pub(crate) fn contributions(answer: &mut Answer, breakdown: &Breakdown) {
 /// A drive, the rules it violates, and the range of each quantity.
 pub(crate) fn changes(answer: &mut Answer, remedies: &Remedies, duration: f64) {
     let misses = remedies.misses.iter();
-    let misses: Vec<String> = misses.map(|miss| miss.sentence(remedies.words)).collect();
+    let misses: Vec<String> = misses
+        .map(|miss| remedy::violation(miss, remedies.words))
+        .collect();
     if misses.is_empty() {
         answer.sentence(&remedies.drive);
     } else {
         answer.sentence(format!("{}: {}", remedies.drive, misses.join("; ")));
     }
-    for remedy in &remedies.remedies {
-        let sentence = remedy.sentence(duration, remedies.words);
-        let (name, says) = sentence.split_once(": ").unwrap_or(("", &sentence));
+    for one in &remedies.remedies {
+        let [name, says] = remedy::fact(one, duration, remedies.words);
         answer.fact(name, says);
     }
 }

@@ -8,7 +8,6 @@ use crate::judge::Findings;
 use jred_file::model::rule::Rule;
 use jred_file::model::rules::RuleVerdict;
 use jred_file::number::numerics::edge;
-use jred_file::number::rounding::significant;
 
 /// Parts into which a step of the grid of ratios is cut where the use of a limit is least.
 const FINER: u32 = 200;
@@ -41,49 +40,6 @@ pub enum Obstacle {
         /// The ratio.
         ratio: f64,
     },
-}
-
-impl Obstacle {
-    /// The message.
-    pub fn words(&self) -> String {
-        let shown = |x: f64| significant(x, 3);
-        match *self {
-            Self::Always { rule, used, .. } if rule.is_of_voltage() => format!(
-                "{}: {} % of its limit, whatever the ratio",
-                rule.name(),
-                shown(used * 100.0)
-            ),
-            Self::Always { rule, used, ratio } if !used.is_finite() => format!(
-                "{}: nothing of its limit is left at any ratio; at best at ratio {}",
-                rule.name(),
-                shown(ratio)
-            ),
-            Self::Together { rule, used, ratio } if !used.is_finite() => format!(
-                "not all rules at once: at ratio {}, the best, nothing is left of the limit of {}",
-                shown(ratio),
-                rule.name()
-            ),
-            Self::Always { rule, used, ratio } => format!(
-                "{}: {} % of its limit at best, at ratio {}",
-                rule.name(),
-                shown(used * 100.0),
-                shown(ratio)
-            ),
-            Self::Apart { least, most } => format!(
-                "{} needs {} or more, {} {} or less",
-                least.0.name(),
-                shown(least.1),
-                most.0.name(),
-                shown(most.1)
-            ),
-            Self::Together { rule, used, ratio } => format!(
-                "not all rules at once: at ratio {}, the best, {} uses {} % of its limit",
-                shown(ratio),
-                rule.name(),
-                shown(used * 100.0)
-            ),
-        }
-    }
 }
 
 /// Result of one rule over the ratios tried.
