@@ -97,9 +97,10 @@ impl Search<'_> {
         let places = 4 * fitted.samples + 1;
         let (measured, worst) = harmonic::measure(&self.machine, &table, &request, places)?;
         let domain = self.machine.domain();
-        let all = (0, f64::INFINITY);
         let read = |phase| table.si(phase, domain);
-        let (looked, _) = self.reference.error(read, self.goal.range, all);
+        let (looked, _) = self
+            .reference
+            .error(read, self.goal.range, 0, f64::INFINITY);
         let mut image = vec![0; image_len::<F>(fitted.harmonics, set)];
         let mut written = |error: f64| {
             let validity = Validity {

@@ -4,8 +4,8 @@ use schemars::Schema;
 
 use crate::answer::schema::{of, of_sheet};
 use crate::list;
+use crate::list::export::ExportData;
 use jred_analysis::steady::Steady;
-use jred_export::data::ExportData;
 
 /// All schemas, each with the name of its form.
 pub fn all() -> Vec<(&'static str, Schema)> {

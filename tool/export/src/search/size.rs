@@ -58,15 +58,16 @@ impl Size<'_> {
     pub(super) fn look<F: Format>(
         &self,
         buffers: &mut Buffers<F>,
-        from: (usize, f64),
+        start: usize,
+        limit: f64,
     ) -> Result<(f64, usize), Error> {
         let table = self.fill(buffers)?;
         let Search {
             reference, domain, ..
         } = self.search;
         let read = |phase| table.si(phase, *domain);
-        let found = reference.error(read, self.search.goal.range, from);
-        if found.0 <= from.1 {
+        let found = reference.error(read, self.search.goal.range, start, limit);
+        if found.0 <= limit {
             Usage::of(&table).map_err(Error::Table)?;
         }
         Ok(found)
@@ -118,7 +119,7 @@ impl Size<'_> {
 
     /// The torque error of a table in double precision, that is, without rounding, and its position.
     pub(super) fn without_rounding<F: Format>(&self) -> Result<(f64, f64), Error> {
-        let (error, index) = self.look::<F>(&mut Buffers::default(), (0, f64::INFINITY))?;
+        let (error, index) = self.look::<F>(&mut Buffers::default(), 0, f64::INFINITY)?;
         let worst = self.search.reference.places.get(index);
         Ok((
             error,
