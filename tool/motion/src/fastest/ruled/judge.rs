@@ -40,6 +40,7 @@ impl<'a> Judge<'a> {
     }
 
     /// With brake resistors to choose from, as `jred size` has them.
+    #[must_use]
     pub const fn with_resistors(mut self, resistors: &'a [Resistor]) -> Self {
         self.resistors = resistors;
         self

@@ -195,12 +195,11 @@ impl Request<'_> {
         );
         for least in &found.layouts {
             let counted = least.layout.counted();
-            let piece = match found.in_pieces {
-                true => {
-                    let [from, to] = least.range.map(|end| coordinate.place(end));
-                    format!(" in the piece from {from} to {to}")
-                }
-                false => String::new(),
+            let piece = if found.in_pieces {
+                let [from, to] = least.range.map(|end| coordinate.place(end));
+                format!(" in the piece from {from} to {to}")
+            } else {
+                String::new()
             };
             let limit = match least.limit {
                 AccuracyLimit::Rounding => {
