@@ -43,7 +43,9 @@ pub(crate) fn run(text: &str) -> Result<Columns, String> {
         SimulationError::Machine(error) => error.to_string(),
         SimulationError::Parted { t, separation } => format!(
             "at t = {t:.6} s {}: at {}; {}",
-            separation.what, separation.state, separation.cure
+            separation.what(),
+            separation.state(),
+            separation.cure()
         ),
         why => format!("{why:?}"),
     })?;

@@ -107,7 +107,7 @@ fn images_of(file: &Path, bytes: u32, [omega, alpha]: [f64; 2]) -> Vec<Vec<u32>>
             assert_eq!((number.name(), layout.name()), kind);
             match answer {
                 SearchResult::Meets(mut candidate) => candidate.tables.remove(0).words,
-                other => panic!("{kind:?}: {}", other.remark()),
+                other => panic!("{kind:?}: {other:?}"),
             }
         })
         .collect();

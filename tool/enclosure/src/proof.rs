@@ -211,7 +211,7 @@ impl ProofSearch<'_> {
         let finest = if sharp || !halves { FINEST } else { 2 };
         let mut parts = Vec::new();
         for (index, cell) in self.cells_of(stretch) {
-            let part = self.part(&curves, (index, &cell), stretch, finest);
+            let part = self.part(&curves, index, &cell, stretch, finest);
             if !sharp && halves && !within(part.most, self.enough()) {
                 return self.halve(stretch, middle, depth);
             }
@@ -249,7 +249,8 @@ impl ProofSearch<'_> {
     fn part(
         &mut self,
         curves: &Curves,
-        (index, cell): (u32, &CellCurves),
+        index: u32,
+        cell: &CellCurves,
         [from, to]: [f64; 2],
         finest: u32,
     ) -> StretchBounds {

@@ -128,19 +128,6 @@ pub enum SearchResult<T = Candidate> {
     TooLarge(usize),
 }
 
-impl<T> SearchResult<T> {
-    /// Why it is not chosen, in a few words; empty if it meets the request.
-    pub const fn remark(&self) -> &'static str {
-        match self {
-            Self::Meets(_) => "",
-            Self::Misses(_) => "misses",
-            Self::Refused(_) => "no size is usable",
-            Self::TooCoarse(..) => "too coarse",
-            Self::TooLarge(_) => "does not fit",
-        }
-    }
-}
-
 impl SearchResult<RangeTable> {
     /// The result of all pieces together: a failure of one piece is a failure of all.
     pub(crate) fn together(pieces: Vec<Self>, number: Number, layout: LayoutName) -> SearchResult {

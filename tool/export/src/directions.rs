@@ -14,11 +14,10 @@ use jred::Domain;
 use jred::error::Error;
 use jred::machine::{Machine, PoseError, Reducible, Reduction};
 
-use crate::task::{Failure, Task};
+use crate::task::{Failure, Impossible, Task};
 use jred_file::model::machine::{MachineFile, Machines};
 use jred_file::model::mechanism::AnyMechanism;
 use jred_file::model::schedule::ScheduleInstant;
-use jred_file::number::rounding::short;
 
 /// Places at which both directions are compared.
 const PLACES: u32 = 1440;
@@ -54,7 +53,7 @@ impl MachineByDirection {
             forward: way(1.0)?,
             backward: Some(way(-1.0)?),
         };
-        both.check(file)?;
+        both.check()?;
         Ok(both)
     }
 
@@ -64,7 +63,7 @@ impl MachineByDirection {
     }
 
     /// Refuses resistances that no load and friction represent: viscous friction by direction, and loads that drive.
-    fn check(&self, file: &MachineFile) -> Result<(), Failure> {
+    fn check(&self) -> Result<(), Failure> {
         let Some(backward) = &self.backward else {
             return Ok(());
         };
@@ -86,26 +85,13 @@ impl MachineByDirection {
                 there.viscous + back.viscous,
             ));
         }
-        let coordinate = file.machine.mechanism().coordinate();
-        for (phi, coulomb, difference, sum) in found {
-            let at = coordinate.place(phi);
+        for (at, coulomb, difference, sum) in found {
             if difference.abs() > LOAD_ROUNDING * sum.abs() {
-                return Err(Failure::Impossible {
-                    message: format!(
-                        "the viscous friction goes by the direction: at {at} it is another one forwards than backwards, and a table has one b"
-                    ),
-                    help: "remove the direction of the viscous load, or give it to the firmware as a torque of its own".to_owned(),
-                });
+                return Err(Failure::Impossible(Impossible::ViscousByDirection { at }));
             }
             if coulomb < -LOAD_ROUNDING * largest {
-                return Err(Failure::Impossible {
-                    message: format!(
-                        "the loads by direction drive the motion: at {at} they take {} {} less forwards than backwards, and friction takes more",
-                        short(-2.0 * coulomb),
-                        coordinate.effort_unit()
-                    ),
-                    help: "remove their direction, or give the firmware what helps the motion as a torque of its own".to_owned(),
-                });
+                let excess = -2.0 * coulomb;
+                return Err(Failure::Impossible(Impossible::DrivingLoads { at, excess }));
             }
         }
         Ok(())

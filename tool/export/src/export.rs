@@ -7,18 +7,16 @@ use jred::{Domain, Phase};
 
 use crate::candidate::{Candidate, RangeTable, SearchResult};
 use crate::choice::{LayoutChoice, LayoutName, Number};
-use crate::cost::{self, Core};
+use crate::cost;
 use crate::directions::MachineByDirection;
 use crate::fault::SearchFailure;
 use crate::pieces::{self, Searches};
 use crate::search::TableRequirements;
 use crate::slider_crank;
-use crate::task::{Failure, Task};
+use crate::task::{Failure, Impossible, Task};
 use crate::ticks;
-use jred_file::model::by_motion::ByMotion;
 use jred_file::model::coordinate::Coordinate;
 use jred_file::model::machine::MachineFile;
-use jred_file::number::rounding::short;
 
 /// Smallest piece as a share of the range: [`Pieces`](jred::Pieces) accepts no shorter one.
 const SHORTEST: f64 = 1.0 / 65_536.0;
@@ -29,39 +27,25 @@ const MOST_CELLS: usize = 1 << 19;
 /// A table ready to be written, and the results of the other types and layouts.
 #[derive(Clone, Debug)]
 pub struct Export {
-    pub(crate) title: String,
+    /// Title of the machine.
+    pub title: String,
     /// Whether the drive link turns or slides.
     pub coordinate: Coordinate,
     pub(crate) domain: Domain,
     /// Whether the range is cut; a turn with one edge has one piece, which begins there.
     pub(crate) in_pieces: bool,
-    pub(crate) task: Task,
+    /// The request.
+    pub task: Task,
     /// Identifier of the machine.
-    pub(crate) machine: u32,
+    pub machine: u32,
     /// Branches of the drive train, whose losses and friction are in no table.
-    pub(crate) branches: Vec<String>,
+    pub branches: Vec<String>,
     /// Whether loads depend on the direction of travel.
-    pub(crate) by_direction: bool,
+    pub by_direction: bool,
     /// Size of every number type and layout.
     pub answers: Vec<(Number, LayoutName, SearchResult)>,
     /// Index of the chosen one.
     pub chosen: usize,
-}
-
-/// Refuses loads that depend on the motion.
-fn check_timeless(file: &MachineFile) -> Result<(), Failure> {
-    if let Some(ByMotion { what, cure }) = file.not_by_direction().next() {
-        return Err(Failure::Impossible {
-            message: format!(
-                "{what}: that goes by [motion], and a table is over the position of the drive link alone"
-            ),
-            help: format!(
-                "{cure}, for this command, and give the firmware what acts in one part of the motion as a torque of its own; a payload that \
-                 comes and goes is a table each"
-            ),
-        });
-    }
-    Ok(())
 }
 
 impl Export {
@@ -75,7 +59,9 @@ impl Export {
 
     /// The same; `provable` excludes layouts that only `auto` would choose and that cannot be proven.
     pub(crate) fn found(file: &MachineFile, task: Task, provable: bool) -> Result<Self, Failure> {
-        check_timeless(file)?;
+        if let Some(part) = file.not_by_direction().next() {
+            return Err(Failure::Impossible(Impossible::ByMotion(part)));
+        }
         let machine = MachineByDirection::new(file, &task)?;
         let coordinate = file.machine.mechanism().coordinate();
         let goal = TableRequirements {
@@ -87,36 +73,26 @@ impl Export {
         };
         let domain = machine.domain();
         let pieces = pieces::between(domain, &task.edges);
-        if let Some([from, to]) = pieces
+        let shortest = SHORTEST * domain.span();
+        if let Some(&range) = pieces
             .iter()
-            .find(|[from, to]| to - from < SHORTEST * domain.span() * (1.0 - 1e-9))
+            .find(|[from, to]| to - from < shortest * (1.0 - 1e-9))
         {
-            return Err(Failure::Impossible {
-                message: format!(
-                    "the piece from {} to {} is shorter than {} {}, 1/65536 of the range",
-                    coordinate.place(*from),
-                    coordinate.place(*to),
-                    short(coordinate.shown(SHORTEST * domain.span())),
-                    coordinate.unit()
-                ),
-                help: "make the load's ramp longer, or name positions that are farther apart with --pieces"
-                    .to_owned(),
-            });
+            return Err(Failure::Impossible(Impossible::ShortPiece {
+                range,
+                shortest,
+            }));
         }
         if pieces.len() * task.max_cells as usize > MOST_CELLS {
-            return Err(Failure::Impossible {
-                message: format!(
-                    "{} pieces of up to {} cells are too many cells; at most {MOST_CELLS}",
-                    pieces.len(),
-                    task.max_cells
-                ),
-                help: format!("use --max-cells {} or fewer", MOST_CELLS / pieces.len()),
-            });
+            return Err(Failure::Impossible(Impossible::TooManyCells {
+                pieces: pieces.len(),
+                most: MOST_CELLS,
+            }));
         }
         // A closed form covers the whole turn.
         let crank = slider_crank::plain(machine.same());
         if let (LayoutChoice::SliderCrank, Err(why)) = (task.layout, &crank) {
-            return Err(why.failure(file));
+            return Err(Failure::Impossible(Impossible::NoClosedForm(why.clone())));
         }
         let left_out = provable && task.layout == LayoutChoice::Auto;
         let crank = crank.ok().filter(|_| pieces.is_empty() && !left_out);
@@ -137,7 +113,6 @@ impl Export {
         let Some(chosen) = choose(&task, &answers) else {
             return Err(SearchFailure {
                 file,
-                coordinate,
                 task: &task,
                 search: &search,
                 answers: &answers,
@@ -170,11 +145,6 @@ impl Export {
         })
     }
 
-    /// The core that it was chosen for.
-    pub const fn core(&self) -> Core {
-        self.task.core
-    }
-
     /// The chosen table.
     ///
     /// # Panics
@@ -187,8 +157,14 @@ impl Export {
         }
     }
 
+    /// The number type and layout that were chosen.
+    pub fn kind(&self) -> (Number, LayoutName) {
+        let chosen = self.chosen();
+        (chosen.number, chosen.layout)
+    }
+
     /// The table, if it covers the whole range.
-    pub(crate) fn whole(&self) -> Option<&RangeTable> {
+    pub fn whole(&self) -> Option<&RangeTable> {
         let table = self.chosen().tables.first();
         table.filter(|_| !self.in_pieces)
     }

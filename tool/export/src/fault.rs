@@ -1,6 +1,4 @@
-//! Why no table meets the request: the result of each layout, the obstacle, and the cure.
-
-use std::fmt::Write as _;
+//! Why no table meets the request: the result of each layout, the obstacle, and other tables that do.
 
 use jred::error::Error;
 use jred::number::RangeError;
@@ -12,26 +10,120 @@ use crate::choice::{LayoutName, Number};
 use crate::pieces::Searches;
 use crate::place::{Feature, feature};
 use crate::search::Search;
-use crate::task::{Failure, Task};
-use jred_file::model::coordinate::Coordinate;
+use crate::task::{Failure, Impossible, Task};
 use jred_file::model::machine::MachineFile;
-use jred_file::number::rounding::{rounded, short};
 
 /// A search without a result.
 pub(crate) struct SearchFailure<'f> {
     pub(crate) file: &'f MachineFile,
-    pub(crate) coordinate: Coordinate,
     pub(crate) task: &'f Task,
     pub(crate) search: &'f Searches<'f>,
     pub(crate) answers: &'f [(Number, LayoutName, SearchResult)],
 }
 
+/// Why no table meets the torque error.
+#[derive(Clone, Debug)]
+pub enum NotReached {
+    /// Harmonics or the closed form cannot hold the machine.
+    Refused(Error),
+    /// A larger number of cells than allowed would give a table of each requested layout.
+    TooCoarse {
+        /// The requested layouts.
+        layouts: Vec<CoarseLayout>,
+        /// Tables of other layouts and types that meet the request.
+        alternatives: Vec<Alternative>,
+    },
+    /// The tables are less accurate than requested.
+    Inaccurate(Inaccuracy),
+}
+
+/// A layout without a usable table of the allowed number of cells.
+#[derive(Clone, Copy, Debug)]
+pub struct CoarseLayout {
+    /// The layout.
+    pub layout: LayoutName,
+    /// The error of its largest table.
+    pub error: Error,
+    /// A number of cells that is enough.
+    pub cells: u32,
+}
+
+/// The errors of the requested layouts.
+#[derive(Clone, Debug)]
+pub struct Inaccuracy {
+    /// The layouts, most accurate first.
+    pub layouts: Vec<LeastError>,
+    /// Position of the largest error of the most accurate one (rad, or m).
+    pub worst: f64,
+    /// The feature there.
+    pub feature: Option<Feature>,
+    /// Whether the largest error is at the feature only with more cells.
+    pub finer: bool,
+    /// Whether the table is cut into pieces.
+    pub in_pieces: bool,
+    /// Tables of other layouts and types that meet the request.
+    pub alternatives: Vec<Alternative>,
+}
+
+/// The least error of a layout.
+#[derive(Clone, Copy, Debug)]
+pub struct LeastError {
+    /// The layout.
+    pub layout: LayoutName,
+    /// Its number of cells.
+    pub cells: u32,
+    /// Its torque error (N·m, or N).
+    pub error: f64,
+    /// Range of the table with this error (rad, or m).
+    pub range: [f64; 2],
+    /// The obstacle to a smaller error.
+    pub limit: AccuracyLimit,
+}
+
 /// Obstacles to a more accurate table.
-enum AccuracyLimit {
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum AccuracyLimit {
     /// The number type.
     Rounding,
-    /// The number of cells: the error falls with this power of it, if it falls.
-    Cells(Option<f64>),
+    /// The number of cells, which hardly lower the error.
+    Cells,
+    /// The number of cells: the error falls with this power of it.
+    Order(f64, CellsNeeded),
+}
+
+/// Number of cells for the requested error, if the error continues to fall.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum CellsNeeded {
+    /// Fewer than were tried: the error does not follow its order.
+    Irregular,
+    /// This number.
+    Enough(u32),
+    /// More than a table can have.
+    TooMany,
+}
+
+/// The most accurate table that fits.
+#[derive(Clone, Copy, Debug)]
+pub struct BestFit {
+    /// Layout.
+    pub layout: LayoutName,
+    /// Number of cells.
+    pub cells: u32,
+    /// Its torque error (N·m, or N).
+    pub error: f64,
+}
+
+/// A table of another layout or type that meets the request.
+#[derive(Clone, Copy, Debug)]
+pub struct Alternative {
+    /// Number type.
+    pub number: Number,
+    /// Layout.
+    pub layout: LayoutName,
+    /// Number of cells.
+    pub cells: u32,
+    /// Size of the image (bytes).
+    pub bytes: usize,
 }
 
 impl SearchFailure<'_> {
@@ -51,20 +143,10 @@ impl SearchFailure<'_> {
             ),
         ] = own[..]
         {
-            let text = format!("{error}; {}", error.cure());
-            return Ok(Failure::NotReached(text));
+            return Ok(Failure::NotReached(NotReached::Refused(*error)));
         }
         if let Some(SearchResult::Refused(Error::Table(TableError::PieceUnits))) = own.first() {
-            return Ok(Failure::Impossible {
-                message: format!(
-                    "the tables of pieces share their machine units, which for {} go with the width of a cell, and these edges \
-                     leave no common width with up to {} cells",
-                    self.task.number.name(),
-                    self.task.max_cells
-                ),
-                help: "take --type f32 or --type i16, or edges at multiples of a simple part of the range, such as whole degrees"
-                    .to_owned(),
-            });
+            return Ok(Failure::Impossible(Impossible::PieceUnits));
         }
         let misses = own.iter().filter_map(|answer| match answer {
             SearchResult::Misses(candidate) => Some(candidate.as_ref()),
@@ -72,12 +154,12 @@ impl SearchFailure<'_> {
         });
         let mut misses: Vec<&Candidate> = misses.collect();
         misses.sort_by(|a, b| a.error().total_cmp(&b.error()));
-        if let Some(most) = self.task.max_bytes {
-            return Ok(self.none_fits(most, &own, misses.first().copied()));
+        if self.task.max_bytes.is_some() {
+            return Ok(self.none_fits(&own, misses.first().copied()));
         }
         let Some(best) = misses.first() else {
-            if let Some(text) = self.too_coarse() {
-                return Ok(Failure::NotReached(text));
+            if let Some(coarse) = self.too_coarse() {
+                return Ok(Failure::NotReached(coarse));
             }
             // All are refused.
             let refused = own.iter().find_map(|answer| match answer {
@@ -88,145 +170,60 @@ impl SearchFailure<'_> {
                 RangeError::NotFinite("torque error of the table").into(),
             )));
         };
-        self.not_reached(&misses, best).map(Failure::NotReached)
+        let inaccuracy = self.inaccuracy(&misses, best)?;
+        Ok(Failure::NotReached(NotReached::Inaccurate(inaccuracy)))
     }
 
-    fn error(&self, bound: f64) -> String {
-        format!("{} {}", short(bound), self.coordinate.effort_unit())
-    }
-
-    fn effort(&self) -> &'static str {
-        self.coordinate.vocabulary().torque.word
-    }
-
-    /// If a larger number of cells than allowed would give a table of each requested layout: which layouts, and how many cells.
-    fn too_coarse(&self) -> Option<String> {
-        let coarse = self.answers.iter().filter_map(|(number, layout, answer)| {
+    fn too_coarse(&self) -> Option<NotReached> {
+        let layouts = self.answers.iter().filter_map(|(number, layout, answer)| {
             let asked = *number == self.task.number && self.task.layout.allows(*layout);
             match answer {
-                SearchResult::TooCoarse(error, cells) if asked => Some((layout, error, *cells)),
+                SearchResult::TooCoarse(error, cells) if asked => Some(CoarseLayout {
+                    layout: *layout,
+                    error: *error,
+                    cells: *cells,
+                }),
                 _ => None,
             }
         });
-        let coarse: Vec<_> = coarse.collect();
-        let enough = coarse.iter().map(|(.., cells)| *cells).min()?;
-        let mut text = format!(
-            "no {} table of up to {} cells is usable: that is too coarse\n",
-            self.task.number.name(),
-            self.task.max_cells
-        );
-        for (layout, error, cells) in coarse {
-            let _ = writeln!(
-                text,
-                "  {}: {error}, in the table, not in the machine; {cells} cells are enough",
-                layout.name()
-            );
-        }
-        let _ = write!(text, "use --max-cells {enough} or more");
-        text += &self.cures();
-        Some(text)
+        let layouts: Vec<_> = layouts.collect();
+        (!layouts.is_empty()).then(|| NotReached::TooCoarse {
+            layouts,
+            alternatives: self.alternatives(),
+        })
     }
 
-    fn not_reached(&self, misses: &[&Candidate], best: &Candidate) -> Result<String, Error> {
-        let allowed = self.task.torque_error.unwrap_or_default();
-        let number = self.task.number.name();
-        let mut text = format!(
-            "no table meets a {} error of {} {}: type {number}, up to {} cells\n",
-            self.effort(),
-            rounded(allowed),
-            self.coordinate.effort_unit(),
-            self.task.max_cells
-        );
-        let mut most_cells = None;
-        for candidate in misses {
-            let Some(worst) = self.worst(candidate) else {
-                continue;
-            };
-            let (cells, error) = (worst.table.found.cells, worst.table.error);
-            let _ = write!(
-                text,
-                "  {}: {cells} {} reach {}{}",
-                candidate.layout.name(),
-                candidate.layout.counted(),
-                self.error(error),
-                self.piece(worst.table)
-            );
-            match worst.limit(self.task)? {
-                AccuracyLimit::Rounding => {
-                    let _ = write!(
-                        text,
-                        "; this is the rounding floor of {number}: more {} do not lower it",
-                        candidate.layout.counted()
-                    );
-                }
-                AccuracyLimit::Cells(Some(order)) => {
-                    let _ = write!(
-                        text,
-                        "; the error falls with the number of cells to the power of {order:.1}"
-                    );
-                    let needed = f64::from(cells) * (error / allowed).powf(1.0 / order);
-                    // If fewer cells than were tried would suffice by this, the error does not follow its order.
-                    if round_up(needed.min(1e9)) <= self.task.max_cells {
-                        text += " so far, but does not reach the error asked for";
-                    } else if needed <= f64::from(MAX_CELLS) {
-                        let needed = round_up(needed);
-                        if most_cells.is_none_or(|most| needed < most) {
-                            most_cells = Some(needed);
-                        }
-                        let _ =
-                            write!(text, "; at this rate, --max-cells {needed} would be enough");
-                    } else {
-                        let _ = write!(text, "; at this rate, even {MAX_CELLS} are too few");
-                    }
-                }
-                AccuracyLimit::Cells(None) => {
-                    let _ = write!(
-                        text,
-                        "; more {} hardly lower it",
-                        candidate.layout.counted()
-                    );
-                }
-            }
-            text.push('\n');
-        }
-        let Some(piece) = self.worst(best) else {
-            return Ok(text);
+    fn inaccuracy(&self, misses: &[&Candidate], best: &Candidate) -> Result<Inaccuracy, Error> {
+        let layouts = misses
+            .iter()
+            .filter_map(|candidate| self.worst(candidate))
+            .map(|range| range.least_error(self.task))
+            .collect::<Result<Vec<_>, Error>>()?;
+        let mut found = Inaccuracy {
+            layouts,
+            worst: best.curve_error().1,
+            feature: None,
+            finer: false,
+            in_pieces: self.search.ranges.len() > 1,
+            alternatives: self.alternatives(),
         };
-        let rounding = matches!(piece.limit(self.task)?, AccuracyLimit::Rounding);
-        let (worst, cells) = (piece.table.found.worst, piece.table.found.cells);
-        let _ = write!(
-            text,
-            "the largest error is at {}",
-            self.coordinate.place(worst)
-        );
-        let mut found = None;
-        if !rounding {
-            found = self.feature(&piece, worst, cells)?;
-            if let Some(found) = &found {
-                let _ = write!(text, ": {}", found.words);
-            } else {
-                // With more cells the error decreases where the curve is smooth, so that a kink becomes visible.
-                let finer = (4 * cells).min(MAX_CELLS);
-                let (_, worst) = piece.without_rounding(finer)?;
-                found = self.feature(&piece, worst, finer)?;
-                if let Some(found) = &found {
-                    let _ = write!(text, "; with more cells, it is where {}", found.words);
-                }
-            }
+        let Some(piece) = self.worst(best) else {
+            return Ok(found);
+        };
+        let cells = piece.table.found.cells;
+        found.worst = piece.table.found.worst;
+        if found.layouts.first().map(|least| least.limit) == Some(AccuracyLimit::Rounding) {
+            return Ok(found);
         }
-        text += "\nincrease the allowed error";
-        text += &self.cures();
-        if let Some(cells) = most_cells {
-            let _ = write!(text, ", or --max-cells {cells}");
+        found.feature = self.feature(&piece, found.worst, cells)?;
+        if found.feature.is_none() {
+            // With more cells the error decreases where the curve is smooth, so that a kink becomes visible.
+            let finer = (4 * cells).min(MAX_CELLS);
+            let (_, worst) = piece.without_rounding(finer)?;
+            found.feature = self.feature(&piece, worst, finer)?;
+            found.finer = true;
         }
-        if let Some(cure) = found.and_then(|found| found.cure) {
-            text += ", or ";
-            text += &cure;
-        }
-        if rounding {
-            text += ", or give a smaller range with --omega and --alpha";
-        }
-        Ok(text)
+        Ok(found)
     }
 
     /// The range with the largest excess.
@@ -240,15 +237,6 @@ impl SearchFailure<'_> {
         })
     }
 
-    /// Names the piece of a table among several.
-    fn piece(&self, table: &RangeTable) -> String {
-        let [from, to] = table.range.map(|end| self.coordinate.place(end));
-        match self.search.ranges.len() {
-            1 => String::new(),
-            _ => format!(" in the piece from {from} to {to}"),
-        }
-    }
-
     /// The feature within one and a half cells of a position.
     fn feature(
         &self,
@@ -257,21 +245,12 @@ impl SearchFailure<'_> {
         cells: u32,
     ) -> Result<Option<Feature>, Error> {
         let near = 1.5 * piece.search.domain.span() / f64::from(cells);
-        let found = feature(self.file, self.search.machine, self.coordinate, at, near)?;
-        // For pieces, the cure is a cut there.
-        let cure = |feature: Feature| match self.search.ranges.len() {
-            1 => feature,
-            _ => Feature {
-                cure: None,
-                ..feature
-            },
-        };
-        Ok(found.map(cure))
+        feature(self.file, self.search.machine, at, near)
     }
 
-    /// Results of the other layouts and types; each was tried. Each begins with ", or take".
-    fn cures(&self) -> String {
-        let meets = |number: Number, layouts: bool| {
+    /// The best table of each number type; the requested type first.
+    fn alternatives(&self) -> Vec<Alternative> {
+        let meets = |number: Number| {
             let found = self
                 .answers
                 .iter()
@@ -280,53 +259,32 @@ impl SearchFailure<'_> {
                     _ => None,
                 });
             let best = found.min_by_key(|candidate| candidate.bytes())?;
-            let layout = if layouts {
-                format!("--layout {}", best.layout.name())
-            } else if self.task.layout.allows(best.layout) {
-                format!("--type {}", number.name())
-            } else {
-                format!("--type {} --layout {}", number.name(), best.layout.name())
-            };
-            Some(format!(
-                ", or take {layout} ({} cells, {} bytes)",
-                best.cells(),
-                best.bytes()
-            ))
+            Some(Alternative {
+                number,
+                layout: best.layout,
+                cells: best.cells(),
+                bytes: best.bytes(),
+            })
         };
-        let own = meets(self.task.number, true);
-        let others = Number::ALL.into_iter().filter(|n| *n != self.task.number);
-        own.into_iter()
-            .chain(others.filter_map(|number| meets(number, false)))
-            .collect()
+        let own = self.task.number;
+        let others = Number::ALL.into_iter().filter(|number| *number != own);
+        [own].into_iter().chain(others).filter_map(meets).collect()
     }
 
-    fn none_fits(&self, most: u32, own: &[&SearchResult], best: Option<&Candidate>) -> Failure {
-        let number = self.task.number.name();
+    fn none_fits(&self, own: &[&SearchResult], best: Option<&Candidate>) -> Failure {
         let smallest = own.iter().filter_map(|answer| match answer {
             SearchResult::TooLarge(bytes) => Some(*bytes),
             _ => None,
         });
-        let message = match (best, self.task.torque_error, smallest.min()) {
-            (Some(best), Some(allowed), _) => format!(
-                "no {number} table of {most} bytes meets a {} error of {} {}: the smallest error found in that size is {}, with layout {} and {} cells",
-                self.effort(),
-                rounded(allowed),
-                self.coordinate.effort_unit(),
-                self.error(best.error()),
-                best.layout.name(),
-                best.cells()
-            ),
-            (_, _, Some(smallest)) => format!(
-                "no {number} table fits into {most} bytes: the smallest image takes {smallest} bytes"
-            ),
-            _ => format!("no {number} table of {most} bytes is usable: more cells are needed"),
-        };
-        let mut help = "allow more bytes".to_owned();
-        if self.task.torque_error.is_some() {
-            help += ", or a larger error";
-        }
-        help += &self.cures();
-        Failure::Impossible { message, help }
+        Failure::Impossible(Impossible::DoesNotFit {
+            best: best.map(|best| BestFit {
+                layout: best.layout,
+                cells: best.cells(),
+                error: best.error(),
+            }),
+            smallest: smallest.min(),
+            alternatives: self.alternatives(),
+        })
     }
 }
 
@@ -338,6 +296,30 @@ struct WorstRange<'f> {
 }
 
 impl WorstRange<'_> {
+    fn least_error(&self, task: &Task) -> Result<LeastError, Error> {
+        Ok(LeastError {
+            layout: self.layout,
+            cells: self.table.found.cells,
+            error: self.table.error,
+            range: self.table.range,
+            limit: self.limit(task)?,
+        })
+    }
+
+    /// The number of cells for the requested error, if the error falls with this power of it.
+    fn cells_needed(&self, task: &Task, order: f64) -> CellsNeeded {
+        let allowed = task.torque_error.unwrap_or_default();
+        let cells = f64::from(self.table.found.cells);
+        let needed = cells * (self.table.error / allowed).powf(1.0 / order);
+        if round_up(needed.min(1e9)) <= task.max_cells {
+            CellsNeeded::Irregular
+        } else if needed <= f64::from(MAX_CELLS) {
+            CellsNeeded::Enough(round_up(needed))
+        } else {
+            CellsNeeded::TooMany
+        }
+    }
+
     /// The torque error in double precision, and its position.
     fn without_rounding(&self, cells: u32) -> Result<(f64, f64), Error> {
         match self.layout {
@@ -365,7 +347,7 @@ impl WorstRange<'_> {
             return Ok(if ticks {
                 AccuracyLimit::Rounding
             } else {
-                AccuracyLimit::Cells(None)
+                AccuracyLimit::Cells
             });
         }
         let without = |cells| self.without_rounding(cells).map(|(error, _)| error);
@@ -391,11 +373,16 @@ impl WorstRange<'_> {
             }
             Ok(sum / 4.0)
         };
-        if cells < 16 {
-            return Ok(AccuracyLimit::Cells(Some(3.0)));
-        }
-        let order = (mean(cells / 2)? - mean(cells)?) / 2f64.ln();
-        Ok(AccuracyLimit::Cells((order > 0.25).then_some(order)))
+        let order = if cells < 16 {
+            3.0
+        } else {
+            (mean(cells / 2)? - mean(cells)?) / 2f64.ln()
+        };
+        Ok(if order > 0.25 {
+            AccuracyLimit::Order(order, self.cells_needed(task, order))
+        } else {
+            AccuracyLimit::Cells
+        })
     }
 }
 

@@ -6,8 +6,8 @@ use jred::Domain;
 
 use crate::candidate::RangeTable;
 use crate::export::Export;
-use crate::figures::full_rust_arguments;
 use crate::name::Name;
+use crate::rust_type::full_rust_arguments;
 
 jred_file::words! {
     /// Output format of an export.
@@ -26,32 +26,29 @@ jred_file::words! {
 const INDENT: &str = "    ";
 
 impl Export {
-    /// The table in one of the forms; `None` for several pieces as one image. In C its names begin with `name`, or with the name of the file `out`.
-    /// In Rust it is in a module `name`, or at the top level of its file.
-    pub fn write(&self, form: OutputForm, name: Option<&Name>, out: &str) -> Option<Vec<u8>> {
-        let tables = &self.chosen().tables;
-        let named = name.cloned().unwrap_or_else(|| Name::of_file(out));
-        Some(match (form, self.whole()) {
-            (OutputForm::Image, Some(table)) => {
-                table.words.iter().flat_map(|w| w.to_le_bytes()).collect()
-            }
-            (OutputForm::Image, None) => return None,
-            (OutputForm::Rust, Some(table)) => self.source(&module(name, &self.rust_whole(table))),
-            (OutputForm::Rust, None) => self.source(&module(name, &self.rust_pieces(tables))),
-            (OutputForm::C, Some(table)) => self.source(&self.c_table(table, &named)),
-            (OutputForm::C, None) => self.source(&self.c_pieces(tables, &named)),
-            (OutputForm::Json, _) => format!("{:#}\n", serde_json::json!(self.data())).into_bytes(),
-        })
+    /// The binary image; `None` for several pieces.
+    pub fn image(&self) -> Option<Vec<u8>> {
+        let words = self.whole()?.words.iter();
+        Some(words.flat_map(|word| word.to_le_bytes()).collect())
     }
 
-    /// A source text, with the summary as its comment.
-    fn source(&self, code: &str) -> Vec<u8> {
-        let mut text = String::new();
-        for line in self.summary().lines() {
-            let _ = writeln!(text, "// {line}");
+    /// Rust source, in a module `name` or at the top level of its file.
+    pub fn rust_source(&self, name: Option<&Name>) -> String {
+        module(
+            name,
+            &match self.whole() {
+                Some(table) => self.rust_whole(table),
+                None => self.rust_pieces(&self.chosen().tables),
+            },
+        )
+    }
+
+    /// C source, whose names begin with `name`.
+    pub fn c_source(&self, name: &Name) -> String {
+        match self.whole() {
+            Some(table) => self.c_table(table, name),
+            None => self.c_pieces(&self.chosen().tables, name),
         }
-        text.push_str(code);
-        text.into_bytes()
     }
 
     /// A table with the type of its model, which the compiler checks.

@@ -93,7 +93,7 @@ impl Search<'_> {
             .map_err(Error::Table)?;
         let places = 4 * fitted.samples + 1;
         let (measured, worst) = harmonic::measure(&self.machine, &table, &request, places)?;
-        let (looked, _) = self.torque_error(&table, (0, f64::INFINITY));
+        let (looked, _) = self.torque_error(&table, 0, f64::INFINITY);
         let usage = Usage::of(&table).map_err(Error::Table)?;
         let mut found = TableFigures::default();
         found.cells = fitted.harmonics;

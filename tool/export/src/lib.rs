@@ -6,19 +6,17 @@
 //! 1. `choice`, `cost`, `task`: number types, layouts, cores; the request.
 //! 2. `directions`, `reference`, `ticks`, `search`, `pieces`: the machine's exact curves, and the sizes that are tried.
 //! 3. `export`: the chosen table. `enclose` and `proof`: the machine's curves in intervals, and a bound of the error at every position.
-//! 4. `form`, [`data`]: the table as image, Rust, C, JSON.
+//! 4. `form`: the table as image, Rust, C.
 #![forbid(unsafe_code)]
 
 mod c_source;
 mod candidate;
 mod choice;
 mod cost;
-pub mod data;
 mod directions;
 mod enclose;
 mod export;
 mod fault;
-mod figures;
 mod form;
 mod harmonic;
 mod name;
@@ -28,6 +26,7 @@ mod plan;
 mod proof;
 mod proof_result;
 mod reference;
+mod rust_type;
 mod search;
 mod slider_crank;
 mod task;
@@ -38,10 +37,16 @@ pub use candidate::{Candidate, RangeTable, SearchResult};
 pub use choice::{Choice, LayoutChoice, LayoutName, Number};
 pub use cost::Core;
 pub use export::{Export, identifier};
+pub use fault::{
+    AccuracyLimit, Alternative, BestFit, CellsNeeded, CoarseLayout, Inaccuracy, LeastError,
+    NotReached,
+};
 pub use form::OutputForm;
 pub use name::Name;
+pub use place::{CurveName, Feature, WindowEdge};
 pub use plan::plan_source;
 pub use proof_result::ProofResult;
 pub use search::EXHAUSTIVE;
-pub use task::{Failure, Task};
+pub use slider_crank::NoClosedForm;
+pub use task::{Failure, Impossible, Task};
 pub use ticks::Ticks;

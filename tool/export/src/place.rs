@@ -7,14 +7,63 @@ use jred::Domain;
 use jred::error::Error;
 use jred::machine::{Mechanism as _, Reducible, Reduction};
 
-use jred_file::model::coordinate::Coordinate;
 use jred_file::model::machine::MachineFile;
-use jred_file::number::rounding::rounded;
 
-/// The feature, and a change in the machine file that would help, if any.
-pub(crate) struct Feature {
-    pub(crate) words: String,
-    pub(crate) cure: Option<String>,
+/// A feature of a machine.
+#[derive(Clone, Debug)]
+pub enum Feature {
+    /// An edge of a load's window.
+    Window {
+        /// Name of the load.
+        load: String,
+        /// The edge.
+        edge: WindowEdge,
+        /// Its position (rad, or m).
+        at: f64,
+        /// Length of the ramp (rad, or m).
+        ramp: f64,
+    },
+    /// The end of a cam segment (rad, or m), without a jump or a kink of a curve.
+    SegmentEnd(f64),
+    /// A jump or a kink.
+    Break {
+        /// The curve.
+        curve: CurveName,
+        /// Whether its value jumps, not its slope.
+        jumps: bool,
+        /// The position (rad, or m).
+        at: f64,
+        /// End of a cam segment there (rad, or m).
+        segment_end: Option<f64>,
+    },
+}
+
+/// An edge of a load's window.
+#[derive(Clone, Copy, Debug)]
+pub enum WindowEdge {
+    /// The load begins.
+    Begins,
+    /// It is full.
+    Full,
+    /// It begins to fall.
+    Falls,
+    /// It ends.
+    Ends,
+}
+
+/// A curve of the reduced machine that a table follows.
+#[derive(Clone, Copy, Debug)]
+pub enum CurveName {
+    /// Inertia.
+    Inertia,
+    /// Its slope.
+    Slope,
+    /// Load.
+    Load,
+    /// Viscous friction.
+    Viscous,
+    /// Coulomb friction.
+    Coulomb,
 }
 
 /// Distance of two positions, across a whole turn if that is shorter.
@@ -33,86 +82,79 @@ fn distance(domain: Domain, a: f64, b: f64) -> f64 {
 pub(crate) fn feature(
     file: &MachineFile,
     machine: &impl Reducible,
-    coordinate: Coordinate,
     at: f64,
     near: f64,
 ) -> Result<Option<Feature>, Error> {
-    if let Some(found) = window_edge(file, coordinate, at, near) {
+    if let Some(found) = window_edge(file, at, near) {
         return Ok(Some(found));
     }
-    let jump = jump_or_kink(machine, coordinate, at, near)?;
-    let piece = piece_end(file, coordinate, at, near);
-    Ok(match (piece, jump) {
-        (Some(piece), Some(jump)) => Some(Feature {
-            words: format!("{piece}, and {}", jump.words),
-            ..jump
+    let segment_end = segment_end(file, at, near);
+    let found = jump_or_kink(machine, at, near)?;
+    Ok(match found {
+        Some((curve, jumps, at)) => Some(Feature::Break {
+            curve,
+            jumps,
+            at,
+            segment_end,
         }),
-        (Some(words), None) => Some(Feature { words, cure: None }),
-        (None, jump) => jump,
+        None => segment_end.map(Feature::SegmentEnd),
     })
 }
 
-fn window_edge(file: &MachineFile, coordinate: Coordinate, at: f64, near: f64) -> Option<Feature> {
-    const WHAT: [&str; 4] = ["begins", "reaches its full value", "begins to fall", "ends"];
+fn window_edge(file: &MachineFile, at: f64, near: f64) -> Option<Feature> {
+    const EDGES: [WindowEdge; 4] = [
+        WindowEdge::Begins,
+        WindowEdge::Full,
+        WindowEdge::Falls,
+        WindowEdge::Ends,
+    ];
     let domain = file.machine.mechanism().domain();
     let edges = file.loads.iter().filter_map(|load| {
         let edges = load.load.window()?.edges();
-        let edge = WHAT.into_iter().zip(edges).map(|(what, edge)| {
-            let away = distance(domain, edge, at);
-            (away, what, edge, edges)
-        });
-        let (away, what, edge, edges) = edge.min_by(|a, b| a.0.total_cmp(&b.0))?;
-        (away <= near).then_some((away, load.name.as_str(), what, edge, edges))
+        let all = EDGES.into_iter().zip(edges);
+        let all = all.map(|(edge, position)| (distance(domain, position, at), edge, position));
+        let (away, edge, position) = all.min_by(|a, b| a.0.total_cmp(&b.0))?;
+        let found = || Feature::Window {
+            load: load.name.clone(),
+            edge,
+            at: position,
+            ramp: edges[1] - edges[0],
+        };
+        (away <= near).then(|| (away, found()))
     });
-    let (_, name, what, edge, edges) = edges.min_by(|a, b| a.0.total_cmp(&b.0))?;
-    let ramp = rounded(coordinate.shown(edges[1] - edges[0]));
-    let unit = coordinate.unit();
-    let words = format!(
-        "the load {name:?} {what} at {}, over a ramp of {ramp} {unit}",
-        coordinate.place(edge)
-    );
-    let cure = Some(format!(
-        "a longer ramp of the load {name:?} in the machine file, or --pieces auto, a table for each piece between edges"
-    ));
-    Some(Feature { words, cure })
+    edges
+        .min_by(|a, b| a.0.total_cmp(&b.0))
+        .map(|(_, feature)| feature)
 }
 
-fn piece_end(file: &MachineFile, coordinate: Coordinate, at: f64, near: f64) -> Option<String> {
+fn segment_end(file: &MachineFile, at: f64, near: f64) -> Option<f64> {
     let mechanism = file.machine.mechanism();
     let contacts = mechanism.contacts().iter();
     let ends = contacts.flat_map(|c| c.pieces.iter().flat_map(|p| [p.from, p.to]));
     let nearest = ends
         .map(|end| (distance(mechanism.domain(), end, at), end))
         .min_by(|a, b| a.0.total_cmp(&b.0))?;
-    (nearest.0 <= near).then(|| {
-        format!(
-            "a segment of the cam's program ends at {}",
-            coordinate.place(nearest.1)
-        )
-    })
+    (nearest.0 <= near).then_some(nearest.1)
 }
-
-/// Name of a curve in messages.
-type CurveName = fn(Coordinate) -> String;
 
 /// A curve of the reduced machine.
 type CurveValue = fn(&Reduction) -> f64;
 
 /// The curves that a table follows.
 const CURVES: [(CurveName, CurveValue); 5] = [
-    (|c| c.inertia().to_owned(), |r| r.inertia),
-    (|c| format!("{}'", c.inertia()), |r| r.inertia_slope),
-    (|_| "the curve of load".to_owned(), |r| r.load_torque()),
-    (|_| "the curve of viscous".to_owned(), |r| r.viscous),
-    (|_| "the curve of coulomb".to_owned(), |r| r.coulomb),
+    (CurveName::Inertia, |r| r.inertia),
+    (CurveName::Slope, |r| r.inertia_slope),
+    (CurveName::Load, |r| r.load_torque()),
+    (CurveName::Viscous, |r| r.viscous),
+    (CurveName::Coulomb, |r| r.coulomb),
 ];
 
+/// The curve, whether it jumps, and the position.
 fn jump_or_kink(
     machine: &impl Reducible,
-    coordinate: Coordinate,
     at: f64,
     near: f64,
-) -> Result<Option<Feature>, Error> {
+) -> Result<Option<(CurveName, bool, f64)>, Error> {
     let domain = machine.domain();
     let ends = match domain {
         Domain::Turn => [at - near, at + near],
@@ -128,14 +170,11 @@ fn jump_or_kink(
             };
             Ok((value(high)? - value(low)?) / (high - low))
         };
-        for (what, found) in [
-            ("jumps", narrow(&value, ends, 0.0)?),
-            ("has a kink", narrow(&slope, ends, 2.0 * step)?),
-        ] {
-            if let Some(phi) = found {
-                let words = format!("{} {what} at {}", name(coordinate), coordinate.place(phi));
-                return Ok(Some(Feature { words, cure: None }));
-            }
+        if let Some(at) = narrow(&value, ends, 0.0)? {
+            return Ok(Some((name, true, at)));
+        }
+        if let Some(at) = narrow(&slope, ends, 2.0 * step)? {
+            return Ok(Some((name, false, at)));
         }
     }
     Ok(None)

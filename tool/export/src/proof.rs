@@ -16,7 +16,6 @@ use crate::search::rounded_up;
 use crate::task::{Failure, Task};
 use crate::ticks;
 use jred_file::model::machine::MachineFile;
-use jred_file::number::rounding::{bound, rounded};
 
 /// Share of the allowed torque error below which refinement is unnecessary.
 const NEGLIGIBLE: f64 = 1e-3;
@@ -37,29 +36,27 @@ impl Export {
         task: &Task,
         watch: &mut dyn FnMut(f64) -> bool,
     ) -> Result<Self, Failure> {
-        let allowed = task.torque_error;
-        let (mut asked, mut last) = (allowed, None);
-        for _ in 0..ATTEMPTS {
+        let mut export = Self::found(file, task.clone(), true)?;
+        export.prove(file, watch)?;
+        let mut required = task.torque_error;
+        for _ in 1..ATTEMPTS {
+            let (Some(error), Some(above)) = (required, export.excess()) else {
+                break;
+            };
+            required = Some(error / above * 0.999);
             let smaller = Task {
-                torque_error: asked,
+                torque_error: required,
                 ..task.clone()
             };
-            let mut export = match (Self::found(file, smaller, true), last) {
-                (Ok(export), _) => export,
-                // No table meets the smaller error.
-                (Err(_), Some(last)) => return Ok(last),
-                (Err(why), None) => return Err(why),
+            // Otherwise no table meets the smaller error.
+            let Ok(next) = Self::found(file, smaller, true) else {
+                break;
             };
-            export.task.torque_error = allowed;
+            export = next;
+            export.task.torque_error = task.torque_error;
             export.prove(file, watch)?;
-            let above = export.excess();
-            let (Some(error), Some(above)) = (asked, above) else {
-                return Ok(export);
-            };
-            asked = Some(error / above * 0.999);
-            last = Some(export);
         }
-        last.ok_or_else(|| Failure::NotReached(String::new()))
+        Ok(export)
     }
 
     /// Ratio of the proven and the allowed error, if larger than 1.
@@ -144,48 +141,6 @@ impl Export {
                 (open @ ProofResult::Open(_), _) | (_, open) => open,
             })
         })?
-    }
-}
-
-/// Messages.
-impl Export {
-    /// The proof of the error, if requested.
-    pub(crate) fn proof_text(&self) -> String {
-        let (coordinate, word) = (self.coordinate, self.effort());
-        let effort = coordinate.effort_unit();
-        match self.proof() {
-            None => String::new(),
-            Some(ProofResult::Open(why)) => format!("not proven: {why}\n"),
-            Some(ProofResult::Bounded(proof)) => {
-                let ticks = match proof.ticked {
-                    Some(ticked) => format!("ticks within {} {effort}", bound(ticked)),
-                    None => "the arithmetic of its ticks is not proven".to_owned(),
-                };
-                format!(
-                    "proven over every position: {word} error of the table within {} {effort}, largest near {} {}; {ticks}\n",
-                    bound(proof.bound),
-                    rounded(coordinate.shown(proof.worst)),
-                    coordinate.unit(),
-                )
-            }
-        }
-    }
-
-    /// A message that the proven error exceeds the allowed one, with the position.
-    pub fn exceeded(&self) -> String {
-        let coordinate = self.coordinate;
-        let effort = coordinate.effort_unit();
-        match (self.proof(), self.task.torque_error) {
-            (Some(found @ ProofResult::Bounded(proof)), Some(allowed)) => format!(
-                "the proven {} error, {} {effort} near {} {}, is above the {} {effort} allowed",
-                self.effort(),
-                bound(found.bound().unwrap_or(proof.bound)),
-                rounded(coordinate.shown(proof.worst)),
-                coordinate.unit(),
-                rounded(allowed)
-            ),
-            _ => String::new(),
-        }
     }
 }
 

@@ -161,7 +161,8 @@ impl Reference {
         &self,
         read: impl Fn(Phase) -> CurveValues,
         [omega, alpha]: [f64; 2],
-        (start, limit): (usize, f64),
+        start: usize,
+        limit: f64,
     ) -> (f64, usize) {
         let request = Request::new(limit)
             .with_max_speed(omega)

@@ -233,7 +233,7 @@ impl<'s, F: Format> Attempt<'s, F> {
             return Ok(None);
         }
         let size = self.size(cells);
-        match size.look(&mut self.buffers, (self.worst, limit)) {
+        match size.look(&mut self.buffers, self.worst, limit) {
             Ok((error, worst)) => {
                 self.worst = worst;
                 self.least.insert(cells, error);

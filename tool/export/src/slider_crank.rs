@@ -12,8 +12,7 @@ use jred::{Domain, Scale, SliderCrankForm};
 
 use crate::candidate::{RangeTable, SearchResult};
 use crate::search::Search;
-use crate::task::Failure;
-use jred_file::model::machine::{MachineFile, machine_like};
+use jred_file::model::machine::machine_like;
 use jred_file::model::mechanism::AnyMechanism;
 
 type F = SliderCrankForm;
@@ -22,7 +21,8 @@ type F = SliderCrankForm;
 const PLACES: u32 = 4097;
 
 /// Why a machine has no closed form.
-pub(crate) enum NoClosedForm {
+#[derive(Clone, Debug)]
+pub enum NoClosedForm {
     /// Another mechanism, by its name in machine files.
     Mechanism(&'static str),
     /// A part of the turn.
@@ -62,51 +62,6 @@ pub(crate) fn plain(
     set_in_use(&copy).map(|_| copy).map_err(NoClosedForm::Part)
 }
 
-impl NoClosedForm {
-    /// The obstacle and the cure.
-    pub(crate) fn failure(&self, file: &MachineFile) -> Failure {
-        let table = "remove --layout: a table holds any load";
-        let load = |k: &usize| {
-            let name = file.loads.get(*k).map(|load| load.name.as_str());
-            format!("load {:?}", name.unwrap_or_default())
-        };
-        let (what, help) = match self {
-            Self::Mechanism(kind) => (
-                format!("the mechanism is of type {kind:?}"),
-                "remove --layout: a table holds any mechanism; --layout harmonic a smooth one that turns",
-            ),
-            Self::Stroke => (
-                "the crank has a stroke, and the closed form is of the whole turn".to_owned(),
-                table,
-            ),
-            Self::ByDirection => ("loads go by the direction of travel".to_owned(), table),
-            Self::Curve(name) => (format!("{name:?} is a curve over the position"), table),
-            Self::Part(SliderCrankError::Window(k)) => (
-                format!("{} acts in a part of the turn", load(k)),
-                "remove --layout: a table holds any load; --pieces auto makes one for each piece between its edges",
-            ),
-            Self::Part(SliderCrankError::RubbingRod(k)) => (
-                format!("{} rubs on the rod between its pins", load(k)),
-                table,
-            ),
-            Self::Part(SliderCrankError::Element(k)) => {
-                let name = file.elements.get(*k).map(|element| element.name.as_str());
-                (
-                    format!("{:?} is a spring or a damper", name.unwrap_or_default()),
-                    "take --layout harmonic, or remove --layout",
-                )
-            }
-            Self::Part(error) => (error.to_string(), table),
-        };
-        Failure::Impossible {
-            message: format!(
-                "layout slider-crank holds a slider-crank with constant loads and friction only, but {what}"
-            ),
-            help: help.to_owned(),
-        }
-    }
-}
-
 impl Search<'_> {
     /// The closed form of this machine, and the accuracy of its ticks.
     ///
@@ -136,7 +91,7 @@ impl Search<'_> {
             .with_max_speed(omega)
             .with_max_acceleration(alpha);
         let (measured, worst) = measure(machine, &table, &request, PLACES)?;
-        let (looked, _) = self.torque_error(&table, (0, f64::INFINITY));
+        let (looked, _) = self.torque_error(&table, 0, f64::INFINITY);
         let mut found = TableFigures::default();
         found.cells = words.len() as u32;
         (found.torque_error, found.bound, found.worst) = (measured, measured.max(looked), worst);

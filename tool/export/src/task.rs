@@ -5,6 +5,9 @@ use jred::machine::Machine;
 
 use crate::choice::{LayoutChoice, Number};
 use crate::cost::Core;
+use crate::fault::{Alternative, BestFit, NotReached};
+use crate::slider_crank::NoClosedForm;
+use jred_file::model::by_motion::ByMotion;
 use jred_file::model::machine::MachineFile;
 use jred_file::model::mechanism::AnyMechanism;
 
@@ -53,14 +56,55 @@ impl Task {
 pub enum Failure {
     /// The machine cannot be tabulated.
     Machine(Error),
-    /// No table meets the torque error: the obstacle and the cure.
-    NotReached(String),
-    /// The request is impossible: too few bytes, or a piece that is too short.
-    Impossible {
-        /// Message.
-        message: String,
-        /// Cure.
-        help: String,
+    /// No table meets the torque error.
+    NotReached(NotReached),
+    /// The request is impossible.
+    Impossible(Impossible),
+}
+
+/// Why a request is impossible.
+#[derive(Clone, Debug)]
+pub enum Impossible {
+    /// A part of the machine depends on the motion.
+    ByMotion(ByMotion),
+    /// Viscous friction depends on the direction of travel.
+    ViscousByDirection {
+        /// The position (rad, or m).
+        at: f64,
+    },
+    /// Loads by direction drive the motion.
+    DrivingLoads {
+        /// The position (rad, or m).
+        at: f64,
+        /// How much less they take forwards than backwards, together with friction (N·m, or N).
+        excess: f64,
+    },
+    /// The closed form does not hold the machine.
+    NoClosedForm(NoClosedForm),
+    /// A piece is too short.
+    ShortPiece {
+        /// Its ends (rad, or m).
+        range: [f64; 2],
+        /// The shortest possible one (rad, or m).
+        shortest: f64,
+    },
+    /// The pieces have too many cells together.
+    TooManyCells {
+        /// Number of pieces.
+        pieces: usize,
+        /// Most cells of all pieces together.
+        most: usize,
+    },
+    /// The pieces have no common machine units.
+    PieceUnits,
+    /// No table fits into the bytes.
+    DoesNotFit {
+        /// The most accurate table that fits, but does not meet the torque error.
+        best: Option<BestFit>,
+        /// Bytes of the smallest image.
+        smallest: Option<usize>,
+        /// Tables of other layouts and types that meet the request.
+        alternatives: Vec<Alternative>,
     },
 }
 

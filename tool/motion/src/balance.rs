@@ -1,7 +1,7 @@
 //! Counterweights and springs that relieve the drive: the best set within given bounds.
 //!
 //! The torque of a motion is linear in the mass m of a body fixed to a link, in its moments S = m·(u, v) and inertia Θ about the origin of the link's
-//! frame, and in the stiffness k and preload k·l₀ of a spring:
+//! frame, and in the stiffness k of a spring and its product k·l₀ with the free length:
 //!
 //! ```text
 //! T = J·α + ½·J′·ω² + U′ + … = T₀ + Σ p·t,   p = m, S_u, S_v, Θ, k, k·l₀

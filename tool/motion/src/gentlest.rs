@@ -79,6 +79,7 @@ pub struct Travel {
 /// The form of the ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct EndConditions {
+    /// Whether each end is at rest.
     rest: [bool; 2],
     ramp: f64,
     ring: bool,

@@ -4,7 +4,7 @@ use schemars::Schema;
 
 use crate::answer::schema::{of, of_sheet};
 use crate::list;
-use jred_export::data::ExportData;
+use crate::list::export::ExportData;
 
 /// All schemas, each with the name of its form.
 pub fn all() -> Vec<(&'static str, Schema)> {

@@ -1,5 +1,7 @@
 //! `jred export`: the table for the firmware.
 
+use std::path::Path;
+
 use miette::{Result, miette};
 
 use crate::busy;
@@ -21,6 +23,7 @@ use jred_file::plain;
 use jred_file::text::key::{ACCELERATIONS, EFFORT, SPEED};
 use jred_report::list;
 use jred_report::table::output::Format;
+use jred_report::table::screen::Screen;
 
 /// Positions where the pieces of the table meet; empty without `--pieces`.
 fn edges(options: &options::export::Export, file: &MachineFile) -> Result<Vec<f64>> {
@@ -149,29 +152,21 @@ pub(super) fn run(options: &options::export::Export) -> Result<Completion> {
         busy::begin("proving the error of the table");
         Export::proven(&file, &task, &mut |_| true)
     } else {
-        Export::new(&file, task)
+        Export::new(&file, task.clone())
     };
     let export = match found {
         Ok(export) => export,
         Err(Failure::NotReached(why)) => {
-            terminal::say(&why);
+            terminal::say(&list::export::not_reached(&why, &task, coordinate));
             return Ok(Completion::Violated);
         }
-        Err(Failure::Impossible { message, help }) => {
-            return Err(miette!(help = help, "{message}"));
+        Err(Failure::Impossible(why)) => {
+            return Err(list::export::impossible(&why, &file, &task).into());
         }
         Err(Failure::Machine(error)) => return Err(core_report(error)),
     };
     if let Some(out) = &options.out {
-        let file = out.file_name().unwrap_or_default().to_string_lossy();
-        let bytes = export
-            .write(options.format, name.as_ref(), &file)
-            .ok_or_else(|| {
-                miette!(
-                    help = "use --format rust, c or json",
-                    "one image cannot hold the tables of several pieces"
-                )
-            })?;
+        let bytes = contents(options.format, &export, name.as_ref(), out)?;
         output::write(out, &bytes)?;
     }
     warn(&file, [omega, 0.0])?;
@@ -180,6 +175,34 @@ pub(super) fn run(options: &options::export::Export) -> Result<Completion> {
         Completion::Violated
     } else {
         done
+    })
+}
+
+/// The contents of the file `out`. Without a name, the names of C begin with the name of the file.
+fn contents(
+    format: OutputForm,
+    export: &Export,
+    name: Option<&Name>,
+    out: &Path,
+) -> Result<Vec<u8>> {
+    let commented = |code: &str| list::export::commented(export, code).into_bytes();
+    Ok(match format {
+        OutputForm::Image => export.image().ok_or_else(|| {
+            miette!(
+                help = "use --format rust, c or json",
+                "one image cannot hold the tables of several pieces"
+            )
+        })?,
+        OutputForm::Rust => commented(&export.rust_source(name)),
+        OutputForm::C => {
+            let file = || Name::of_file(&out.file_name().unwrap_or_default().to_string_lossy());
+            commented(&export.c_source(&name.cloned().unwrap_or_else(file)))
+        }
+        OutputForm::Json => {
+            let answer = list::export::answer(export);
+            let parts = answer.write(Format::Json, Screen::default());
+            parts.collect::<String>().into_bytes()
+        }
     })
 }
 
@@ -205,7 +228,7 @@ fn proof_holds(export: &Export) -> bool {
             "without --prove it is estimated",
         ),
         (_, Some(_)) => (
-            export.exceeded(),
+            list::export::exceeded(export),
             "allow more cells with --max-cells, a larger --torque-error, or take another --layout or --type",
         ),
         _ => return true,

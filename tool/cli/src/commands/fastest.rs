@@ -91,12 +91,12 @@ pub fn fastest(options: &Options) -> Result<Completion> {
     let actuator = &chosen.actuator;
     let make = |limits: &MoveLimits, rms: Option<Rms>| {
         let at = |rms: Option<Rms>| parts.fastest(&file, actuator, limits, rms);
-        let Some(limit) = warmth else {
+        let Some((winding, most)) = warmth else {
             return at(rms).map(|cycle| (cycle, None));
         };
-        cooled(limit, (&file, actuator), rms, at).map(|found| {
+        cooled(winding, most, &file, actuator, rms, at).map(|found| {
             let warmth = WindingHeat {
-                ambient: limit.0.ambient(),
+                ambient: winding.ambient(),
                 temperatures: found.temperatures,
                 limit: found.limit,
                 bound: found.bound,
@@ -111,7 +111,7 @@ pub fn fastest(options: &Options) -> Result<Completion> {
             let judge = Judge::new(&file, drive.drive(), options.supply.course.sampling())
                 .with_resistors(drive.resistors());
             let heat = rms.is_some() || warmth.is_some();
-            let found = ruled(&judge, (&limits, rms), heat, make);
+            let found = ruled(&judge, &limits, rms, heat, make);
             found.map(|(cycle, warmth, judged)| (cycle, warmth, Some(judged)))
         }
     };

@@ -58,11 +58,12 @@ impl Size<'_> {
     pub(super) fn look<F: Format>(
         &self,
         buffers: &mut Buffers<F>,
-        from: (usize, f64),
+        start: usize,
+        limit: f64,
     ) -> Result<(f64, usize), Error> {
         let table = self.fill(buffers)?;
-        let found = self.search.torque_error(&table, from);
-        if found.0 <= from.1 {
+        let found = self.search.torque_error(&table, start, limit);
+        if found.0 <= limit {
             Usage::of(&table).map_err(Error::Table)?;
         }
         Ok(found)
@@ -93,7 +94,7 @@ impl Size<'_> {
 
     /// The torque error of a table in double precision, that is, without rounding, and its position.
     pub(super) fn without_rounding<F: Format>(&self) -> Result<(f64, f64), Error> {
-        let (error, index) = self.look::<F>(&mut Buffers::default(), (0, f64::INFINITY))?;
+        let (error, index) = self.look::<F>(&mut Buffers::default(), 0, f64::INFINITY)?;
         let worst = self.search.reference.places.get(index);
         Ok((
             error,
@@ -108,10 +109,11 @@ impl Search<'_> {
     pub(crate) fn torque_error<F: Format>(
         &self,
         table: &Table<'_, F>,
-        from: (usize, f64),
+        start: usize,
+        limit: f64,
     ) -> (f64, usize) {
         let read = |phase| table.si(phase, self.domain);
-        self.reference.error(read, self.goal.range, from)
+        self.reference.error(read, self.goal.range, start, limit)
     }
 
     /// A table with its image, whose error is the largest of `found.bound`, `looked` and that of its ticks.

@@ -213,18 +213,18 @@ impl<'a> Unknowns<'a> {
             start.extend([0.5, 0.0, 0.0, 0.25]);
         }
         for free in &self.free {
-            let [k, preload] = [0, 1].map(|k| start.len() + k);
+            let [k, product] = [0, 1].map(|k| start.len() + k);
             bounds.push(Bound::Linear(0.0, vec![(k, -1.0)]));
             bounds.push(Bound::Linear(MOST_TORQUE, vec![(k, 1.0)]));
-            let [by_k, by_preload] = [k, preload].map(|k| self.units[k]);
+            let [by_k, by_product] = [k, product].map(|k| self.units[k]);
             if let Some(most) = free {
-                bounds.push(Bound::Linear(0.0, vec![(preload, -1.0)]));
-                let longest = most * by_k / by_preload;
-                bounds.push(Bound::Linear(0.0, vec![(preload, 1.0), (k, -longest)]));
+                bounds.push(Bound::Linear(0.0, vec![(product, -1.0)]));
+                let longest = most * by_k / by_product;
+                bounds.push(Bound::Linear(0.0, vec![(product, 1.0), (k, -longest)]));
                 start.extend([0.5, 0.25 * longest]);
             } else {
-                bounds.push(Bound::Linear(MOST_TORQUE, vec![(preload, 1.0)]));
-                bounds.push(Bound::Linear(MOST_TORQUE, vec![(preload, -1.0)]));
+                bounds.push(Bound::Linear(MOST_TORQUE, vec![(product, 1.0)]));
+                bounds.push(Bound::Linear(MOST_TORQUE, vec![(product, -1.0)]));
                 start.extend([0.5, 0.0]);
             }
         }
@@ -264,12 +264,12 @@ impl<'a> Unknowns<'a> {
             });
         let masses = masses.collect();
         let made = |(element, longest): (&Element, &f64), p: &[f64], columns: &[Vec<f64>]| {
-            let [k, preload] = p else { return Ok(None) };
+            let [k, product] = p else { return Ok(None) };
             if !acts(columns, p) {
                 return Ok(None);
             }
             // A free length that is small against the spring is residue of the search.
-            let free = preload / k;
+            let free = product / k;
             let free = if free.abs() < LENGTH_RESIDUE * longest {
                 0.0
             } else {

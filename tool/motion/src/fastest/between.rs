@@ -135,7 +135,8 @@ pub(super) fn check(
 pub(super) fn largest_excess(
     survey: &Survey,
     ends: &Ends,
-    (track, pieces): (&Track, &[SweepPiece]),
+    track: &Track,
+    pieces: &[SweepPiece],
     trace: &Trace,
     within: f64,
 ) -> Result<((f64, f64), Vec<f64>), NoMotion> {

@@ -137,7 +137,8 @@ fn of_tool(field: &Field, from: f64) -> Result<Vec<f64>, Error> {
 /// this share of its largest value.
 fn lows(
     field: &Field,
-    (from, length): (f64, f64),
+    from: f64,
+    length: f64,
     share: f64,
     quantity: impl Fn(f64) -> Result<f64, Error>,
 ) -> Result<Vec<f64>, Error> {
@@ -172,7 +173,7 @@ fn of_forces(field: &Field, from: f64, length: f64) -> Result<Vec<f64>, Error> {
             let forces = field.forces(phi)?;
             Ok(forces.get(k).map_or(0.0, JointForce::by_acceleration))
         };
-        found.extend(lows(field, (from, length), SINKS, by_acceleration)?);
+        found.extend(lows(field, from, length, SINKS, by_acceleration)?);
     }
     Ok(found)
 }
@@ -191,7 +192,7 @@ fn reversals(field: &Field, from: f64, length: f64) -> Result<Vec<f64>, Error> {
         if load.has_fixed_direction() {
             continue;
         }
-        found.extend(lows(field, (from, length), ZERO_FRICTION, friction)?);
+        found.extend(lows(field, from, length, ZERO_FRICTION, friction)?);
     }
     Ok(found)
 }

@@ -156,8 +156,10 @@ pub enum NoMotion {
         phi: f64,
         /// Share of the limit by which it is exceeded there.
         missed: f64,
-        /// Whether jerk and torque rate are limited.
-        rates: [bool; 2],
+        /// Whether the jerk is limited.
+        jerk: bool,
+        /// Whether the torque rate is limited.
+        torque_rate: bool,
         /// Unit of the torque: N for a linear motor.
         unit: Coordinate,
         /// Axis in which the message gives positions and speeds.

@@ -139,7 +139,7 @@ impl<'f, 'w, 'a> PathSearch<'f, 'w, 'a> {
             let (pieces, times) = tiny_steps::without(&track, pieces, &times);
             let trace = trace(dynamics, &ends, &track, &pieces, &times);
             let ((excess, phi), places) =
-                between::largest_excess(&self.survey, &ends, (&track, &pieces), &trace, within)?;
+                between::largest_excess(&self.survey, &ends, &track, &pieces, &trace, within)?;
             let idle = best.take(Round {
                 track,
                 pieces,

@@ -206,7 +206,8 @@ impl MoveRequest<'_> {
             limit,
             phi,
             missed,
-            rates: [self.limits().jerk, self.limits().torque_rate].map(|limit| limit.is_some()),
+            jerk: self.limits().jerk.is_some(),
+            torque_rate: self.limits().torque_rate.is_some(),
             unit: input(self.field.dynamics.file),
             axis: self.field.dynamics.file.axis(),
         }
@@ -326,7 +327,7 @@ impl MoveRequest<'_> {
         Ok(self)
     }
 
-    fn found(&self, mesh: Mesh, (point, range): (PrimalDual, f64), share: f64) -> MeshMotion {
+    fn found(&self, mesh: Mesh, point: PrimalDual, range: f64, share: f64) -> MeshMotion {
         let time = self.time(&mesh, &point.x);
         MeshMotion {
             mesh,
@@ -357,7 +358,7 @@ impl MoveRequest<'_> {
         }
         let point = minimise(&problem, &start, barrier)
             .or_else(|_| minimise(&problem, &start, [ROUGH[0], barrier[1]]));
-        Ok(point.map(|point| self.found(mesh, (point, range), share)))
+        Ok(point.map(|point| self.found(mesh, point, range, share)))
     }
 
     /// Duration (s).

@@ -9,6 +9,8 @@
 //!
 //! The lower of both is itself such a motion, so it is the fastest. If it comes to rest on the path, every other motion does, too.
 
+mod upper_curve;
+
 use std::convert::Infallible;
 
 use jred_file::number::numerics::zero;
@@ -16,6 +18,7 @@ use jred_file::number::numerics::zero;
 use super::field::Field;
 use super::leg::{Leg, MOST_STEPS, PhasePoint, Stall, Step};
 use super::track::{PathCell, Track};
+use upper_curve::UpperCurve;
 
 /// Relative difference of z below which two curves coincide.
 const CURVE_TOLERANCE: f64 = 1e-12;
@@ -182,7 +185,7 @@ fn upper(field: &Field, track: &Track, end: f64) -> Result<Vec<SweepPiece>, Obst
             let from = start.take().unwrap_or_else(|| leg.point(u, z));
             let reached = leg.go(from, 0.0, &mut steps);
             if let Some((k, crossing)) = above_cap(cell, &leg, &steps) {
-                push_up_to(&mut pieces, index, &leg, &steps[..=k], (1, crossing));
+                push_up_to(&mut pieces, index, &leg, &steps[..=k], 1, crossing);
                 (u, z, on_cap) = (crossing, cell.cap(crossing), true);
                 continue;
             }
@@ -212,7 +215,8 @@ fn push_up_to(
     cell: usize,
     leg: &Leg,
     steps: &[Step],
-    (start, crossing): (usize, f64),
+    start: usize,
+    crossing: f64,
 ) {
     let Some((last, whole)) = steps.split_last() else {
         return;
@@ -295,7 +299,7 @@ fn forwards(
             let from = start.take().unwrap_or_else(|| leg.point(u, z));
             let reached = leg.go(from, 1.0, &mut steps);
             if let Some((k, crossing)) = above.crossed(&leg, &steps) {
-                push_up_to(&mut pieces, index, &leg, &steps[..=k], (0, crossing));
+                push_up_to(&mut pieces, index, &leg, &steps[..=k], 0, crossing);
                 (u, on_upper) = (crossing, true);
                 continue;
             }
@@ -319,99 +323,4 @@ fn forwards(
         return Err(Obstacle::EndTooFast(z));
     }
     Ok(pieces)
-}
-
-/// The upper curve in a cell, as pieces from the end to the start.
-struct UpperCurve<'u> {
-    field: &'u Field<'u, 'u>,
-    cell: &'u PathCell,
-    own: &'u [SweepPiece],
-}
-
-impl UpperCurve<'_> {
-    /// The piece that contains a share of the cell; at a border the later one.
-    fn piece(&self, u: f64) -> Option<&SweepPiece> {
-        let covers = |piece: &&SweepPiece| piece.step.u[0] <= u;
-        self.own.iter().find(covers).or(self.own.last())
-    }
-
-    fn leg(&self) -> Leg<'_> {
-        Leg {
-            field: self.field,
-            side: Side::Least,
-            cell: self.cell,
-        }
-    }
-
-    /// z at a share of the cell.
-    fn z(&self, u: f64) -> f64 {
-        let Some(SweepPiece { step, along, .. }) = self.piece(u) else {
-            return 0.0;
-        };
-        if *along == SweepCurve::Cap {
-            return self.cell.cap(u);
-        }
-        if u <= step.u[0] {
-            return step.z[0];
-        }
-        if (u - step.u[1]).abs() <= 0.0 {
-            return step.z[1];
-        }
-        let leg = self.leg();
-        follow(&leg, leg.point(step.u[1], step.z[1]), u)
-    }
-
-    /// The first step that rises above the upper curve, and where.
-    fn crossed(&self, leg: &Leg, steps: &[Step]) -> Option<(usize, f64)> {
-        let is_above = |step: &Step| step.z[1] > self.z(step.u[1]) * (1.0 + CURVE_TOLERANCE);
-        let k = steps.iter().position(is_above)?;
-        let step = steps[k];
-        let left = leg.point(step.u[0], step.z[0]);
-        let values = [0, 1].map(|end| step.z[end] - self.z(step.u[end]));
-        if values[0] >= 0.0 {
-            return Some((k, step.u[0]));
-        }
-        let above = |u: f64| follow(leg, left, u) - self.z(u);
-        Some((k, zero_of(above, step.u, values)))
-    }
-
-    /// Follows the upper curve from a share of the cell: how far, and whether it still does at the end.
-    fn along(
-        &self,
-        from: f64,
-        most: &Leg,
-        may_leave: bool,
-        index: usize,
-        pieces: &mut Vec<SweepPiece>,
-    ) -> (f64, bool) {
-        let Some(piece) = self.piece(from) else {
-            return (1.0, true);
-        };
-        let end = piece.step.u[1];
-        match piece.along {
-            SweepCurve::Cap => {
-                let cell = self.cell;
-                let falls = |u: f64| cell.cap_slope(u) - most.at(u, cell.cap(u));
-                let leaves = first_positive(falls, from, end).filter(|_| may_leave);
-                let to = leaves.unwrap_or(end);
-                if to > from {
-                    along_cap(cell, index, [from, to], pieces);
-                }
-                (to, leaves.is_none())
-            }
-            _ if from <= piece.step.u[0] => {
-                pieces.push(*piece);
-                (end, true)
-            }
-            SweepCurve::Side(_) => {
-                let leg = self.leg();
-                let mut part = Vec::new();
-                let right = leg.point(end, piece.step.z[1]);
-                if leg.go(right, from, &mut part).is_ok() {
-                    push(pieces, index, part.into_iter().rev(), leg.side);
-                }
-                (end, true)
-            }
-        }
-    }
 }

@@ -41,7 +41,8 @@ impl ToolSpeed {
     /// The mechanism cannot be placed somewhere.
     pub fn new(
         mechanism: &AnyMechanism,
-        (link, at): (usize, [f64; 2]),
+        link: usize,
+        at: [f64; 2],
         speed: f64,
         between: [f64; 2],
     ) -> Result<Option<Self>, Error> {

@@ -274,8 +274,10 @@ fn mean(course: &[(f64, f64)], greatest: f64) -> Option<[f64; 2]> {
 /// # Errors
 /// Those of `at`, with the index of a move; [`NoMotion::TooWarm`].
 pub fn cooled(
-    (winding, limit): (&Winding, f64),
-    (file, actuator): (&MachineFile, &Actuator),
+    winding: &Winding,
+    limit: f64,
+    file: &MachineFile,
+    actuator: &Actuator,
     rms: Option<Rms>,
     at: impl Fn(Option<Rms>) -> Result<Cycle, (Option<usize>, NoMotion)>,
 ) -> Result<ThermalResult, (Option<usize>, NoMotion)> {

@@ -44,7 +44,8 @@ const COST_ROUNDING: f64 = 1e-20;
 /// multiplier found, or the saving by waiting. `None` if the result exceeds the motion's own `cost`, and so is not a bound.
 pub(super) fn value(
     problems: [&Problem; 2],
-    (found, cost): (&Minimum, f64),
+    found: &Minimum,
+    cost: f64,
     price: f64,
 ) -> Result<Option<f64>, Fault> {
     let close = GAP_RESOLUTION * cost + COST_ROUNDING;

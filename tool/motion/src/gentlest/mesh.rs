@@ -87,7 +87,8 @@ impl Mesh {
         place: impl Fn(f64) -> Result<Place, Error>,
         travel: &Travel,
         ramps: [f64; 2],
-        (edges, parts): (&[f64], usize),
+        edges: &[f64],
+        parts: usize,
     ) -> Result<Self, Error> {
         let ends = travel.ends();
         let shape = Parametrization::with_ramps(ends.rest, ramps, &RISE);

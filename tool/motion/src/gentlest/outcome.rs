@@ -78,7 +78,7 @@ impl Solution<'_> {
         let whole = task.travel.ends().ramp == 0.0;
         let (mut bound, mut refuted) = (None, false);
         if prove && whole && task.objective != Objective::Peak {
-            let value = bound::value([&problem, &rounded], (&found, cost), multiplier)?;
+            let value = bound::value([&problem, &rounded], &found, cost, multiplier)?;
             refuted = value.is_none();
             // A negative bound carries no information.
             let value = value.map(|value| size * moving * value + held);

@@ -260,7 +260,7 @@ impl EffortTask<'_> {
             ..*self.travel
         };
         let place = |phi: f64| self.places.of(phi.to_bits(), || self.dynamics.place(phi));
-        let mesh = Mesh::new(place, &travel, self.ramps, (&self.edges, parts))?;
+        let mesh = Mesh::new(place, &travel, self.ramps, &self.edges, parts)?;
         // All meshes for one time use the same scale, because their costs are compared.
         let same = from.filter(|from| from.moving.total_cmp(&moving).is_eq());
         let scale = match same {

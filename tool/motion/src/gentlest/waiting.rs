@@ -52,7 +52,7 @@ pub(super) fn on_the_way(
         let made = if travel.ring {
             turning_from(dynamics, travel, objective, place)
         } else {
-            waiting_at(dynamics, travel, objective, (place, rate))
+            waiting_at(dynamics, travel, objective, place, rate)
         };
         let Some(made) = made else {
             continue;
@@ -150,7 +150,8 @@ fn waiting_at(
     dynamics: &PathDynamics,
     travel: &Travel,
     objective: Objective,
-    (place, rate): (f64, f64),
+    place: f64,
+    rate: f64,
 ) -> Option<LeastEffortMove> {
     let end = travel.start + travel.distance;
     // The whole has the bound of all motions; its parts need no bound.
@@ -190,14 +191,14 @@ fn waiting_at(
         return None;
     }
     let near = ROUNDING * travel.distance.abs();
-    let mut phases = [moving(&to, (place, near), true)?, &[]].concat();
+    let mut phases = [moving(&to, place, near, true)?, &[]].concat();
     if rest > 0.0 {
         phases.push(Phase {
             duration: rest,
             polynomial: Polynomial::constant_jerk([0.0; 3]),
         });
     }
-    phases.extend_from_slice(moving(&from, (place, near), false)?);
+    phases.extend_from_slice(moving(&from, place, near, false)?);
     let cost = |part: &LeastEffortMove| part.cost - rate * (part.travel.duration - part.moving);
     Some(LeastEffortMove {
         travel: *travel,
@@ -283,8 +284,8 @@ fn halves(phase: &Phase, at: f64) -> [Phase; 2] {
     })
 }
 
-/// The motion of a part without the wait at its end, or at its start; `None` if it waits elsewhere.
-fn moving(part: &LeastEffortMove, (place, near): (f64, f64), at_end: bool) -> Option<&[Phase]> {
+/// The motion of a part without the wait at its end, or at its start; `None` if it waits farther than `near` from the place.
+fn moving(part: &LeastEffortMove, place: f64, near: f64, at_end: bool) -> Option<&[Phase]> {
     let phases = part.phases.as_slice();
     if part.moving >= part.travel.duration {
         return Some(phases);

@@ -82,8 +82,9 @@ impl<'a> Timeline<'a> {
             }
             for k in 0..SAMPLES {
                 let [from, to] = [time(stretch, k), time(stretch, k + 1)];
-                let inner = [k > 0, k + 1 < SAMPLES];
-                split(&|t| line.sign(t), [from, to], inner, &mut spans);
+                let (starts_inside, ends_inside) = (k > 0, k + 1 < SAMPLES);
+                let sign = |t: f64| line.sign(t);
+                split(&sign, [from, to], starts_inside, ends_inside, &mut spans);
             }
         }
         let shortest = INSTANT_SHARE * motion.duration();
@@ -282,9 +283,15 @@ impl<'a> Timeline<'a> {
     }
 }
 
-/// Adds the spans between two samples. `inner` says for each sample whether it lies inside its stretch: there a zero of the speed is where a pause
-/// begins or ends. A zero at the end of a stretch may come from a motion law.
-fn split(sign: &impl Fn(f64) -> i8, [from, to]: [f64; 2], inner: [bool; 2], spans: &mut Vec<Span>) {
+/// Adds the spans between two samples, each of them inside its stretch or at an end of it. Inside, a zero of the speed is where a pause begins or
+/// ends; at the end of a stretch it may come from a motion law.
+fn split(
+    sign: &impl Fn(f64) -> i8,
+    [from, to]: [f64; 2],
+    starts_inside: bool,
+    ends_inside: bool,
+    spans: &mut Vec<Span>,
+) {
     let middle = sign(from.midpoint(to));
     let [before, after] = [sign(from), sign(to)];
     let mut push = |from: f64, to: f64, sign: i8| {
@@ -302,11 +309,11 @@ fn split(sign: &impl Fn(f64) -> i8, [from, to]: [f64; 2], inner: [bool; 2], span
         push(turn, to, after);
     } else if before == 0 && after == 0 {
         push(from, to, middle);
-    } else if before == 0 && inner[0] {
+    } else if before == 0 && starts_inside {
         let Ok(start) = edge(keeps(0), from, to);
         push(from, start, 0);
         push(start, to, after);
-    } else if after == 0 && inner[1] {
+    } else if after == 0 && ends_inside {
         let Ok(end) = edge(keeps(before), from, to);
         push(from, end, before);
         push(end, to, 0);

@@ -262,7 +262,7 @@ fn a_tool_speed_with_a_limited_jerk() {
         .position(|name| name == "slider")
         .unwrap();
     let between = [1.8 * PI, TAU];
-    let tool = ToolSpeed::new(mechanism, (slider, [0.0; 2]), 0.2, between);
+    let tool = ToolSpeed::new(mechanism, slider, [0.0; 2], 0.2, between);
     let tool = ToolSpeeds::from(tool.unwrap().unwrap());
     let motor = motor([300.0, 200.0], 90.0);
     let asked = |tool: ToolSpeeds, jerk: Option<f64>| Task {

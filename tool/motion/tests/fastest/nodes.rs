@@ -33,7 +33,7 @@ fn slide(file: &MachineFile, speed: f64, between: [f64; 2]) -> ToolSpeed {
     let names = mechanism.link_names();
     let slider = names.iter().position(|name| name == "slider").unwrap();
     let between = between.map(f64::to_radians);
-    let limit = ToolSpeed::new(mechanism, (slider, [0.0; 2]), speed, between);
+    let limit = ToolSpeed::new(mechanism, slider, [0.0; 2], speed, between);
     limit.unwrap().unwrap()
 }
 

@@ -74,7 +74,7 @@ fn made(
         };
         made.map(|cycle| (cycle, ()))
     };
-    let found = ruled(&judge, (&limits, rms), rms.is_some(), make);
+    let found = ruled(&judge, &limits, rms, rms.is_some(), make);
     let (cycle, (), judged) = found.map_err(|(_, why)| why)?;
     Ok((cycle, judged))
 }

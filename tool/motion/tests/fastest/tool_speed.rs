@@ -23,7 +23,7 @@ fn a_tool_is_slow_in_a_part_of_its_way() {
         .position(|name| name == "rack")
         .unwrap();
     for [a, b, end] in [[2.0, 3.5, 5.0], [0.9, 1.0, 4.0], [1.0, 6.0, 6.25]] {
-        let limit = ToolSpeed::new(mechanism, (rack, [0.0; 2]), 0.05 * slow, [a, b]).unwrap();
+        let limit = ToolSpeed::new(mechanism, rack, [0.0; 2], 0.05 * slow, [a, b]).unwrap();
         let asked = Task {
             limits: MoveLimits {
                 tool: limit.unwrap().into(),
@@ -86,7 +86,7 @@ fn a_press_is_slow_through_the_work() {
     let x = |phi: f64| mechanism.frames(phi).unwrap()[slider].x;
     // A slow tool needs a crank speed that grows a thousandfold within a cell at the dead centre.
     for speed in [0.06, 0.01, 0.001, 0.0001] {
-        let limit = ToolSpeed::new(mechanism, (slider, [0.0; 2]), speed, between).unwrap();
+        let limit = ToolSpeed::new(mechanism, slider, [0.0; 2], speed, between).unwrap();
         let found = fastest(&file, &press, &asked(limit.unwrap().into()));
         let mut slow = 0.0;
         for phase in found
@@ -139,7 +139,7 @@ fn a_programme_of_speeds_over_two_turns() {
     let names = mechanism.link_names();
     let rack = names.iter().position(|name| name == "rack").unwrap();
     let slow = |speed: f64, between: [f64; 2]| {
-        let limit = ToolSpeed::new(mechanism, (rack, [0.0; 2]), 0.05 * speed, between);
+        let limit = ToolSpeed::new(mechanism, rack, [0.0; 2], 0.05 * speed, between);
         limit.unwrap().unwrap().once()
     };
     let turn = std::f64::consts::TAU;
@@ -168,7 +168,7 @@ fn a_programme_of_speeds_over_two_turns() {
         + beside(end - c, slower);
     close(found.time, time, 1e-9);
     // With a repeating range the second turn is slow as well.
-    let again = ToolSpeed::new(mechanism, (rack, [0.0; 2]), 0.05 * fast, [2.0, 3.0]);
+    let again = ToolSpeed::new(mechanism, rack, [0.0; 2], 0.05 * fast, [2.0, 3.0]);
     let again = again.unwrap().unwrap();
     let at = |limit: ToolSpeed, phi: f64| limit.at(mechanism, phi).unwrap();
     assert!(at(again, 2.5 + turn) < 1.0 && at(again.once(), 2.5 + turn).is_infinite());

@@ -89,7 +89,7 @@ fn limited(
         let found = cycle(file, &actuator, MoveLimits::default(), rms, parts);
         found.map_err(|(index, why)| (Some(index + 1), why))
     };
-    cooled((&winding, limit), (file, &actuator), None, at)
+    cooled(&winding, limit, file, &actuator, None, at)
 }
 
 /// The rise under a constant torque: P·(1 + g·θ)·(R_w + R_h) = θ.

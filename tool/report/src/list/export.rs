@@ -1,29 +1,63 @@
 //! The table for the firmware, and every other number type and layout.
 
+mod data;
+mod failure;
+mod summary;
+
 use crate::answer::Answer;
-use crate::answer::schema::Data;
 use crate::table::reading::Reading;
-use jred_export::data::{ExportData, FORM};
 use jred_export::{Export, SearchResult};
+use jred_file::model::coordinate::Coordinate;
 use jred_file::number::rounding::short;
 use jred_sizing::study::cell::Cell;
 
-impl Data for ExportData {
-    const FORM: &'static str = FORM;
-}
+pub(crate) use data::ExportData;
+pub use failure::{impossible, not_reached};
+pub use summary::exceeded;
+use summary::{left_out, summary};
 
 /// The selected table, starred, and the sizes of the others.
 pub fn answer(export: &Export) -> Answer<'static> {
-    let summary = export.summary();
+    let summary = summary(export);
     let mut lines = summary.lines();
     let title = lines.next().unwrap_or_default();
-    let mut answer = Answer::new(title, &export.data());
+    let mut answer = Answer::new(export.title.as_str(), &data::data(export)).titled(title);
     for line in lines {
         answer.sentence(line);
     }
     answer.heading("every number type and layout");
     answer.table(alternatives(export));
     answer
+}
+
+/// Source code with the summary as its comment.
+pub fn commented(export: &Export, code: &str) -> String {
+    let lines = summary(export);
+    let lines = lines.lines().map(|line| format!("// {line}\n"));
+    lines.collect::<String>() + code
+}
+
+const fn effort_name(coordinate: Coordinate) -> &'static str {
+    match coordinate {
+        Coordinate::Angle => "torque",
+        Coordinate::Length => "force",
+    }
+}
+
+/// The part of a number range that is left, in bits.
+fn headroom(usage: f32) -> Option<f64> {
+    (usage > 0.0).then(|| -f64::from(usage).log2())
+}
+
+/// Why it is not chosen, in a few words; empty if it meets the request.
+const fn remark(found: &SearchResult) -> &'static str {
+    match found {
+        SearchResult::Meets(_) => "",
+        SearchResult::Misses(_) => "misses",
+        SearchResult::Refused(_) => "no size is usable",
+        SearchResult::TooCoarse(..) => "too coarse",
+        SearchResult::TooLarge(_) => "does not fit",
+    }
 }
 
 fn alternatives(export: &Export) -> Reading {
@@ -35,7 +69,7 @@ fn alternatives(export: &Export) -> Reading {
         "cells".into(),
         "bytes\nof rows".into(),
         "bytes\nof image".into(),
-        format!("instructions\non {}", export.core()),
+        format!("instructions\non {}", export.task.core),
         format!("error\n[{effort}]"),
         format!("in ticks\n[{effort}]"),
         String::new(),
@@ -53,7 +87,7 @@ fn alternatives(export: &Export) -> Reading {
             ];
             match answer {
                 SearchResult::Meets(c) | SearchResult::Misses(c) => {
-                    let cost = export.core().instructions(*number, *layout);
+                    let cost = export.task.core.instructions(*number, *layout);
                     row.extend([
                         c.cells().to_string(),
                         c.row_bytes().to_string(),
@@ -69,7 +103,7 @@ fn alternatives(export: &Export) -> Reading {
                     row.extend(std::iter::repeat_n(String::new(), 6));
                 }
             }
-            row.push(answer.remark().to_owned());
+            row.push(remark(answer).to_owned());
             row.into_iter().map(Cell::Text).collect()
         });
     Reading {

@@ -198,7 +198,7 @@ fn tool_speed(text: &str, file: &MachineFile) -> Result<(ToolSpeed, String)> {
     let place = named
         .map(|own| (own.link, own.at))
         .or_else(|| Some((link()?, [0.0; 2])));
-    let Some(place) = place else {
+    let Some((link, at)) = place else {
         let points = mechanism.points().iter().map(|own| own.name.as_str());
         let all: Vec<&str> = points.chain(links.iter().map(String::as_str)).collect();
         return Err(miette!(
@@ -245,7 +245,7 @@ fn tool_speed(text: &str, file: &MachineFile) -> Result<(ToolSpeed, String)> {
         spoken.place(start),
         spoken.place(end)
     );
-    let limit = ToolSpeed::new(mechanism, place, most, between);
+    let limit = ToolSpeed::new(mechanism, link, at, most, between);
     let limit = limit.map_err(core_report)?;
     let limit = limit.map(|limit| {
         let limit = if repeats { limit } else { limit.once() };

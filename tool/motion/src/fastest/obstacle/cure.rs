@@ -104,7 +104,8 @@ impl NoMotion {
             }
             Self::NotFound {
                 limit: Some(limit),
-                rates,
+                jerk,
+                torque_rate,
                 ..
             } => {
                 // Without a rate limit a motion exists, no matter which other limit is in the way.
@@ -112,7 +113,7 @@ impl NoMotion {
                     (Binding::Jerk, "a larger jerk (--max-jerk)"),
                     (Binding::TorqueRate, "a larger torque rate (--max-torque-rate)"),
                 ];
-                let asked = options.into_iter().zip(rates).filter(|(_, asked)| **asked);
+                let asked = options.into_iter().zip([jerk, torque_rate]).filter(|(_, asked)| **asked);
                 let mut cures: Vec<String> =
                     asked.map(|((_, words), _)| words.to_owned()).collect();
                 if options.iter().all(|(rate, _)| rate != limit) {

@@ -113,7 +113,10 @@ impl MoveRequest<'_> {
             self.problem(&mesh, &margins, *range).whole_cost(&point.x)
         };
         let best = even.min_by(|a, b| cost(a).total_cmp(&cost(b)));
-        let best = best.map(|best| (borders.clone(), self.found(mesh.clone(), best, RANGES[0])));
+        let best = best.map(|(point, range)| {
+            let found = self.found(mesh.clone(), point, range, RANGES[0]);
+            (borders.clone(), found)
+        });
         // On coarse pieces the faster family may not exist.
         let mut eased = None;
         let mut finer = borders;
@@ -122,7 +125,10 @@ impl MoveRequest<'_> {
             finer = halved(&finer);
             let mesh = self.mesh(shape, &finer)?;
             let found = self.eased(&mesh);
-            eased = found.map(|best| (finer.clone(), self.found(mesh, best, RANGES[0])));
+            eased = found.map(|(point, range)| {
+                let found = self.found(mesh, point, range, RANGES[0]);
+                (finer.clone(), found)
+            });
         }
         let faster = |(_, eased): &(_, MeshMotion)| {
             best.as_ref()

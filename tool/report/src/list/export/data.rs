@@ -3,21 +3,14 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use crate::candidate::{Candidate, RangeTable, SearchResult};
-use crate::export::Export;
-use crate::figures::{headroom, rust_call, rust_type};
-use crate::proof_result::ProofResult;
-
-/// Name and version of the form in JSON.
-pub const FORM: &str = "jred-export/1";
+use super::{headroom, left_out, remark};
+use crate::answer::schema;
+use jred_export::{Candidate, Export, ProofResult, RangeTable, SearchResult};
+use jred_file::model::coordinate::Coordinate;
 
 /// The JSON of `jred export`, with every digit (SI units).
 #[derive(Serialize, JsonSchema)]
-pub struct ExportData {
-    /// Name and version of the form.
-    schema: &'static str,
-    /// Title of the machine.
-    title: String,
+pub(crate) struct ExportData {
     /// Identification of the machine in the image.
     machine: u32,
     /// Unit of positions: rad or m.
@@ -188,96 +181,91 @@ struct PieceData {
     words: Vec<u32>,
 }
 
-impl Export {
-    /// All of it, with every digit.
-    pub fn data(&self) -> ExportData {
-        let (chosen, task) = (self.chosen(), &self.task);
-        let scale = chosen.scale();
-        let whole = self.whole();
-        ExportData {
-            schema: FORM,
-            title: self.title.clone(),
-            machine: self.machine,
-            position_unit: self.coordinate.per(),
-            effort_unit: self.coordinate.effort_unit(),
-            omega: task.omega,
-            alpha: task.alpha,
-            torque_error_allowed: task.torque_error,
-            max_bytes: task.max_bytes,
-            max_cells: task.max_cells,
-            core: task.core.word(),
-            instructions: task.core.instructions(chosen.number, chosen.layout),
-            by_direction: self.by_direction,
-            number: chosen.number.name(),
-            layout: chosen.layout.name(),
-            rust: match whole {
-                Some(_) => rust_call(chosen),
-                None => rust_type(chosen),
-            },
-            left_out: self.left_out(),
-            figures: figures(chosen),
-            scale: ScaleData {
-                torque: scale.torque(),
-                speed: scale.speed(),
-                inertia: scale.inertia(),
-                acceleration: scale.acceleration(),
-            },
-            bits_unused: chosen.number.is_fixed().then(|| HeadroomData {
-                inertia: headroom(chosen.usage(|u| u.inertia)),
-                velocity: headroom(chosen.usage(|u| u.velocity)),
-                load: headroom(chosen.usage(|u| u.load)),
-                viscous: headroom(chosen.usage(|u| u.viscous)),
-                coulomb: headroom(chosen.usage(|u| u.coulomb)),
-                torque: headroom(chosen.usage(|u| u.torque)),
-            }),
-            error_between_places: match self.proof() {
-                Some(ProofResult::Bounded(_)) => "proven",
-                _ => "estimated",
-            },
-            proof: self.proof().as_ref().map(proof),
-            alternatives: self.alternatives(),
-            words: whole.map(|table| table.words.clone()),
-            pieces: match whole {
-                Some(_) => None,
-                None => Some(
-                    chosen
-                        .tables
-                        .iter()
-                        .map(|table| self.piece(table))
-                        .collect(),
-                ),
-            },
-        }
-    }
+impl schema::Data for ExportData {
+    const FORM: &'static str = "jred-export/1";
+}
 
-    fn alternatives(&self) -> Vec<AlternativeData> {
-        let answers = self.answers.iter();
-        let all = answers.map(|(number, layout, answer)| {
-            let found = match answer {
-                SearchResult::Meets(c) | SearchResult::Misses(c) => Some(figures(c)),
-                _ => None,
-            };
-            AlternativeData {
-                number: number.name(),
-                layout: layout.name(),
-                meets: matches!(answer, SearchResult::Meets(_)),
-                instructions: self.task.core.instructions(*number, *layout),
-                why: found.is_none().then(|| answer.remark().to_owned()),
-                figures: found,
-            }
-        });
-        all.collect()
+/// All of it, with every digit.
+pub(super) fn data(export: &Export) -> ExportData {
+    let (chosen, task) = (export.chosen(), &export.task);
+    let scale = chosen.scale();
+    let whole = export.whole();
+    let tables = chosen.tables.iter();
+    ExportData {
+        machine: export.machine,
+        position_unit: match export.coordinate {
+            Coordinate::Angle => "rad",
+            Coordinate::Length => "m",
+        },
+        effort_unit: export.coordinate.effort_unit(),
+        omega: task.omega,
+        alpha: task.alpha,
+        torque_error_allowed: task.torque_error,
+        max_bytes: task.max_bytes,
+        max_cells: task.max_cells,
+        core: task.core.word(),
+        instructions: task.core.instructions(chosen.number, chosen.layout),
+        by_direction: export.by_direction,
+        number: chosen.number.name(),
+        layout: chosen.layout.name(),
+        rust: export.rust(),
+        left_out: left_out(export),
+        figures: figures(chosen),
+        scale: ScaleData {
+            torque: scale.torque(),
+            speed: scale.speed(),
+            inertia: scale.inertia(),
+            acceleration: scale.acceleration(),
+        },
+        bits_unused: chosen.number.is_fixed().then(|| HeadroomData {
+            inertia: headroom(chosen.usage(|u| u.inertia)),
+            velocity: headroom(chosen.usage(|u| u.velocity)),
+            load: headroom(chosen.usage(|u| u.load)),
+            viscous: headroom(chosen.usage(|u| u.viscous)),
+            coulomb: headroom(chosen.usage(|u| u.coulomb)),
+            torque: headroom(chosen.usage(|u| u.torque)),
+        }),
+        error_between_places: match export.proof() {
+            Some(ProofResult::Bounded(_)) => "proven",
+            _ => "estimated",
+        },
+        proof: export.proof().as_ref().map(proof),
+        alternatives: alternatives(export),
+        words: whole.map(|table| table.words.clone()),
+        pieces: match whole {
+            Some(_) => None,
+            None => Some(tables.map(|table| piece(export, table)).collect()),
+        },
     }
+}
 
-    fn piece(&self, table: &RangeTable) -> PieceData {
-        PieceData {
-            from: table.range[0],
-            to: table.range[1],
-            start: self.start(table).to_bits(),
-            cells: table.found.cells,
-            torque_error: table.error,
-            words: table.words.clone(),
+fn alternatives(export: &Export) -> Vec<AlternativeData> {
+    let answers = export.answers.iter();
+    let all = answers.map(|(number, layout, answer)| {
+        let found = match answer {
+            SearchResult::Meets(c) | SearchResult::Misses(c) => Some(figures(c)),
+            _ => None,
+        };
+        AlternativeData {
+            number: number.name(),
+            layout: layout.name(),
+            meets: matches!(answer, SearchResult::Meets(_)),
+            instructions: export.task.core.instructions(*number, *layout),
+            why: found.is_none().then(|| remark(answer).to_owned()),
+            figures: found,
         }
+    });
+    all.collect()
+}
+
+fn piece(export: &Export, table: &RangeTable) -> PieceData {
+    PieceData {
+        from: table.range[0],
+        to: table.range[1],
+        start: export.start(table).to_bits(),
+        cells: table.found.cells,
+        torque_error: table.error,
+        words: table.words.clone(),
     }
 }
 
