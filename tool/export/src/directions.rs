@@ -14,7 +14,8 @@ use jred::Domain;
 use jred::error::Error;
 use jred::machine::{Machine, PoseError, Reducible, Reduction};
 
-use crate::task::{Failure, Impossible, Task};
+use crate::failure::{Failure, Impossible};
+use crate::task::Task;
 use jred_file::model::machine::{MachineFile, Machines};
 use jred_file::model::mechanism::AnyMechanism;
 use jred_file::model::schedule::ScheduleInstant;

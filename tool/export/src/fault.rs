@@ -7,10 +7,14 @@ use jred::{Cubic, Quadratic, Spline};
 
 use crate::candidate::{Candidate, RangeTable, SearchResult};
 use crate::choice::{LayoutName, Number};
+use crate::failure::{
+    AccuracyLimit, Alternative, BestFit, CellsNeeded, CoarseLayout, Failure, Impossible,
+    Inaccuracy, LeastError, NotReached,
+};
 use crate::pieces::Searches;
 use crate::place::{Feature, feature};
 use crate::search::Search;
-use crate::task::{Failure, Impossible, Task};
+use crate::task::Task;
 use jred_file::model::machine::MachineFile;
 
 /// A search without a result.
@@ -19,111 +23,6 @@ pub(crate) struct SearchFailure<'f> {
     pub(crate) task: &'f Task,
     pub(crate) search: &'f Searches<'f>,
     pub(crate) answers: &'f [(Number, LayoutName, SearchResult)],
-}
-
-/// Why no table meets the torque error.
-#[derive(Clone, Debug)]
-pub enum NotReached {
-    /// Harmonics or the closed form cannot hold the machine.
-    Refused(Error),
-    /// A larger number of cells than allowed would give a table of each requested layout.
-    TooCoarse {
-        /// The requested layouts.
-        layouts: Vec<CoarseLayout>,
-        /// Tables of other layouts and types that meet the request.
-        alternatives: Vec<Alternative>,
-    },
-    /// The tables are less accurate than requested.
-    Inaccurate(Inaccuracy),
-}
-
-/// A layout without a usable table of the allowed number of cells.
-#[derive(Clone, Copy, Debug)]
-pub struct CoarseLayout {
-    /// The layout.
-    pub layout: LayoutName,
-    /// The error of its largest table.
-    pub error: Error,
-    /// A number of cells that is enough.
-    pub cells: u32,
-}
-
-/// The errors of the requested layouts.
-#[derive(Clone, Debug)]
-pub struct Inaccuracy {
-    /// The layouts, most accurate first.
-    pub layouts: Vec<LeastError>,
-    /// Position of the largest error of the most accurate one (rad, or m).
-    pub worst: f64,
-    /// The feature there.
-    pub feature: Option<Feature>,
-    /// Whether the largest error is at the feature only with more cells.
-    pub finer: bool,
-    /// Whether the table is cut into pieces.
-    pub in_pieces: bool,
-    /// Tables of other layouts and types that meet the request.
-    pub alternatives: Vec<Alternative>,
-}
-
-/// The least error of a layout.
-#[derive(Clone, Copy, Debug)]
-pub struct LeastError {
-    /// The layout.
-    pub layout: LayoutName,
-    /// Its number of cells.
-    pub cells: u32,
-    /// Its torque error (N·m, or N).
-    pub error: f64,
-    /// Range of the table with this error (rad, or m).
-    pub range: [f64; 2],
-    /// The obstacle to a smaller error.
-    pub limit: AccuracyLimit,
-}
-
-/// Obstacles to a more accurate table.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum AccuracyLimit {
-    /// The number type.
-    Rounding,
-    /// The number of cells, which hardly lower the error.
-    Cells,
-    /// The number of cells: the error falls with this power of it.
-    Order(f64, CellsNeeded),
-}
-
-/// Number of cells for the requested error, if the error continues to fall.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum CellsNeeded {
-    /// Fewer than were tried: the error does not follow its order.
-    Irregular,
-    /// This number.
-    Enough(u32),
-    /// More than a table can have.
-    TooMany,
-}
-
-/// The most accurate table that fits.
-#[derive(Clone, Copy, Debug)]
-pub struct BestFit {
-    /// Layout.
-    pub layout: LayoutName,
-    /// Number of cells.
-    pub cells: u32,
-    /// Its torque error (N·m, or N).
-    pub error: f64,
-}
-
-/// A table of another layout or type that meets the request.
-#[derive(Clone, Copy, Debug)]
-pub struct Alternative {
-    /// Number type.
-    pub number: Number,
-    /// Layout.
-    pub layout: LayoutName,
-    /// Number of cells.
-    pub cells: u32,
-    /// Size of the image (bytes).
-    pub bytes: usize,
 }
 
 impl SearchFailure<'_> {

@@ -16,6 +16,7 @@ mod cost;
 mod directions;
 mod enclose;
 mod export;
+mod failure;
 mod fault;
 mod form;
 mod harmonic;
@@ -37,9 +38,9 @@ pub use candidate::{Candidate, RangeTable, SearchResult};
 pub use choice::{Choice, LayoutChoice, LayoutName, Number};
 pub use cost::Core;
 pub use export::{Export, identifier};
-pub use fault::{
-    AccuracyLimit, Alternative, BestFit, CellsNeeded, CoarseLayout, Inaccuracy, LeastError,
-    NotReached,
+pub use failure::{
+    AccuracyLimit, Alternative, BestFit, CellsNeeded, CoarseLayout, Failure, Impossible,
+    Inaccuracy, LeastError, NoClosedForm, NotReached,
 };
 pub use form::OutputForm;
 pub use name::Name;
@@ -47,6 +48,5 @@ pub use place::{CurveName, Feature, WindowEdge};
 pub use plan::plan_source;
 pub use proof_result::ProofResult;
 pub use search::EXHAUSTIVE;
-pub use slider_crank::NoClosedForm;
-pub use task::{Failure, Impossible, Task};
+pub use task::Task;
 pub use ticks::Ticks;

@@ -11,9 +11,10 @@ use crate::candidate::{RangeTable, SearchResult};
 use crate::choice::{LayoutName, Number};
 use crate::enclose::EnclosedMachine;
 use crate::export::Export;
+use crate::failure::Failure;
 use crate::proof_result::ProofResult;
 use crate::search::rounded_up;
-use crate::task::{Failure, Task};
+use crate::task::Task;
 use crate::ticks;
 use jred_file::model::machine::MachineFile;
 

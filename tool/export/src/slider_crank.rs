@@ -5,12 +5,13 @@ use jred::harmonic::measure;
 use jred::image::image_len;
 use jred::machine::{Machine, Mechanism as _};
 use jred::mechanism::SliderCrank;
-use jred::slider_crank::{SliderCrankError, form, set_in_use};
+use jred::slider_crank::{form, set_in_use};
 use jred::table::{Shape, Table, Usage, words_len};
 use jred::tabulate::{Request, TableFigures};
 use jred::{Domain, Scale, SliderCrankForm};
 
 use crate::candidate::{RangeTable, SearchResult};
+use crate::failure::NoClosedForm;
 use crate::search::Search;
 use jred_file::model::machine::machine_like;
 use jred_file::model::mechanism::AnyMechanism;
@@ -19,21 +20,6 @@ type F = SliderCrankForm;
 
 /// Places per turn, besides those of the reference; an odd number.
 const PLACES: u32 = 4097;
-
-/// Why a machine has no closed form.
-#[derive(Clone, Debug)]
-pub enum NoClosedForm {
-    /// Another mechanism, by its name in machine files.
-    Mechanism(&'static str),
-    /// A part of the turn.
-    Stroke,
-    /// Loads that depend on the direction of travel.
-    ByDirection,
-    /// A curve over the position.
-    Curve(String),
-    /// A load or a spring that it does not support.
-    Part(SliderCrankError),
-}
 
 /// The machine as a slider-crank, if the closed form can represent all of it.
 pub(crate) fn plain(

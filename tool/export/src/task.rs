@@ -1,13 +1,10 @@
-//! The request, and why it is rejected.
+//! The request.
 
 use jred::error::Error;
 use jred::machine::Machine;
 
 use crate::choice::{LayoutChoice, Number};
 use crate::cost::Core;
-use crate::fault::{Alternative, BestFit, NotReached};
-use crate::slider_crank::NoClosedForm;
-use jred_file::model::by_motion::ByMotion;
 use jred_file::model::machine::MachineFile;
 use jred_file::model::mechanism::AnyMechanism;
 
@@ -48,68 +45,5 @@ impl Task {
         let ratio = file.drive_train.ratio();
         let machine = file.with_drive_train()?;
         Ok(machine.with_flywheel(self.rotor * ratio * ratio)?)
-    }
-}
-
-/// Why there is no table.
-#[derive(Clone, Debug)]
-pub enum Failure {
-    /// The machine cannot be tabulated.
-    Machine(Error),
-    /// No table meets the torque error.
-    NotReached(NotReached),
-    /// The request is impossible.
-    Impossible(Impossible),
-}
-
-/// Why a request is impossible.
-#[derive(Clone, Debug)]
-pub enum Impossible {
-    /// A part of the machine depends on the motion.
-    ByMotion(ByMotion),
-    /// Viscous friction depends on the direction of travel.
-    ViscousByDirection {
-        /// The position (rad, or m).
-        at: f64,
-    },
-    /// Loads by direction drive the motion.
-    DrivingLoads {
-        /// The position (rad, or m).
-        at: f64,
-        /// How much less they take forwards than backwards, together with friction (N·m, or N).
-        excess: f64,
-    },
-    /// The closed form does not hold the machine.
-    NoClosedForm(NoClosedForm),
-    /// A piece is too short.
-    ShortPiece {
-        /// Its ends (rad, or m).
-        range: [f64; 2],
-        /// The shortest possible one (rad, or m).
-        shortest: f64,
-    },
-    /// The pieces have too many cells together.
-    TooManyCells {
-        /// Number of pieces.
-        pieces: usize,
-        /// Most cells of all pieces together.
-        most: usize,
-    },
-    /// The pieces have no common machine units.
-    PieceUnits,
-    /// No table fits into the bytes.
-    DoesNotFit {
-        /// The most accurate table that fits, but does not meet the torque error.
-        best: Option<BestFit>,
-        /// Bytes of the smallest image.
-        smallest: Option<usize>,
-        /// Tables of other layouts and types that meet the request.
-        alternatives: Vec<Alternative>,
-    },
-}
-
-impl<E: Into<Error>> From<E> for Failure {
-    fn from(error: E) -> Self {
-        Self::Machine(error.into())
     }
 }

@@ -247,7 +247,7 @@ fn room_in_closed_form() {
     );
     let (first, room) = found.first_to_break().unwrap();
     assert_eq!(study.document.quantities()[first].path, "rules.speed");
-    assert!(std::ptr::eq(room, &limit.room[0]));
+    assert!(std::ptr::eq(room, &raw const limit.room[0]));
 }
 
 /// Beyond its room a quantity violates the named rule, within it none: by sizing the changed machine.

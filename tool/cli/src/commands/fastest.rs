@@ -26,6 +26,7 @@ use jred_file::number::rounding::short;
 use jred_file::plain;
 use jred_file::text::key::{EFFORT, SPEED};
 use jred_motion::contact::broken;
+use jred_motion::fastest::cycle::Cycle;
 use jred_motion::fastest::field::Field;
 use jred_motion::fastest::joint_force::reached;
 use jred_motion::fastest::ruled::{Judge, ruled};
@@ -160,13 +161,17 @@ pub fn fastest(options: &Options) -> Result<Completion> {
     written.extend(planned);
     let answer = view.answer(options.format, &written).map_err(core_report)?;
     print_answer(&answer, options.format)?;
-    let exceeds = cycle.kept.iter().any(KeptPart::exceeds);
     let violated = judged.is_some_and(|judged| judged.violated().next().is_some());
-    Ok(if broken.is_some() || exceeds || violated {
+    Ok(completion(&cycle, broken.is_some() || violated))
+}
+
+/// The exit status: also a part of the file's motion that exceeds a limit violates it.
+fn completion(cycle: &Cycle, violated: bool) -> Completion {
+    if violated || cycle.kept.iter().any(KeptPart::exceeds) {
         Completion::Violated
     } else {
         Completion::Holds
-    })
+    }
 }
 
 /// Writes the motion as a profile and a cam table.

@@ -1,5 +1,7 @@
 //! The findings of a check in words.
 
+use std::fmt::Write as _;
+
 use jred_analysis::inspect::{
     ContactLimit, Findings, NEAR_DEAD_POINT, Transmission, Travel, TravelKind, Violation,
 };
@@ -141,7 +143,7 @@ pub(super) fn travel(travel: &Travel, drive: Coordinate) -> String {
     if matches!(travel.way, TravelKind::Advances | TravelKind::Turns) {
         way += " per turn";
         if !travel.dead_centres.is_empty() {
-            way += &format!(" and goes back by {} in between", moved(travel.back));
+            let _ = write!(way, " and goes back by {} in between", moved(travel.back));
         }
     }
     format!("{} {way}; {centres}{rests}", travel.link)

@@ -100,17 +100,7 @@ pub fn problem(error: &SteadyError) -> Problem {
             inertia,
             reached,
             torque,
-        } => problem!(
-            help = "use a motor that gives more than this at its speed, or another --delta",
-            "no flywheel up to {} kg m^2 makes the fluctuation δ = {}: {}; a slow turn asks for {} N m of the motor on average",
-            short(*inertia),
-            short(*delta),
-            reached.map_or_else(
-                || "the machine stops".to_owned(),
-                |delta| format!("it is {}", short(delta))
-            ),
-            short(*torque)
-        ),
+        } => no_flywheel([*delta, *inertia, *torque], *reached),
         E::Integrator => problem!(
             help = "the machine follows its motor or its friction almost at once, against its inertia: check rotor_inertia in [simulation], the masses, \
                     viscous friction and how steep the characteristic is, and how near the mechanism comes to a dead point (jred check)",
@@ -118,6 +108,20 @@ pub fn problem(error: &SteadyError) -> Problem {
         ),
         E::Parted(error) => simulation::problem(error),
     }
+}
+
+fn no_flywheel([delta, inertia, torque]: [f64; 3], reached: Option<f64>) -> Problem {
+    problem!(
+        help = "use a motor that gives more than this at its speed, or another --delta",
+        "no flywheel up to {} kg m^2 makes the fluctuation δ = {}: {}; a slow turn asks for {} N m of the motor on average",
+        short(inertia),
+        short(delta),
+        reached.map_or_else(
+            || "the machine stops".to_owned(),
+            |delta| format!("it is {}", short(delta))
+        ),
+        short(torque)
+    )
 }
 
 fn rpm(omega: f64) -> String {
