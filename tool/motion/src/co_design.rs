@@ -95,7 +95,7 @@ impl<'a> CoDesignInput<'a> {
     /// Each of the first drives with its motion of least RMS torque.
     ///
     /// # Errors
-    /// As [`cycle::gentlest`].
+    /// As [`cycle::gentlest_cycle`].
     pub fn best(&self) -> Result<CoDesign<'a>, Obstacle> {
         let own = self.cycle(self.own)?;
         let before = self.first(&own);

@@ -145,7 +145,7 @@ pub fn not_contained(file: &MachineFile, request: &Request) -> Vec<String> {
     not_in(file, || rows(file, request))
 }
 
-/// The same for [`reduce_at`].
+/// The same for [`reduce_at`](super::reduce_at).
 pub fn not_contained_at(file: &MachineFile, request: &Request, at: &[DrivePoint]) -> Vec<String> {
     not_in(file, || rows_at(file, request, at))
 }
