@@ -21,7 +21,7 @@ fn wrong_formulas_are_refused_with_their_place() {
         1 - 1.2*cos(phi) => is -0.2 at t = 0 s, phi = 0 rad
         // As often as it is tried in a turn, it has the same value there.
         0.5 + 2*sin(62.5*phi) => phi =␣ | but must be between 0.001 and 1000
-        1.2.3 => "1.2.3" is no number
+        1.2.3 => "1.2.3" is not a number
     "#;
     for [formula, words] in rows(cases) {
         let to = format!("ratio = \"{formula}\"");

@@ -262,7 +262,7 @@ impl<'t> Reader<'t> {
         if first.is_ascii_digit() || first == '.' {
             return match found.parse::<f64>() {
                 Ok(number) if number.is_finite() => Ok(Expression::Number(number)),
-                _ => fault(place, format!("\"{found}\" is no number")),
+                _ => fault(place, format!("\"{found}\" is not a number")),
             };
         }
         if !first.is_alphabetic() {

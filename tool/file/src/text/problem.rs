@@ -166,7 +166,7 @@ impl Parts {
 }
 
 /// `"a", "b", "c"`
-pub(crate) fn quoted<S: AsRef<str>>(words: &[S]) -> String {
+pub fn quoted<S: AsRef<str>>(words: &[S]) -> String {
     let quoted: Vec<String> = words
         .iter()
         .map(|w| format!("\"{}\"", w.as_ref()))

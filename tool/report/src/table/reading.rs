@@ -36,7 +36,7 @@ pub(crate) enum ColumnKind {
 pub struct Reading {
     /// Its columns.
     pub columns: Vec<String>,
-    /// Their kinds; if empty, numbers and words are told apart by the cells.
+    /// Their kinds; if empty, a column has numbers if every cell is a number.
     pub(crate) kinds: Vec<ColumnKind>,
     /// Its rows.
     pub rows: Vec<Vec<Cell>>,

@@ -62,7 +62,7 @@ pub(super) fn violation(violation: &RuleViolation, words: &Vocabulary) -> String
             )
         }
         _ if violation.rule.is_yes_or_no() => format!("{name} is beyond its limit"),
-        _ => format!("{name} is required, but there is none"),
+        _ => format!("{name} is required where its limit is zero"),
     }
 }
 

@@ -5,7 +5,7 @@ use jred_analysis::steady::{Level, SteadyError};
 use jred_file::model::coordinate::Coordinate;
 use jred_file::number::rounding::{rounded, short};
 use jred_file::problem;
-use jred_file::text::problem::Problem;
+use jred_file::text::problem::{Problem, quoted};
 use jred_file::units::RPM;
 
 /// The reason and its cure.
@@ -126,9 +126,4 @@ fn no_flywheel([delta, inertia, torque]: [f64; 3], reached: Option<f64>) -> Prob
 
 fn rpm(omega: f64) -> String {
     format!("{} rpm", rounded(omega / RPM))
-}
-
-fn quoted(names: &[String]) -> String {
-    let quoted: Vec<String> = names.iter().map(|name| format!("\"{name}\"")).collect();
-    quoted.join(", ")
 }
