@@ -15,7 +15,7 @@ use jred_file::model::machine::MachineFile;
 use crate::reading::{parse, parse_in, rendered};
 use crate::support::{Folder, budget, near, within};
 
-/// The steady motion of a machine text, or why there is none.
+/// The steady motion of a machine text, or the reason that it has none.
 pub(crate) fn try_of(text: &str, delta: Option<f64>) -> Result<Steady, SteadyError> {
     of_file(
         &parse(text).unwrap_or_else(|report| panic!("{}", rendered(&report))),

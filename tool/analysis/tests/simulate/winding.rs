@@ -86,7 +86,7 @@ fn a_winding_without_inductance_is_a_line() {
     near("T", stall_torque, 0.06 * 24.0 / 0.5, 1e-14);
 }
 
-/// Friction of 2 N·m holds until the current has grown to it: t = −τ·ln(1 − F/T_stall), and for ever where it is larger than that.
+/// Friction of 2 N·m holds until the current has grown to it: t = −τ·ln(1 − F/T_stall), and permanently where it is larger than that.
 #[test]
 fn friction_holds_until_the_current_has_grown() {
     let friction = |torque: &str| {

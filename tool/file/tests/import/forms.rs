@@ -238,7 +238,7 @@ fn cam_tables_are_motions() {
     assert!((state.omega - 1.011_256_236_332_806_8 * TAU).abs() < 1e-11);
 }
 
-/// What the machine file says of a file is checked against it.
+/// A file must agree with what the machine file states about it.
 #[test]
 fn columns_that_are_not_there() {
     let csv = include_str!("files/twincat.csv");

@@ -1,4 +1,4 @@
-//! What turns the rotation of a motor into the displacement of a drive link, up to the sized drive.
+//! Transmissions from the rotation of a motor to the displacement of a drive link, up to the sized drive.
 
 use std::f64::consts::TAU;
 
@@ -15,7 +15,7 @@ fn a_ball_screw_lets_a_motor_turn() {
     let file = read(&text);
     let train = &file.drive_train;
     close(train.ratio(), 2.0 * TAU / 0.01, 1e-9);
-    // What turns and slides, as a mass at the rod: the screw's 6 kg cm² alone are 237 kg.
+    // All rotating and sliding parts as a mass at the rod: the screw's 6 kg cm² alone are 237 kg.
     let turns = TAU / 0.01;
     let mass = 4.0 + (6e-4 + 12e-4) * turns * turns + 2e-4 * (2.0 * turns).powi(2);
     let whole = file.with_drive_train().unwrap();

@@ -1,4 +1,4 @@
-//! What a linkage is, against golden data and closed forms.
+//! Values of linkages against golden data and closed forms.
 
 use std::f64::consts::TAU;
 

@@ -257,7 +257,7 @@ impl Listing<'_> {
             whole: if in_full {
                 0
             } else {
-                13 + usize::from(resistors)
+                COLUMNS + usize::from(resistors)
             },
             ..Reading::default()
         });
@@ -315,7 +315,10 @@ fn next_smaller(selection: &Selection) -> Option<String> {
     ))
 }
 
-fn rank_row(rank: usize, judged: &Assessment, in_full: bool) -> [String; 13] {
+/// Columns of the ranking, without the brake resistor.
+const COLUMNS: usize = 13;
+
+fn rank_row(rank: usize, judged: &Assessment, in_full: bool) -> [String; COLUMNS] {
     let drive = &judged.drive;
     let power = judged.rated_power();
     let [motor, gearbox, amplifier] = marks::drive(drive, in_full);
