@@ -58,6 +58,7 @@ fn plans() {
 }
 
 #[test]
+#[ignore = "more than five seconds of a processor"]
 fn machines() {
     bounded("machine", 400);
 }
@@ -83,6 +84,7 @@ fn arguments() {
 }
 
 #[test]
+#[ignore = "more than five seconds of a processor"]
 fn values_of_machines() {
     let machines = Machines::new(&files(&["machines"], ".toml"));
     let harness = harness::named("machine").unwrap();
@@ -105,6 +107,7 @@ fn jred() -> Option<PathBuf> {
 /// The largest inputs that commands accept, for those that take a second or two.
 #[cfg(target_os = "linux")]
 #[test]
+#[ignore = "more than five seconds of a processor"]
 fn heavy_inputs() {
     let Some(jred) = jred() else { return };
     let inputs = heavy::Inputs::write();
@@ -139,6 +142,7 @@ fn heavy_inputs() {
 
 /// Machine files through every command. The program `jred` is next to this test: cargo builds both.
 #[test]
+#[ignore = "more than five seconds of a processor"]
 fn commands() {
     let Some(jred) = jred() else { return };
     let machines = Machines::new(&files(&["machines"], ".toml"));

@@ -189,6 +189,7 @@ fn machines() -> impl Iterator<Item = PathBuf> {
 
 /// The page of every example machine is complete, valid and self-contained.
 #[test]
+#[ignore = "more than five seconds of a processor"]
 fn the_page_of_every_example_machine() {
     let folder = Folder::new();
     for file in machines() {

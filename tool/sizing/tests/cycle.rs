@@ -76,6 +76,7 @@ fn figures_are_those_of_the_samples() {
 
 /// The peak against envelopes of every kind. Bounds must be valid for every sample of a stretch, otherwise the largest is missed.
 #[test]
+#[ignore = "more than five seconds of a processor"]
 fn the_peak_is_that_of_the_samples() {
     let every = (duty(), coefficients(), 0.2..300.0, envelope());
     let check = |(duty, c, ratio, envelope): (_, Coefficients, f64, _)| {

@@ -179,6 +179,7 @@ fn ranked_by_what_was_asked_for() {
 
 /// The front against its definition: every pair compared.
 #[test]
+#[ignore = "more than five seconds of a processor"]
 fn the_front_is_what_nothing_beats() {
     let mut case = case(&press_text(), 200);
     // More drives to compare.

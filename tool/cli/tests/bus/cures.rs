@@ -187,6 +187,7 @@ fn a_bus_without_a_resistor() {
 
 /// An existing resistor is not proposed again: its shortage and the required one are reported.
 #[test]
+#[ignore = "more than five seconds of a processor"]
 fn a_resistor_that_is_too_weak() {
     let folder = Folder::new();
     let lift = lift();

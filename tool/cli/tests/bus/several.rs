@@ -27,6 +27,7 @@ fn json(files: &[&PathBuf], more: &[&str]) -> Value {
 
 /// Three axes, the supply in the last file: every sum is that of the three, every figure between the one in step and its bound.
 #[test]
+#[ignore = "more than five seconds of a processor"]
 fn three_axes() {
     let folder = Folder::new();
     let third = folder.file("third.toml", press_text() + SUPPLY);

@@ -6,6 +6,7 @@ use super::{KINDS, export, export_of, images_of, words_of};
 use crate::support::{Folder, press_file};
 
 #[test]
+#[ignore = "more than five seconds of a processor"]
 fn the_best_table_of_so_many_bytes() {
     let folder = Folder::new();
     let sizes = [800, 1500, 3000];

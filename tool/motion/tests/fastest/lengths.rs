@@ -54,6 +54,7 @@ fn exceeded(
 
 /// A table, an unbalanced table, an upright crank and a press, with random motors, over 0.001° to 10,000,000°.
 #[test]
+#[ignore = "more than five seconds of a processor"]
 fn the_torque_keeps_its_limit_on_every_way() {
     let press = {
         let text = press_text();

@@ -79,6 +79,7 @@ fn keeps_the_rate(file: &MachineFile, motor: &Actuator, found: &Fastest, limit: 
 
 /// The press with a lossy drive and belt, and one with much larger losses.
 #[test]
+#[ignore = "more than five seconds of a processor"]
 fn the_rate_is_kept_inside_the_steps() {
     let drive = Actuator {
         coefficients: Coefficients([3.2e-3, 0.25 / 0.96, 0.25 * 0.96, 0.0, 0.0]),
@@ -109,6 +110,7 @@ fn rate(limit: f64, to: f64) -> Task {
 /// A motion whose inertia carries the load takes half the time of one whose torque follows it. Half a per cent of efficiency must not select between
 /// them: another method (linear programmes over a spline of the time) needs 0.370 s with 97 %.
 #[test]
+#[ignore = "more than five seconds of a processor"]
 fn losses_do_not_hide_the_fast_motion() {
     let mut last = 0.0;
     for efficiency in [99, 97, 95, 90, 80, 60] {
@@ -184,6 +186,7 @@ fn a_load_that_jumps_has_no_torque_rate() {
 /// A slow motion follows the loads: dT/dt = T′·ω with T the torque at zero speed, so a small limit r is active everywhere, and the motion takes t =
 /// ∫|T′| dφ/r. The effect of inertia and viscous friction falls with r. With a gearbox and a belt the power reverses twice.
 #[test]
+#[ignore = "more than five seconds of a processor"]
 fn a_small_rate_follows_the_loads() {
     let file = jred_analysis::checked::read(&press_file()).unwrap();
     let actuator = Actuator {

@@ -231,6 +231,7 @@ fn a_long_cycle_is_limited_by_its_greatest_temperature() {
 
 /// An inactive limit changes nothing; one that friction alone exceeds is refused, and so is a motor without thermal data.
 #[test]
+#[ignore = "more than five seconds of a processor"]
 fn limits_that_do_not_bind_or_cannot_be_kept() {
     let file = table(
         2.0,

@@ -266,6 +266,7 @@ fn random_case(random: &mut ChaCha8Rng) -> (Table, Travel) {
 /// No bound is above the cost of the result, nor above that of the cubic by another formula; otherwise there is no bound, and the optimum is not
 /// global.
 #[test]
+#[ignore = "more than five seconds of a processor"]
 fn no_bound_is_above_a_motion() {
     let mut random = ChaCha8Rng::seed_from_u64(23);
     let [mut bounds, mut global] = [0; 2];

@@ -106,6 +106,7 @@ type Drawn = (Vec<(i32, u32)>, usize, Vec<bool>, [f64; 3]);
 /// Random motions of the press in few steps, some instants without a weight, randomly altered. For every rule: no larger share of its limit, and
 /// never violated if the whole duty satisfies it.
 #[test]
+#[ignore = "more than five seconds of a processor"]
 #[expect(clippy::too_many_lines, reason = "one random experiment")]
 fn what_an_outline_violates_is_violated() {
     let segment = (prop_oneof![1 => Just(0i32), 4 => -400..400i32], 100..900u32);

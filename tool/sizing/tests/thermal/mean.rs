@@ -106,6 +106,7 @@ fn near(what: &str, found: f64, expected: f64, scale: f64) {
 }
 
 #[test]
+#[ignore = "more than five seconds of a processor"]
 fn relative_losses_are_those_of_a_plain_loop() {
     let every = (duty(), coefficients(), 0.2..300.0, motor());
     let check = |(duty, c, ratio, motor): (_, Coefficients, f64, Motor)| {
