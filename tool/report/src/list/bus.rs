@@ -1,6 +1,7 @@
 //! Axes on one DC bus.
 
 mod data;
+pub mod words;
 
 use std::borrow::Cow;
 use std::fmt::Write as _;
@@ -17,7 +18,7 @@ use jred_sizing::bus::analysis::BusAnalysis;
 use jred_sizing::bus::axes::Bounds;
 use jred_sizing::bus::curve::PowerCurve;
 use jred_sizing::bus::store::BusFigures;
-use jred_sizing::bus::verdict::BusQuantity;
+use jred_sizing::bus::verdict::{BusQuantity, Open};
 
 pub(crate) use data::BusData;
 
@@ -39,7 +40,7 @@ pub fn answer(bus: &BusAnalysis, format: Format) -> Result<Answer<'static>> {
         answer.heading("any one of these changes is sufficient");
     }
     for cure in &bus.cures {
-        answer.sentence(format!("- {}", cure.words));
+        answer.sentence(format!("- {}", words::cure(cure)));
     }
     in_step(bus, &mut answer);
     worst(bus, &mut answer);
@@ -56,7 +57,7 @@ fn in_step(bus: &BusAnalysis, answer: &mut Answer) {
         answer.heading("any phases");
         answer.sentence(format!(
             "checked against bounds that are valid for any phases: {}",
-            bus.no_search()
+            words::no_search(bus)
         ));
         return;
     };
@@ -192,7 +193,7 @@ fn resistor(bus: &BusAnalysis, answer: &mut Answer) {
         answer.fact("resistor", format!("is short of {}", each.join(", ")));
     }
     if let Some(conflict) = bus.conflict() {
-        let words = conflict.words();
+        let words = words::conflict(&conflict);
         answer.fact(
             "resistor",
             format!("no brake resistor can work here: {words}"),
@@ -232,8 +233,13 @@ fn verdicts(bus: &BusAnalysis, answer: &mut Answer) {
         answer.fact(check.name(), format!("{figure} against {limit}: {verdict}"));
     }
     for open in bus.open() {
-        answer.fact("not checked", format!("{}: {}", open.figure, open.words));
+        answer.fact("not checked", not_checked(bus, &open));
     }
+}
+
+/// A check without data, and why.
+fn not_checked(bus: &BusAnalysis, open: &Open) -> String {
+    format!("{}: {}", open.figure, words::missing(bus, open))
 }
 
 /// Power and voltage over time with all axes in step.
@@ -245,7 +251,7 @@ fn course(bus: &BusAnalysis) -> Result<Columns> {
         problem!(
             help = "use --format table or json to get bounds",
             "there is no common period to write power and voltage over: {}",
-            bus.no_search()
+            words::no_search(bus)
         )
     })?;
     let heads = [("t", "s"), ("power", "W"), ("voltage", "V")];

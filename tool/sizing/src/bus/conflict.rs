@@ -4,7 +4,6 @@
 //! amplifier, the motor's data sheet.
 
 use super::supply::BusData;
-use jred_file::number::rounding::short;
 
 /// A conflict that no brake resistor resolves: the supply voltage must be below the chopper voltage, and the chopper voltage below the maximum
 /// voltage.
@@ -40,38 +39,6 @@ impl Conflict {
             Self::Supply { .. } => &["max_voltage", "bus_voltage"],
             Self::LateChopper { .. } => &["chopper_voltage", "max_voltage"],
             Self::EarlyChopper { .. } => &["chopper_voltage", "bus_voltage"],
-        }
-    }
-
-    /// Message with the cure.
-    pub fn words(&self) -> String {
-        match *self {
-            Self::Supply { supply, highest } if supply > highest => format!(
-                "the bus voltage is always above its maximum of {} V: the supply keeps it at {} V, and no brake \
-                 resistor, capacitance or regenerative supply lowers that; correct max_voltage or bus_voltage in \
-                 [supply], or the values of the amplifier and the motor",
-                short(highest),
-                short(supply)
-            ),
-            Self::Supply { highest, .. } => format!(
-                "the supply keeps the bus at its maximum voltage, {} V: no energy can be stored, and no brake resistor \
-                 can switch on; correct max_voltage or bus_voltage in [supply], or the values of the amplifier and the \
-                 motor",
-                short(highest)
-            ),
-            Self::LateChopper { chopper, highest } => format!(
-                "the brake resistor switches on at {} V, which is not below the maximum bus voltage of {} V, so no \
-                 resistor can limit the voltage: lower chopper_voltage or raise max_voltage in [supply], as the \
-                 amplifier allows",
-                short(chopper),
-                short(highest)
-            ),
-            Self::EarlyChopper { chopper, supply } => format!(
-                "a brake resistor would always be on: it switches on at {} V, and the supply keeps the bus at {} V; \
-                 raise chopper_voltage or lower bus_voltage in [supply], as the amplifier allows",
-                short(chopper),
-                short(supply)
-            ),
         }
     }
 }

@@ -1,14 +1,11 @@
 //! Changes that bring a bus within its limits.
 
-use std::fmt::Write as _;
-
 use super::analysis::BusAnalysis;
 use super::axes::WorstPhases;
 use super::conflict::Conflict;
 use super::store::{Bus, BusFigures};
 use super::verdict::BusQuantity;
 use super::{Need, Watch};
-use jred_file::number::rounding::short;
 
 /// A single change that is sufficient.
 #[derive(Clone, Debug)]
@@ -17,8 +14,35 @@ pub struct Cure {
     pub changes: Vec<Change>,
     /// Delay of each axis relative to the first (s), if the phases are to be changed.
     pub phases: Option<Vec<f64>>,
-    /// The message.
-    pub words: String,
+    /// What it does.
+    pub kind: CureKind,
+}
+
+/// What a cure does.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum CureKind {
+    /// Its changes are all.
+    Changes,
+    /// The voltage at which the resistor switches on is to be given as well, below the maximum voltage.
+    LowerChopper,
+    /// That voltage is to be given as well, with a resistance of at most its square over the peak power.
+    AnyChopper,
+    /// The capacitor stores all regenerated energy: the brake resistor never switches on.
+    StoresAll,
+    /// Other phases.
+    Phases {
+        /// Highest voltage of the bus (V).
+        highest: f64,
+        /// Mean power (W), peak power (W) and pulse energy (J) of the brake resistor, if there is one.
+        resistor: Option<[f64; 3]>,
+    },
+    /// A supply that feeds back.
+    Regenerative {
+        /// Its peak power (W).
+        peak: f64,
+        /// Bound of its mean power (W).
+        mean: f64,
+    },
 }
 
 /// A key and its required value.
@@ -56,31 +80,6 @@ impl Change {
             bound: Bound::AtMost(value),
             unit,
         }
-    }
-
-    fn words(&self) -> String {
-        // Rounded to the safe side.
-        let (word, value) = match self.bound {
-            Bound::AtLeast(value) => ("at least", rounded(value, f64::ceil)),
-            Bound::AtMost(value) => ("at most", rounded(value, f64::floor)),
-        };
-        format!("{} {word} {} {}", self.key, short(value), self.unit)
-    }
-}
-
-/// Four digits, to one side.
-fn rounded(value: f64, towards: fn(f64) -> f64) -> f64 {
-    if value == 0.0 || !value.is_finite() {
-        return value;
-    }
-    let exponent = value.abs().log10().floor() as i32 - 3;
-    // Whole powers of ten are exact, their inverses are not.
-    if exponent > 0 {
-        let unit = 10f64.powi(exponent);
-        towards(value / unit) * unit
-    } else {
-        let unit = 10f64.powi(-exponent);
-        towards(value * unit) / unit
     }
 }
 
@@ -184,12 +183,10 @@ impl BusAnalysis {
         ));
         changes.push(Change::at_least("brake_resistor.peak_power", back, "W"));
         let mut cure = Cure::of(changes);
-        cure.words += match (top, self.data.chopper_voltage) {
-            (None, _) => {
-                ", with a chopper_voltage and a resistance of at most its square over the peak_power"
-            }
-            (Some(_), None) => ", with a chopper_voltage below max_voltage",
-            (Some(_), Some(_)) => "",
+        cure.kind = match (top, self.data.chopper_voltage) {
+            (None, _) => CureKind::AnyChopper,
+            (Some(_), None) => CureKind::LowerChopper,
+            (Some(_), Some(_)) => CureKind::Changes,
         };
         Some(cure)
     }
@@ -226,8 +223,7 @@ impl BusAnalysis {
         };
         let mut cure = Cure::of(vec![change]);
         if self.data.resistor.is_some() {
-            cure.words +=
-                ", which stores all regenerated energy: the brake resistor never switches on";
+            cure.kind = CureKind::StoresAll;
         }
         // A resistance that is too small for the chopper stays too small.
         (!self.fails(BusQuantity::Resistance)).then_some(cure)
@@ -245,27 +241,12 @@ impl BusAnalysis {
         {
             return None;
         }
-        let starts = phases.iter().enumerate().skip(1);
-        let starts = starts.map(|(k, phase)| format!("axis {} {} s", k + 1, short(*phase)));
-        let starts: Vec<String> = starts.collect();
-        let mut words = format!(
-            "axes synchronised, {} after axis 1: bus up to {} V",
-            starts.join(", "),
-            short(figures.highest)
-        );
-        if self.data.resistor.is_some() {
-            let _ = write!(
-                words,
-                ", brake resistor {} W mean, {} W peak, {} J a pulse",
-                short(figures.burnt / period),
-                short(figures.burnt_peak),
-                short(figures.pulse)
-            );
-        }
+        let [highest, mean, peak, pulse] = figures.judged(period);
+        let resistor = self.data.resistor.map(|_| [mean, peak, pulse]);
         Some(Cure {
             changes: Vec::new(),
             phases: Some(phases.clone()),
-            words,
+            kind: CureKind::Phases { highest, resistor },
         })
     }
 
@@ -283,20 +264,18 @@ impl BusAnalysis {
         helps.then(|| Cure {
             changes: Vec::new(),
             phases: None,
-            words: format!(
-                "regenerative = true without a brake resistor: a supply that feeds back {} W peak, at most {} W mean",
-                short(rounded(self.back(), f64::ceil)),
-                short(rounded(self.bounds.resistor, f64::ceil))
-            ),
+            kind: CureKind::Regenerative {
+                peak: self.back(),
+                mean: self.bounds.resistor,
+            },
         })
     }
 }
 
 impl Cure {
-    fn of(changes: Vec<Change>) -> Self {
-        let each: Vec<String> = changes.iter().map(Change::words).collect();
+    const fn of(changes: Vec<Change>) -> Self {
         Self {
-            words: each.join(", "),
+            kind: CureKind::Changes,
             phases: None,
             changes,
         }

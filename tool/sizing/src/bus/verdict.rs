@@ -3,9 +3,7 @@
 use super::analysis::BusAnalysis;
 use super::conflict::Conflict;
 use super::curve::PowerCurve;
-use super::period::{Common, LOOKED_AT, MOST_CYCLES};
 use jred_file::model::rule::Sense;
-use jred_file::number::rounding::short;
 
 /// The value that is checked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -80,8 +78,37 @@ pub struct Open {
     pub figure: &'static str,
     /// Lists of keys; all keys of one list are needed.
     pub keys: &'static [&'static [&'static str]],
-    /// Message about missing data.
-    pub words: String,
+    /// What is missing.
+    pub missing: Missing,
+}
+
+/// Data missing for a check of the bus.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Missing {
+    /// The capacitance, and there is no brake resistor for the regenerated energy.
+    Capacitance,
+    /// The maximum voltage.
+    MaxVoltage {
+        /// The voltages (V) between which the bus rises, if it rises.
+        rise: Option<[f64; 2]>,
+        /// Whether nothing takes regenerated energy.
+        bare: bool,
+    },
+    /// The voltage at which a brake resistor switches on. Only bounds of its load are known.
+    ChopperVoltage {
+        /// Bound of the mean power (W).
+        mean: f64,
+        /// Bound of the peak power (W).
+        peak: f64,
+    },
+    /// The smallest resistance that the chopper may switch.
+    MinResistance,
+    /// The peak power of the resistor.
+    PeakPower,
+    /// The pulse energy of the resistor.
+    PulseEnergy,
+    /// The phases are not searched, and a pulse has no bound.
+    NotSearched,
 }
 
 impl BusAnalysis {
@@ -165,110 +192,66 @@ impl BusAnalysis {
         let [voltage, _, peak, pulse] = self.judged();
         let data = &self.data;
         let mut open = Vec::new();
-        if voltage.is_nan() {
+        let mut add = |figure, keys, missing| {
             open.push(Open {
-                figure: "bus voltage",
-                keys: &[
+                figure,
+                keys,
+                missing,
+            });
+        };
+        if voltage.is_nan() {
+            add(
+                "bus voltage",
+                &[
                     &["capacitance"],
                     &["chopper_voltage", "brake_resistor"],
                     &["regenerative"],
                 ],
-                words: "no data for the capacitance of the DC bus, and no brake resistor for the regenerated energy: \
-                        in [supply] give capacitance, or chopper_voltage and brake_resistor, or regenerative = true"
-                    .to_owned(),
-            });
+                Missing::Capacitance,
+            );
         }
         if data.max_voltage.is_none() && !voltage.is_infinite() {
-            let rise = data.voltage.filter(|volts| voltage > *volts);
-            let rise = rise.map_or(String::new(), |volts| {
-                let bare = if data.resistor.is_none() && !data.regenerative {
-                    " without a brake resistor"
-                } else {
-                    ""
-                };
-                format!(
-                    ", and it rises from {} V to {} V{bare}",
-                    short(volts),
-                    short(voltage)
-                )
-            });
-            open.push(Open {
-                figure: "bus voltage",
-                keys: &[&["max_voltage"]],
-                words: format!(
-                    "no data for the maximum voltage of the DC bus{rise}: give max_voltage in [supply]"
-                ),
-            });
+            let from = data.voltage.filter(|volts| voltage > *volts);
+            let missing = Missing::MaxVoltage {
+                rise: from.map(|from| [from, voltage]),
+                bare: data.resistor.is_none() && !data.regenerative,
+            };
+            add("bus voltage", &[&["max_voltage"]], missing);
         }
         if voltage.is_nan() && data.chopper_voltage.is_none() {
-            open.push(Open {
-                figure: "brake resistor",
-                keys: &[&["chopper_voltage"]],
-                words: format!(
-                    "only bounds of its load are known, at most {} W mean and {} W peak: give chopper_voltage in [supply]",
-                    short(self.bounds.resistor),
-                    short(self.bounds.back)
-                ),
-            });
+            let missing = Missing::ChopperVoltage {
+                mean: self.bounds.resistor,
+                peak: self.bounds.back,
+            };
+            add("brake resistor", &[&["chopper_voltage"]], missing);
         }
         let Some(resistor) = data.resistor.as_ref().filter(|_| peak > 0.0) else {
             return open;
         };
-        let mut without = |known: bool, figure, keys, words: String| {
-            if !known {
-                open.push(Open {
-                    figure,
-                    keys,
-                    words,
-                });
-            }
-        };
-        without(
-            data.min_resistance.is_some(),
-            "brake resistance",
-            &[&["min_resistance"]],
-            "no data for the minimum resistance of the chopper: give min_resistance in [supply]"
-                .to_owned(),
-        );
-        without(
-            resistor.peak_power.is_some(),
-            "brake resistor peak power",
-            &[&["brake_resistor.peak_power"]],
-            "not given for the resistor: give brake_resistor.peak_power in [supply]".to_owned(),
-        );
-        without(
-            resistor.pulse_energy.is_some(),
-            "brake resistor pulse energy",
-            &[&["brake_resistor.pulse_energy"]],
-            "not given for the resistor: give brake_resistor.pulse_energy in [supply]".to_owned(),
-        );
-        without(
-            !pulse.is_nan() || resistor.pulse_energy.is_none(),
-            "brake resistor pulse energy",
-            &[],
-            format!("no bound exists, and {}", self.no_search()),
-        );
-        open
-    }
-
-    /// Why the phases were not searched.
-    pub fn no_search(&self) -> String {
-        match self.shared.common() {
-            Common::Searched { .. } => "the phases were searched".to_owned(),
-            Common::TooLong { period, cycles } => {
-                let each: Vec<String> = cycles.iter().map(u32::to_string).collect();
-                let axes: Vec<String> = (1..=each.len()).map(|k| k.to_string()).collect();
-                format!(
-                    "the common period of the cycles is {} s ({} cycles of axes {}), longer than the search limit of {MOST_CYCLES} cycles",
-                    short(*period),
-                    each.join(", "),
-                    axes.join(", "),
-                )
-            }
-            Common::None => {
-                format!("the cycles have no common period within {LOOKED_AT} cycles")
-            }
+        if data.min_resistance.is_none() {
+            add(
+                "brake resistance",
+                &[&["min_resistance"]],
+                Missing::MinResistance,
+            );
         }
+        if resistor.peak_power.is_none() {
+            add(
+                "brake resistor peak power",
+                &[&["brake_resistor.peak_power"]],
+                Missing::PeakPower,
+            );
+        }
+        if resistor.pulse_energy.is_none() {
+            add(
+                "brake resistor pulse energy",
+                &[&["brake_resistor.pulse_energy"]],
+                Missing::PulseEnergy,
+            );
+        } else if pulse.is_nan() {
+            add("brake resistor pulse energy", &[], Missing::NotSearched);
+        }
+        open
     }
 
     /// Whether every check with data is satisfied; [`open`](Self::open) lists the others.

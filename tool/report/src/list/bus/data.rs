@@ -3,6 +3,7 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
+use super::{not_checked, words};
 use crate::answer::schema::Data;
 use jred_file::model::rule::Sense;
 use jred_sizing::bus::analysis::BusAnalysis;
@@ -178,7 +179,7 @@ struct CureData<'a> {
     #[serde(rename = "phases [s]")]
     phases: Option<&'a [f64]>,
     /// The cure in words.
-    words: &'a str,
+    words: String,
 }
 
 #[derive(Serialize, JsonSchema)]
@@ -228,12 +229,10 @@ pub(super) fn data(bus: &BusAnalysis) -> BusData<'_> {
         chosen: bus.chosen.as_deref(),
         conflict: bus.conflict().map(|conflict| Conflict {
             keys: conflict.keys().to_vec(),
-            words: conflict.words(),
+            words: words::conflict(&conflict),
         }),
         checks: checks(bus),
-        not_checked: (open.iter())
-            .map(|o| format!("{}: {}", o.figure, o.words))
-            .collect(),
+        not_checked: (open.iter()).map(|open| not_checked(bus, open)).collect(),
         not_known: (open.iter().filter(|o| !o.keys.is_empty()))
             .map(|o| UnknownFigure {
                 figure: o.figure,
@@ -308,6 +307,6 @@ fn cure(cure: &Cure) -> CureData<'_> {
     CureData {
         changes: cure.changes.iter().map(change).collect(),
         phases: cure.phases.as_deref(),
-        words: &cure.words,
+        words: words::cure(cure),
     }
 }

@@ -1,6 +1,7 @@
 //! Each change alone is sufficient, and slightly less is not.
 
 use jred_file::model::supply::{BrakeResistor, Supply};
+use jred_report::list::bus::words;
 use jred_sizing::bus::cure::{Bound, Change, Cure, share};
 use jred_sizing::bus::curve::PowerCurve;
 use jred_sizing::bus::verdict::BusQuantity;
@@ -43,17 +44,18 @@ fn changed(supply: &Supply, changes: &[Change], beyond: f64) -> Supply {
 
 /// The text gives each bound with four digits, rounded to the sufficient side.
 fn words_are_enough(cure: &Cure) {
+    let words = words::cure(cure);
     for change in &cure.changes {
         let (word, value, side) = match change.bound {
             Bound::AtLeast(value) => ("at least", value, 1.0),
             Bound::AtMost(value) => ("at most", value, -1.0),
         };
         let start = format!("{} {word} ", change.key);
-        let rest = cure.words.split(&start).nth(1).expect(&cure.words);
+        let rest = words.split(&start).nth(1).expect(&words);
         let number: f64 = rest.split(' ').next().unwrap().parse().unwrap();
         assert!(rest.split([' ', ',']).nth(1) == change.unit.split(' ').next());
         let more = side * (number - value) / value;
-        assert!((-1e-12..1e-3).contains(&more), "{}: {value}", cure.words);
+        assert!((-1e-12..1e-3).contains(&more), "{words}: {value}");
     }
 }
 
@@ -77,7 +79,7 @@ fn cures_are_enough(curves: &[PowerCurve], supply: &Supply, in_step: bool, neede
             continue;
         }
         if cure.changes.is_empty() {
-            assert!(cure.words.starts_with("regenerative = true"));
+            assert!(words::cure(cure).starts_with("regenerative = true"));
             let back = Supply {
                 regenerative: true,
                 brake_resistor: None,
@@ -90,7 +92,7 @@ fn cures_are_enough(curves: &[PowerCurve], supply: &Supply, in_step: bool, neede
         assert!(
             mended.failed().is_empty(),
             "{}: {:?}",
-            cure.words,
+            words::cure(cure),
             mended.failed()
         );
         if needed && cure.changes[0].key.starts_with("brake_resistor") {
@@ -99,7 +101,7 @@ fn cures_are_enough(curves: &[PowerCurve], supply: &Supply, in_step: bool, neede
                 let mut supply = changed(supply, &cure.changes, 1e-9);
                 supply = changed(&supply, &cure.changes[k..=k], -1e-3);
                 let short = answer(curves, &supply, in_step);
-                assert!(!short.failed().is_empty(), "{}: {k}", cure.words);
+                assert!(!short.failed().is_empty(), "{}: {k}", words::cure(cure));
             }
         }
     }
@@ -188,7 +190,7 @@ fn cures_by_hand() {
     let expected = 2.0 * 3000.0 / (800.0f64.powi(2) - 560.0f64.powi(2));
     near("C", 1e-6 * capacitance, expected, budget::BUS);
     // A supply that takes it back: 6 kW peak, 1.5 kW on average.
-    let words = &found.cures[2].words;
+    let words = words::cure(&found.cures[2]);
     assert!(
         words.contains("6000 W peak, at most 1500 W mean"),
         "{words}"
@@ -242,7 +244,7 @@ fn cures_by_hand() {
         found
             .cures
             .iter()
-            .all(|cure| !cure.words.contains("capacitance"))
+            .all(|cure| !words::cure(cure).contains("capacitance"))
     );
 }
 
@@ -274,7 +276,7 @@ fn without_a_common_period_the_bounds_are_enough() {
         let cure = found
             .cures
             .iter()
-            .find(|cure| cure.words.starts_with("brake_resistor"));
+            .find(|cure| words::cure(cure).starts_with("brake_resistor"));
         assert_eq!(cure.is_some(), possible);
         let Some(cure) = cure else { continue };
         let bound = |key: &str, upper: bool| {
@@ -304,11 +306,7 @@ fn without_a_common_period_the_bounds_are_enough() {
             budget::BUS,
         );
         assert_eq!(bound("brake_resistor.resistance", false), least);
-        assert!(
-            found
-                .no_search()
-                .contains("no common period within 100000 cycles")
-        );
+        assert!(words::no_search(&found).contains("no common period within 100000 cycles"));
     }
     // Missing data are requested in the text.
     let open = Supply {
@@ -316,13 +314,13 @@ fn without_a_common_period_the_bounds_are_enough() {
         max_voltage: Some(750.0),
         ..NOTHING
     };
-    let words = &answer(&curves, &open, false).cures[0].words;
+    let words = words::cure(&answer(&curves, &open, false).cures[0]);
     assert!(
         words.ends_with(", with a chopper_voltage below max_voltage"),
         "{words}"
     );
     let long = [brakes(1.0, 1000.0), brakes(1.0007, 400.0)];
-    let words = answer(&long, &open, false).no_search();
+    let words = words::no_search(&answer(&long, &open, false));
     assert!(
         words.contains("(10007, 10000 cycles of axes 1, 2)"),
         "{words}"
@@ -351,7 +349,7 @@ fn large_figures_are_rounded_to_the_safe_side() {
     for cure in &found.cures {
         words_are_enough(cure);
     }
-    let words = &found.cures[0].words;
+    let words = words::cure(&found.cures[0]);
     assert!(
         words.contains("brake_resistor.peak_power at least 123500 W"),
         "{words}"
@@ -378,7 +376,7 @@ fn a_supply_at_the_limit_may_take_energy_back() {
         let back = found
             .cures
             .iter()
-            .any(|cure| cure.words.starts_with("regenerative = true"));
+            .any(|cure| words::cure(cure).starts_with("regenerative = true"));
         assert_eq!(back, helps, "{highest}: {:?}", found.cures);
     }
 }

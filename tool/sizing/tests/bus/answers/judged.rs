@@ -1,6 +1,7 @@
 //! Judged figures, requested data, and the text about them.
 
 use jred_file::model::supply::{BrakeResistor, Supply};
+use jred_report::list::bus::words;
 use jred_sizing::bus::conflict::Conflict;
 use jred_sizing::bus::curve::PowerCurve;
 use jred_sizing::bus::verdict::{BusCheck, BusQuantity};
@@ -21,22 +22,22 @@ fn questions_are_closed_by_what_they_ask_for() {
     for last in [false, true] {
         let mut supply = NOTHING;
         let mut asked = Vec::new();
-        while let Some(open) = answer(std::slice::from_ref(&brakes), &supply, false)
-            .open()
-            .into_iter()
-            .next()
-        {
+        loop {
+            let found = answer(std::slice::from_ref(&brakes), &supply, false);
+            let all = found.open();
+            let Some(open) = all.first() else { break };
+            let words = words::missing(&found, open);
             let keys = if last {
                 open.keys.last()
             } else {
                 open.keys.first()
             };
-            let keys = keys.unwrap_or_else(|| panic!("{}", open.words));
-            assert!(!open.words.is_empty() && !open.figure.is_empty());
+            let keys = keys.unwrap_or_else(|| panic!("{words}"));
+            assert!(!words.is_empty() && !open.figure.is_empty());
             for key in *keys {
-                assert!(!asked.contains(key), "{key} twice: {}", open.words);
+                assert!(!asked.contains(key), "{key} twice: {words}");
                 let name = key.rsplit('.').next().unwrap();
-                assert!(open.words.contains(name), "{key}: {}", open.words);
+                assert!(words.contains(name), "{key}: {words}");
                 asked.push(key);
                 match *key {
                     "capacitance" => supply.capacitance = Some(5e-4),
@@ -76,7 +77,8 @@ fn questions_are_closed_by_what_they_ask_for() {
         ]
     );
     // The resistor holds its switch-on voltage, which is not a rise without one.
-    let words = &answer(std::slice::from_ref(&brakes), &resistor, false).open()[0].words;
+    let found = answer(std::slice::from_ref(&brakes), &resistor, false);
+    let words = words::missing(&found, &found.open()[0]);
     assert!(
         words.contains("rises from 560 V to 700 V: give max_voltage"),
         "{words}"
@@ -98,7 +100,7 @@ fn questions_are_closed_by_what_they_ask_for() {
     // The text gives start and end of the rise.
     let found = answer(&[brakes], &unbounded, false);
     let highest = (560.0f64.powi(2) + 2.0 * 3500.0 / 1e-4).sqrt();
-    let words = &found.open()[0].words;
+    let words = words::missing(&found, &found.open()[0]);
     assert!(
         words.contains(&format!(
             "from 560 V to {highest:.0} V without a brake resistor"
@@ -181,7 +183,7 @@ fn conflicts_name_their_voltages() {
             "switches on at 500 V, and the supply keeps the bus at 560 V",
         ),
     ] {
-        let found = conflict.words();
+        let found = words::conflict(&conflict);
         assert!(found.contains(words), "{found}");
         for voltage in voltages {
             assert!(found.contains(&format!("{voltage} V")), "{found}");
@@ -288,7 +290,7 @@ fn the_smallest_resistor_that_is_enough_is_proposed() {
         found
             .cures
             .iter()
-            .all(|cure| !cure.words.contains("brake_resistor.resistance"))
+            .all(|cure| !words::cure(cure).contains("brake_resistor.resistance"))
     );
     assert!(
         found

@@ -1,0 +1,167 @@
+//! Sentences about a bus: conflicts, missing data, cures.
+
+use std::fmt::Write as _;
+
+use jred_file::number::rounding::short;
+use jred_sizing::bus::analysis::BusAnalysis;
+use jred_sizing::bus::conflict::Conflict;
+use jred_sizing::bus::cure::{Bound, Change, Cure, CureKind};
+use jred_sizing::bus::period::{Common, LOOKED_AT, MOST_CYCLES};
+use jred_sizing::bus::verdict::{Missing, Open};
+
+/// Why no brake resistor can work, with the cure.
+pub fn conflict(conflict: &Conflict) -> String {
+    match *conflict {
+        Conflict::Supply { supply, highest } if supply > highest => format!(
+            "the bus voltage is always above its maximum of {} V: the supply keeps it at {} V, and no brake \
+             resistor, capacitance or regenerative supply lowers that; correct max_voltage or bus_voltage in \
+             [supply], or the values of the amplifier and the motor",
+            short(highest),
+            short(supply)
+        ),
+        Conflict::Supply { highest, .. } => format!(
+            "the supply keeps the bus at its maximum voltage, {} V: no energy can be stored, and no brake resistor \
+             can switch on; correct max_voltage or bus_voltage in [supply], or the values of the amplifier and the \
+             motor",
+            short(highest)
+        ),
+        Conflict::LateChopper { chopper, highest } => format!(
+            "the brake resistor switches on at {} V, which is not below the maximum bus voltage of {} V, so no \
+             resistor can limit the voltage: lower chopper_voltage or raise max_voltage in [supply], as the \
+             amplifier allows",
+            short(chopper),
+            short(highest)
+        ),
+        Conflict::EarlyChopper { chopper, supply } => format!(
+            "a brake resistor would always be on: it switches on at {} V, and the supply keeps the bus at {} V; \
+             raise chopper_voltage or lower bus_voltage in [supply], as the amplifier allows",
+            short(chopper),
+            short(supply)
+        ),
+    }
+}
+
+/// The data missing for a check, and the keys to give.
+pub fn missing(bus: &BusAnalysis, open: &Open) -> String {
+    match open.missing {
+        Missing::Capacitance => {
+            "no data for the capacitance of the DC bus, and no brake resistor for the regenerated energy: \
+             in [supply] give capacitance, or chopper_voltage and brake_resistor, or regenerative = true"
+                .to_owned()
+        }
+        Missing::MaxVoltage { rise, bare } => {
+            let rise = rise.map_or(String::new(), |[from, to]| {
+                let bare = if bare { " without a brake resistor" } else { "" };
+                format!(
+                    ", and it rises from {} V to {} V{bare}",
+                    short(from),
+                    short(to)
+                )
+            });
+            format!(
+                "no data for the maximum voltage of the DC bus{rise}: give max_voltage in [supply]"
+            )
+        }
+        Missing::ChopperVoltage { mean, peak } => format!(
+            "only bounds of its load are known, at most {} W mean and {} W peak: give chopper_voltage in [supply]",
+            short(mean),
+            short(peak)
+        ),
+        Missing::MinResistance => {
+            "no data for the minimum resistance of the chopper: give min_resistance in [supply]"
+                .to_owned()
+        }
+        Missing::PeakPower => {
+            "not given for the resistor: give brake_resistor.peak_power in [supply]".to_owned()
+        }
+        Missing::PulseEnergy => {
+            "not given for the resistor: give brake_resistor.pulse_energy in [supply]".to_owned()
+        }
+        Missing::NotSearched => format!("no bound exists, and {}", no_search(bus)),
+    }
+}
+
+/// Why the phases were not searched.
+pub fn no_search(bus: &BusAnalysis) -> String {
+    match bus.shared.common() {
+        Common::Searched { .. } => "the phases were searched".to_owned(),
+        Common::TooLong { period, cycles } => {
+            let each: Vec<String> = cycles.iter().map(u32::to_string).collect();
+            let axes: Vec<String> = (1..=each.len()).map(|k| k.to_string()).collect();
+            format!(
+                "the common period of the cycles is {} s ({} cycles of axes {}), longer than the search limit of {MOST_CYCLES} cycles",
+                short(*period),
+                each.join(", "),
+                axes.join(", "),
+            )
+        }
+        Common::None => {
+            format!("the cycles have no common period within {LOOKED_AT} cycles")
+        }
+    }
+}
+
+/// What to change.
+pub fn cure(cure: &Cure) -> String {
+    let changes: Vec<String> = cure.changes.iter().map(change).collect();
+    let mut words = changes.join(", ");
+    match cure.kind {
+        CureKind::Changes => {}
+        CureKind::LowerChopper => words += ", with a chopper_voltage below max_voltage",
+        CureKind::AnyChopper => {
+            words += ", with a chopper_voltage and a resistance of at most its square over the peak_power";
+        }
+        CureKind::StoresAll => {
+            words += ", which stores all regenerated energy: the brake resistor never switches on";
+        }
+        CureKind::Phases { highest, resistor } => {
+            let starts = cure.phases.iter().flatten().enumerate().skip(1);
+            let starts = starts.map(|(k, phase)| format!("axis {} {} s", k + 1, short(*phase)));
+            let starts: Vec<String> = starts.collect();
+            let (starts, highest) = (starts.join(", "), short(highest));
+            let _ = write!(
+                words,
+                "axes synchronised, {starts} after axis 1: bus up to {highest} V"
+            );
+            if let Some([mean, peak, pulse]) = resistor.map(|figures| figures.map(short)) {
+                let _ = write!(
+                    words,
+                    ", brake resistor {mean} W mean, {peak} W peak, {pulse} J a pulse"
+                );
+            }
+        }
+        CureKind::Regenerative { peak, mean } => {
+            let [peak, mean] = [peak, mean].map(|power| short(rounded(power, f64::ceil)));
+            let _ = write!(
+                words,
+                "regenerative = true without a brake resistor: a supply that feeds back {peak} W peak, at most {mean} W mean"
+            );
+        }
+    }
+    words
+}
+
+fn change(change: &Change) -> String {
+    // Rounded to the safe side.
+    let (word, value) = match change.bound {
+        Bound::AtLeast(value) => ("at least", rounded(value, f64::ceil)),
+        Bound::AtMost(value) => ("at most", rounded(value, f64::floor)),
+    };
+    format!("{} {word} {} {}", change.key, short(value), change.unit)
+}
+
+/// Four digits, to one side.
+fn rounded(value: f64, towards: fn(f64) -> f64) -> f64 {
+    if value == 0.0 || !value.is_finite() {
+        return value;
+    }
+    let exponent = value.abs().log10().floor() as i32 - 3;
+    // Whole powers of ten are exact, their inverses are not.
+    if exponent > 0 {
+        let unit = 10f64.powi(exponent);
+        towards(value / unit) * unit
+    } else {
+        let unit = 10f64.powi(-exponent);
+        towards(value * unit) / unit
+    }
+}
