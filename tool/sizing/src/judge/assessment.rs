@@ -1,4 +1,4 @@
-//! A drive checked against every rule, with messages.
+//! A drive checked against every rule.
 
 use super::{Context, motor};
 use crate::catalogue::{Drive, Resistor};
@@ -25,7 +25,7 @@ pub struct Assessment<'c> {
 }
 
 impl<'c> Assessment<'c> {
-    /// Checks a drive against every rule, with messages for reports.
+    /// Checks a drive against every rule, for reports.
     pub fn new(context: &Context<'c>, rules: &RuleSet) -> Self {
         Self {
             drive: context.drive,
@@ -46,25 +46,6 @@ impl<'c> Assessment<'c> {
     /// Whether no rule is violated.
     pub fn holds(&self) -> bool {
         self.verdict() != RuleVerdict::Fail
-    }
-
-    /// One sentence for each violated rule.
-    pub fn reasons(&self) -> String {
-        self.sentences(RuleVerdict::Fail)
-            .collect::<Vec<_>>()
-            .join("; ")
-    }
-
-    /// One sentence for each rule that warns, and each assumption.
-    pub fn warnings(&self) -> impl Iterator<Item = String> {
-        (self.sentences(RuleVerdict::Warn)).chain(self.assumptions.iter().cloned())
-    }
-
-    fn sentences(&self, verdict: RuleVerdict) -> impl Iterator<Item = String> {
-        let checks = self.checks.iter();
-        checks
-            .filter(move |c| c.verdict == verdict)
-            .map(Check::sentence)
     }
 
     /// Use of the limit of a rule as text; empty if the rule does not apply.
