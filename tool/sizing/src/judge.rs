@@ -1,10 +1,10 @@
 //! Checking a drive: value and rating of every rule as plain numbers. What they rest on is added later, for the drives that are shown.
 //!
-//! Each family of rules is a file of [`judge`](self): it measures ([`Findings::set`]) and says what a check rests on ([`Grounds`]). A rule that does not apply
-//! to a drive, such as a gearbox rule to a direct drive, is omitted from the findings. A rule that applies but lacks data of the catalogue or of the
-//! machine file is set with [`Finding::UNKNOWN`].
+//! Each family of rules is a file of [`judge`](self): it measures ([`Findings::set`]) and says what a check rests on ([`Grounds`]). A rule that does
+//! not apply to a drive, such as a gearbox rule to a direct drive, is omitted from the findings. A rule that applies but lacks data of the catalogue
+//! or of the machine file is set with [`Finding::UNKNOWN`]. The sentences are made in the package of reports.
 
-use crate::catalogue::{Amplifier, Drive, Resistor};
+use crate::catalogue::{Drive, Resistor};
 use crate::cycle::Cycle;
 use crate::cycle::form::Coefficients;
 use crate::judge::check::Check;
@@ -31,8 +31,8 @@ mod stiffness;
 mod thermal;
 mod voltage;
 
-pub use assessment::Assessment;
 pub(crate) use assessment::price;
+pub use assessment::{Assessment, Assumption};
 pub use bits::RuleBits;
 pub use cure::cure;
 pub use grounds::{Grounds, SupplySource};
@@ -158,7 +158,7 @@ impl<'a> Context<'a> {
     }
 
     /// Assumptions about the drive, and second-hand data.
-    pub fn assumptions(&self, rules: &RuleSet) -> Vec<String> {
+    pub fn assumptions(&self, rules: &RuleSet) -> Vec<Assumption> {
         let Drive {
             motor,
             gearbox,
@@ -170,21 +170,18 @@ impl<'a> Context<'a> {
             ("amplifier", amplifier.is_none_or(|a| a.from_maker)),
         ];
         let from_others = parts.into_iter().filter(|(_, from_maker)| !from_maker);
-        let mut assumptions: Vec<String> = from_others
-            .map(|(part, _)| format!("{part} data not taken from the maker's own document; check them against the data sheet"))
+        let mut assumptions: Vec<Assumption> = from_others
+            .map(|(part, _)| Assumption::OtherFigures(part))
             .collect();
-        if let Some(amplifier) = amplifier.filter(|_| !self.drive.is_paired()) {
-            let Amplifier { key, maker, .. } = amplifier;
-            assumptions.push(format!(
-                "no source pairs amplifier {key} ({maker}) with motor {} ({}); ask the makers, or name the amplifier in the column amplifiers of compatibility.csv",
-                motor.key, motor.maker
-            ));
+        if amplifier.is_some() && !self.drive.is_paired() {
+            assumptions.push(Assumption::Pairing);
         }
         if gearbox.is_some_and(|g| g.efficiency_assumed) {
-            assumptions.push("gearbox efficiency not given; using 87 % per stage".to_owned());
+            assumptions.push(Assumption::GearboxEfficiency);
         }
-        assumptions.extend(motor::unheld(self, rules));
-        assumptions.extend(self.motor.envelope.assumptions());
+        assumptions.extend(motor::least_brake(self, rules).map(Assumption::HoldingBrake));
+        let limits = self.motor.envelope.assumed().iter();
+        assumptions.extend(limits.copied().map(Assumption::Limits));
         assumptions
     }
 

@@ -28,7 +28,7 @@ use jred_file::model::rule::Rule;
 use jred_file::model::rules::Finding;
 use jred_file::model::rules::{Limit, RuleSet};
 use jred_file::units::Vocabulary;
-use jred_report::list::rule_words::note;
+use jred_report::list::rule_words::{assumptions, note};
 use jred_sizing::catalogue::Drive;
 use jred_sizing::catalogue::{Brake, Catalogue, Gearbox, Motor};
 use jred_sizing::cycle::Cycle;
@@ -102,8 +102,8 @@ impl Stand {
     fn warnings(&self, geared: bool) -> Vec<String> {
         let prepared = self.prepared();
         let drive = self.drive(geared);
-        Context::new(&self.cycle, &self.file.site, drive, &prepared)
-            .assumptions(&RuleSet::default())
+        let context = Context::new(&self.cycle, &self.file.site, drive, &prepared);
+        assumptions(&drive, &context.assumptions(&RuleSet::default()))
     }
 
     /// A rule's finding, if it applies.

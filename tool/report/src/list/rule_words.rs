@@ -18,8 +18,9 @@ use serde::Serialize;
 use jred_file::model::rule::{Rule, Sense};
 use jred_file::model::rules::RuleVerdict;
 use jred_file::number::rounding::short;
+use jred_sizing::catalogue::Drive;
 use jred_sizing::judge::check::Check;
-use jred_sizing::judge::{Assessment, Grounds};
+use jred_sizing::judge::{Assessment, Assumption, Grounds};
 
 /// A rule with its value, limit and verdict.
 #[derive(Serialize, JsonSchema)]
@@ -158,7 +159,42 @@ pub fn reasons(judged: &Assessment) -> String {
 
 /// One sentence for each rule that warns, and each assumption.
 pub fn warnings(judged: &Assessment) -> impl Iterator<Item = String> {
-    sentences(judged, RuleVerdict::Warn).chain(judged.assumptions.iter().cloned())
+    let assumed = assumptions(&judged.drive, &judged.assumptions);
+    sentences(judged, RuleVerdict::Warn).chain(assumed)
+}
+
+/// Assumptions about a drive, one sentence each.
+pub fn assumptions(drive: &Drive, all: &[Assumption]) -> Vec<String> {
+    all.iter().map(|one| assumption(drive, *one)).collect()
+}
+
+fn assumption(drive: &Drive, assumption: Assumption) -> String {
+    let motor = drive.motor;
+    let words = motor.kind.vocabulary();
+    match assumption {
+        Assumption::OtherFigures(part) => format!(
+            "{part} data not taken from the maker's own document; check them against the data sheet"
+        ),
+        Assumption::Pairing => {
+            let amplifier = drive.amplifier.map(|a| format!("{} ({})", a.key, a.maker));
+            format!(
+                "no source pairs amplifier {} with motor {} ({}); ask the makers, or name the amplifier in the column amplifiers of compatibility.csv",
+                amplifier.unwrap_or_default(),
+                motor.key,
+                motor.maker
+            )
+        }
+        Assumption::GearboxEfficiency => {
+            "gearbox efficiency not given; using 87 % per stage".to_owned()
+        }
+        Assumption::HoldingBrake(least) => format!(
+            "weight or loads move the machine when the motor is switched off, and the catalogue states no holding brake of \
+             this motor; choose it with a brake of at least {} {}, or hold the machine in another way",
+            short(least / words.torque.scale),
+            words.torque.unit
+        ),
+        Assumption::Limits(sentence) => sentence(words),
+    }
 }
 
 fn sentences(judged: &Assessment, verdict: RuleVerdict) -> impl Iterator<Item = String> {

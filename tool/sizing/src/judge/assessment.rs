@@ -6,6 +6,22 @@ use crate::cycle::form::MotorDuty;
 use crate::judge::check::Check;
 use jred_file::model::rule::Rule;
 use jred_file::model::rules::{RuleSet, RuleVerdict};
+use jred_file::units::Sentence;
+
+/// What is assumed about a drive.
+#[derive(Clone, Copy, Debug)]
+pub enum Assumption {
+    /// The figures of this part, which are not from its maker's own document.
+    OtherFigures(&'static str),
+    /// That the amplifier runs the motor: no source pairs them.
+    Pairing,
+    /// The efficiency of the gearbox.
+    GearboxEfficiency,
+    /// A holding brake of at least this torque (N·m): the catalogue gives none of this motor.
+    HoldingBrake(f64),
+    /// A figure of the motor's limits.
+    Limits(Sentence),
+}
 
 /// A drive with the verdict of every rule.
 #[derive(Clone, Debug)]
@@ -21,7 +37,7 @@ pub struct Assessment<'c> {
     /// The least torque of a holding brake (N·m), if one is needed and the catalogue gives no brake of this motor.
     pub least_brake: Option<f64>,
     /// Assumptions about motor and gearbox, and second-hand data.
-    pub assumptions: Vec<String>,
+    pub assumptions: Vec<Assumption>,
 }
 
 impl<'c> Assessment<'c> {

@@ -6,7 +6,6 @@ use crate::motor::envelope::MotorLimits;
 use jred_file::model::rule::Rule;
 use jred_file::model::rules::Finding;
 use jred_file::model::rules::RuleSet;
-use jred_file::number::rounding::short;
 
 /// Seconds of a minute.
 const MINUTE: f64 = 60.0;
@@ -113,19 +112,6 @@ pub(super) fn braked(context: &Context) -> f64 {
 /// Whether weight, springs or loads move the machine when the motor is without current.
 pub(super) fn falls(context: &Context) -> bool {
     context.cycle.mechanics().falls && !locks(context)
-}
-
-/// A warning for a motor without a brake, if the machine moves when the motor is without current.
-pub(super) fn unheld(context: &Context, rules: &RuleSet) -> Option<String> {
-    let words = context.vocabulary();
-    least_brake(context, rules).map(|least| {
-        format!(
-            "weight or loads move the machine when the motor is switched off, and the catalogue states no holding brake of \
-             this motor; choose it with a brake of at least {} {}, or hold the machine in another way",
-            short(least / words.torque.scale),
-            words.torque.unit
-        )
-    })
 }
 
 /// The least torque (N·m) of a holding brake, if the machine moves without current and the catalogue gives no brake of this motor.

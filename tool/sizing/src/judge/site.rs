@@ -1,7 +1,7 @@
 //! Whether motor and amplifier are made for the ambient temperature and altitude of the site.
 //!
-//! Within the range of the maker's data, or of the general rule, the ratings are reduced ([`SiteRating`](crate::catalogue::SiteRating)) and the other rules judge them. The rules here
-//! judge whether the site is within that range.
+//! Within the range of the maker's data, or of the general rule, the ratings are reduced ([`SiteRating`](crate::catalogue::SiteRating)) and the other
+//! rules judge them. The rules here judge whether the site is within that range.
 
 use super::{Context, Grounds, Record};
 use jred_file::model::rule::Rule;

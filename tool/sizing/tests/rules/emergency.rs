@@ -151,6 +151,12 @@ fn the_press_stops() {
     assert!(!stand.found(true, Rule::GearboxEmergency).is_known());
     let check = stand.check(true, &stand.file.rules, Rule::GearboxEmergency);
     assert!(note(&check).contains("self-locking"), "{}", note(&check));
+    // One that does not lock under inertia lacks the peak torque of the motor.
+    stand.gearbox.back_efficiency = 0.0;
+    stand.motor.peak_torque = None;
+    let check = stand.check(true, &stand.file.rules, Rule::GearboxEmergency);
+    let words = "no data: peak torque of the motor";
+    assert_eq!(note(&check), words);
     stand.gearbox.back_efficiency = 0.9;
     stand.gearbox.emergency_torque = None;
     assert!(!stand.found(true, Rule::GearboxEmergency).is_known());

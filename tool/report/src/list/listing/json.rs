@@ -9,7 +9,7 @@ use serde_json::json;
 use super::{Explanation, Listing};
 use crate::answer::Answer;
 use crate::answer::schema::Data;
-use crate::list::rule_words::{CheckData, missing};
+use crate::list::rule_words::{self, CheckData, missing};
 use crate::list::suited::MotionData;
 use jred_file::model::coordinate::Coordinate;
 use jred_file::model::rule::Rule;
@@ -396,6 +396,6 @@ fn drive<'c>(selection: &Selection<'c>, candidate: &Candidate<'c>) -> DriveData<
         verdict,
         duty,
         checks: checks.iter().map(CheckData::from).collect(),
-        assumptions,
+        assumptions: rule_words::assumptions(&drive, &assumptions),
     }
 }
