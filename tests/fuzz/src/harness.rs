@@ -20,6 +20,7 @@ use jred_cli::rows::store;
 use jred_file::model::machine::MachineFile;
 use jred_file::number::columns::Columns;
 use jred_report::list::inspection;
+use jred_report::list::rule_words::reasons;
 use jred_report::table::output::{Format as Sheet, write};
 use jred_report::table::rows::RowFormat;
 use jred_report::table::screen::Screen;
@@ -348,7 +349,7 @@ fn judged(catalogue: &Catalogue, cycle: &Cycle, file: &MachineFile) {
         .iter()
         .chain(&selection.first_refused(3))
     {
-        sound(&selection.judged(candidate).reasons());
+        sound(&reasons(&selection.judged(candidate)));
     }
 }
 

@@ -29,8 +29,7 @@ mod toml_table;
 mod voltage;
 
 pub use amplifier::{Amplifier, Resistor};
-pub(crate) use derating::HOTTEST_MOTOR;
-pub use derating::{Basis as DeratingBasis, Derating, SiteRating};
+pub use derating::{Basis as DeratingBasis, Derating, HOTTEST_MOTOR, SiteRating};
 #[cfg(feature = "fs")]
 pub use disk::Sources;
 pub use drive::{Drive, DriveId};

@@ -1,10 +1,10 @@
-//! Checking a drive: value and rating of every rule as plain numbers. Messages are added later, for the drives that are shown.
+//! Checking a drive: value and rating of every rule as plain numbers. What they rest on is added later, for the drives that are shown.
 //!
-//! Each family of rules is a file of [`judge`](self): it measures ([`Findings::set`]) and describes the rating (`note`). A rule that does not apply
-//! to a drive, such as a gearbox rule to a direct drive, is omitted from the findings. A rule that applies but lacks data of the catalogue or of the
-//! machine file is set with [`Finding::UNKNOWN`].
+//! Each family of rules is a file of [`judge`](self): it measures ([`Findings::set`]) and says what a check rests on ([`Grounds`]). A rule that does
+//! not apply to a drive, such as a gearbox rule to a direct drive, is omitted from the findings. A rule that applies but lacks data of the catalogue
+//! or of the machine file is set with [`Finding::UNKNOWN`]. The sentences are made in the package of reports.
 
-use crate::catalogue::{Amplifier, Drive, Resistor};
+use crate::catalogue::{Drive, Resistor};
 use crate::cycle::Cycle;
 use crate::cycle::form::Coefficients;
 use crate::judge::check::Check;
@@ -21,6 +21,7 @@ pub mod check;
 mod cure;
 mod electric;
 mod gearbox;
+mod grounds;
 mod motor;
 mod outcome;
 pub mod overload;
@@ -30,10 +31,11 @@ mod stiffness;
 mod thermal;
 mod voltage;
 
-pub use assessment::Assessment;
 pub(crate) use assessment::price;
+pub use assessment::{Assessment, Assumption};
 pub use bits::RuleBits;
 pub use cure::cure;
+pub use grounds::{Grounds, SupplySource};
 pub use outcome::Outcome;
 pub(crate) use screen::Screen;
 
@@ -156,7 +158,7 @@ impl<'a> Context<'a> {
     }
 
     /// Assumptions about the drive, and second-hand data.
-    pub fn assumptions(&self, rules: &RuleSet) -> Vec<String> {
+    pub fn assumptions(&self, rules: &RuleSet) -> Vec<Assumption> {
         let Drive {
             motor,
             gearbox,
@@ -168,21 +170,18 @@ impl<'a> Context<'a> {
             ("amplifier", amplifier.is_none_or(|a| a.from_maker)),
         ];
         let from_others = parts.into_iter().filter(|(_, from_maker)| !from_maker);
-        let mut assumptions: Vec<String> = from_others
-            .map(|(part, _)| format!("{part} data not taken from the maker's own document; check them against the data sheet"))
+        let mut assumptions: Vec<Assumption> = from_others
+            .map(|(part, _)| Assumption::OtherFigures(part))
             .collect();
-        if let Some(amplifier) = amplifier.filter(|_| !self.drive.is_paired()) {
-            let Amplifier { key, maker, .. } = amplifier;
-            assumptions.push(format!(
-                "no source pairs amplifier {key} ({maker}) with motor {} ({}); ask the makers, or name the amplifier in the column amplifiers of compatibility.csv",
-                motor.key, motor.maker
-            ));
+        if amplifier.is_some() && !self.drive.is_paired() {
+            assumptions.push(Assumption::Pairing);
         }
         if gearbox.is_some_and(|g| g.efficiency_assumed) {
-            assumptions.push("gearbox efficiency not given; using 87 % per stage".to_owned());
+            assumptions.push(Assumption::GearboxEfficiency);
         }
-        assumptions.extend(motor::unheld(self, rules));
-        assumptions.extend(self.motor.envelope.assumptions());
+        assumptions.extend(motor::least_brake(self, rules).map(Assumption::HoldingBrake));
+        let limits = self.motor.envelope.assumed().iter();
+        assumptions.extend(limits.copied().map(Assumption::Limits));
         assumptions
     }
 
@@ -226,7 +225,7 @@ impl<'a> Context<'a> {
         electric::trace(self)
     }
 
-    /// The checks under a rule set, with messages.
+    /// The checks under a rule set.
     pub fn checks(&self, rules: &RuleSet) -> Vec<Check> {
         let findings = self.findings(rules);
         findings
@@ -236,38 +235,40 @@ impl<'a> Context<'a> {
             .collect()
     }
 
-    /// The data missing for a rule that is not checked, without figures of this drive.
-    pub fn missing(&self, rules: &RuleSet, rule: Rule) -> Option<String> {
+    /// The check of one rule, if it applies.
+    pub fn check_of(&self, rules: &RuleSet, rule: Rule) -> Option<Check> {
         let finding = self.findings(rules).get(rule)?;
-        Some(self.words(rules, rule, finding).rating)
+        Some(self.check(rules, rule, finding))
     }
 
     fn check(&self, rules: &RuleSet, rule: Rule, finding: Finding) -> Check {
-        let mut check = Check::new(rules, rule, finding, self.words(rules, rule, finding));
-        check.rule = rule.named(self.vocabulary());
-        check
+        let grounds = self.grounds(rules, rule, finding);
+        Check::new(rules, rule, finding, grounds, self.vocabulary())
     }
 
-    fn words(&self, rules: &RuleSet, rule: Rule, finding: Finding) -> Words {
+    fn grounds(&self, rules: &RuleSet, rule: Rule, finding: Finding) -> Grounds {
         use Rule::{
-            Altitude, AmbientTemperature, AmplifierVoltage, Backlash, BrakeTorque, BrakeWork,
-            CabinetTemperature, ConstantTorque, GearboxCubicMean, GearboxCycles, GearboxEmergency,
-            GearboxMeanSpeed, GearboxPeak, GearboxSpeed, HoldingTorque, HousingTemperature,
-            InertiaRatio, MotorVoltage, NaturalFrequency, PeakTorque, RmsTorque, Speed,
-            WindingTemperature,
+            Altitude, AmbientTemperature, AmplifierVoltage, Backlash, BrakeResistance, BrakeTorque,
+            BrakeWork, BusVoltage, CabinetTemperature, ConstantTorque, GearboxCubicMean,
+            GearboxCycles, GearboxEmergency, GearboxMeanSpeed, GearboxPeak, GearboxSpeed,
+            HoldingTorque, HousingTemperature, InertiaRatio, MotorVoltage, NaturalFrequency,
+            Overload, PeakCurrent, PeakTorque, ResistorPeak, ResistorPower, ResistorPulse,
+            RmsCurrent, RmsTorque, Speed, WindingTemperature,
         };
         match rule {
-            BrakeTorque | BrakeWork => brake::words(self, rule, finding),
-            AmbientTemperature | CabinetTemperature | Altitude => site::words(self, rule),
-            RmsTorque | PeakTorque | Speed | HoldingTorque | ConstantTorque | InertiaRatio => {
-                motor::words(self, rules, rule, finding)
-            }
+            RmsTorque | PeakTorque | Speed | HoldingTorque | ConstantTorque | InertiaRatio
+            | BrakeTorque => motor::grounds(self, rules, rule),
+            BrakeWork => brake::stopped(self),
+            AmbientTemperature | CabinetTemperature | Altitude => site::grounds(self),
             GearboxPeak | GearboxCubicMean | GearboxEmergency | GearboxMeanSpeed | GearboxSpeed
-            | GearboxCycles => gearbox::words(self, rules, rule, finding),
-            WindingTemperature | HousingTemperature => thermal::words(self, rule, finding),
-            MotorVoltage | AmplifierVoltage => voltage::words(self, rules, rule, finding),
-            NaturalFrequency | Backlash => stiffness::words(self, rule, finding),
-            _ => electric::words(self, rule, finding),
+            | GearboxCycles => gearbox::grounds(self, rules, rule, finding),
+            WindingTemperature | HousingTemperature => thermal::grounds(self),
+            MotorVoltage => voltage::of_motor(self),
+            AmplifierVoltage => voltage::of_amplifier(self),
+            NaturalFrequency => stiffness::of_frequency(self),
+            Backlash => stiffness::of_backlash(self),
+            RmsCurrent | PeakCurrent | Overload | BusVoltage | BrakeResistance | ResistorPower
+            | ResistorPeak | ResistorPulse => electric::grounds(self, rule, finding),
         }
     }
 
@@ -289,19 +290,6 @@ impl<'a> Context<'a> {
         let outcome = Outcome::of(rules, &findings);
         (findings, outcome)
     }
-}
-
-/// Texts of a check.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Words {
-    /// Unit in which figure and rating are shown.
-    pub unit: &'static str,
-    /// SI value of that unit; figures are divided by it.
-    pub scale: f64,
-    /// Description of the rating, such as "S1 torque at mean speed"; for a finding without data, the missing data.
-    pub rating: String,
-    /// Where or how the value was determined; may be empty.
-    pub place: String,
 }
 
 /// The violated rule; of several, the one with the largest use of its limit.

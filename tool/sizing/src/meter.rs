@@ -287,10 +287,9 @@ impl<'a> MeterLimits<'a> {
         let broken = broken.filter(|check| check.verdict == RuleVerdict::Fail);
         let words = broken.map(|check| {
             let rule = check.rule;
-            match check.bound() {
-                Some(limit) => format!("{rule} {} of {limit}, {}", check.figure(), check.used()),
-                None => format!("{rule} {}: {}", check.figure(), check.note),
-            }
+            // A violated rule has a limit.
+            let limit = check.bound().unwrap_or_default();
+            format!("{rule} {} of {limit}, {}", check.figure(), check.used())
         });
         words.collect()
     }

@@ -8,6 +8,7 @@ use jred_analysis::checked;
 use jred_analysis::duty::Duty;
 use jred_file::model::rule::Rule;
 use jred_file::model::rules::RuleVerdict;
+use jred_report::list::rule_words::sentence;
 use jred_sizing::catalogue::Catalogue;
 use jred_sizing::cycle::Cycle;
 use jred_sizing::judge::check::Check;
@@ -157,7 +158,7 @@ fn yaskawa_screw_with_its_motor() {
     let speed = of(&checks, Rule::Speed);
     near("speed", speed.value.unwrap(), 3000.0, 1e-9);
     for check in [peak, ratio, speed, of(&checks, Rule::RmsTorque)] {
-        assert_eq!(check.verdict, RuleVerdict::Pass, "{}", check.sentence());
+        assert_eq!(check.verdict, RuleVerdict::Pass, "{}", sentence(check));
     }
     // At five times the acceleration it is too small: T_P = 2.43 N m against 1.91 N m.
     let hasty = Example {

@@ -10,6 +10,7 @@ use jred_analysis::checked;
 use jred_analysis::duty::{Duty, STEPS};
 use jred_file::model::machine::MachineFile;
 use jred_file::model::rule::Rule;
+use jred_report::list::rule_words::assumptions;
 use jred_sizing::catalogue::Catalogue;
 use jred_sizing::catalogue::Drive;
 use jred_sizing::cycle::Cycle;
@@ -32,6 +33,12 @@ fn with_limits(file: &MachineFile, test: impl FnOnce(&Context, &MeterLimits)) {
     let (id, drive) = catalogue.drives().find(|(_, d)| named(d)).unwrap();
     let context = Context::new(&cycle, &file.site, drive, &motors[id.motor()]);
     test(&context, &MeterLimits::new(&context, &file.rules));
+}
+
+/// The source with all assumptions about the drive.
+fn source(machine: &str, file: &MachineFile, context: &Context, limits: &MeterLimits) -> String {
+    let assumed = assumptions(&context.drive, &context.assumptions(&file.rules));
+    limits.source(machine, &assumed)
 }
 
 /// Rules that are off give no limit, shares are included in the limits, and without judged rules the source still gives the reason.
@@ -63,7 +70,7 @@ fn limits_are_those_of_the_rules() {
         let least = context.motor.envelope.max_speed().min(gearbox);
         let off = least - f64::from(speed);
         assert!((0.0..1e-4).contains(&off), "{speed} of {least}");
-        let source = limits.source("press.toml");
+        let source = source("press.toml", &file, context, limits);
         assert!(source.contains("// No limit `peak`: the rule \"peak torque\" is not checked."));
         assert!(source.contains("not monitored by the meter:"));
         assert!(!source.contains(".with_peak("));
@@ -92,7 +99,7 @@ fn violated_rules_are_named() {
 fn sized_figures_are_those_of_the_samples() {
     let file = checked::read(&shipped("hoist.toml")).unwrap();
     with_limits(&file, |context, limits| {
-        let source = limits.source("hoist.toml");
+        let source = source("hoist.toml", &file, context, limits);
         let sized = source.split_once("pub const SIZED").unwrap().1;
         let of = |name: &str| -> f64 {
             let after = sized.split_once(&format!("    {name}: ")).unwrap().1;
@@ -198,8 +205,8 @@ fn the_source_warns_and_is_laid_out() {
         let rules = format!("[rules]\nspeed = \"{share}\"\n\n[motion]");
         let text = edited_press("[motion]", &rules);
         let file = checked::parse("press.toml", &text, std::path::Path::new("")).unwrap();
-        with_limits(&file, |_, limits| {
-            let source = limits.source("press.toml");
+        with_limits(&file, |context, limits| {
+            let source = source("press.toml", &file, context, limits);
             assert_eq!(source.contains("THIS DRIVE VIOLATES RULES"), violated);
             assert_eq!(source.contains("violated: speed"), violated);
             for (start, _) in source.match_indices(" = [") {
@@ -245,8 +252,8 @@ fn shortfalls_are_said() {
 #[test]
 fn constants_have_units_and_grouped_digits() {
     let file = checked::read(&press_file()).unwrap();
-    with_limits(&file, |_, limits| {
-        let source = limits.source("press.toml");
+    with_limits(&file, |context, limits| {
+        let source = source("press.toml", &file, context, limits);
         for (name, unit) in [
             ("CONTINUOUS", "N m over rad/s"),
             ("PEAK", "N m over rad/s"),
@@ -327,7 +334,7 @@ fn the_stricter_of_two_rules_is_the_limit() {
 fn the_limits_that_are_defined_are_used() {
     let file = checked::read(&press_file()).unwrap();
     with_limits(&file, |context, limits| {
-        let source = limits.source("press.toml");
+        let source = source("press.toml", &file, context, limits);
         let (_, function) = source.split_once("pub fn limits()").unwrap();
         for entry in &limits.entries {
             let (field, name) = (entry.field, entry.field.word().to_uppercase());
@@ -352,7 +359,7 @@ fn the_limits_that_are_defined_are_used() {
                 ..context.drive
             };
             let context = Context::new(context.cycle, context.site, drive, context.motor);
-            let source = MeterLimits::new(&context, &file.rules).source("press.toml");
+            let source = MeterLimits::new(&context, &file.rules).source("press.toml", &[]);
             assert_eq!(source.contains("pub const WINDING_TIME: f32 = 90.0;"), said);
             assert_eq!(source.contains("WINDING_TIME"), said, "{time:?}");
         }

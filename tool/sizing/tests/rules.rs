@@ -27,11 +27,13 @@ use jred_file::model::machine::MachineFile;
 use jred_file::model::rule::Rule;
 use jred_file::model::rules::Finding;
 use jred_file::model::rules::{Limit, RuleSet};
+use jred_file::units::Vocabulary;
+use jred_report::list::rule_words::{assumptions, note};
 use jred_sizing::catalogue::Drive;
 use jred_sizing::catalogue::{Brake, Catalogue, Gearbox, Motor};
 use jred_sizing::cycle::Cycle;
 use jred_sizing::judge::check::Check;
-use jred_sizing::judge::{Context, Words};
+use jred_sizing::judge::{Context, Grounds};
 use jred_sizing::motor::envelope::MotorLimits;
 
 fn read(text: &str) -> MachineFile {
@@ -100,8 +102,8 @@ impl Stand {
     fn warnings(&self, geared: bool) -> Vec<String> {
         let prepared = self.prepared();
         let drive = self.drive(geared);
-        Context::new(&self.cycle, &self.file.site, drive, &prepared)
-            .assumptions(&RuleSet::default())
+        let context = Context::new(&self.cycle, &self.file.site, drive, &prepared);
+        assumptions(&drive, &context.assumptions(&RuleSet::default()))
     }
 
     /// A rule's finding, if it applies.
@@ -132,18 +134,18 @@ impl Stand {
     }
 }
 
+/// The check of an inertia ratio.
+fn ratio(rules: &RuleSet, finding: Finding) -> Check {
+    let words = &Vocabulary::ROTARY;
+    Check::new(rules, Rule::InertiaRatio, finding, Grounds::None, words)
+}
+
 /// A warning names its limit next to the one for refusal.
 #[test]
 fn a_warning_names_its_limit() {
     let note = |value: f64| {
-        let words = Words {
-            unit: "",
-            scale: 1.0,
-            rating: "times the rotor's inertia".to_owned(),
-            place: String::new(),
-        };
         let finding = Finding::new(value, 1.0);
-        Check::new(&RuleSet::default(), Rule::InertiaRatio, finding, words).note
+        note(&ratio(&RuleSet::default(), finding))
     };
     assert_eq!(note(6.0), "10 times the rotor's inertia; warning above 5");
     assert_eq!(note(4.0), "10 times the rotor's inertia");
@@ -154,7 +156,7 @@ fn a_warning_names_its_limit() {
 fn the_place_of_the_peak_is_said() {
     let stand = Stand::press();
     let check = stand.check(true, &stand.file.rules, Rule::PeakTorque);
-    let words = format!("{check:?}");
+    let words = note(&check);
     let (before, _) = words
         .split_once(" rpm, where the cycle comes closest to the envelope")
         .expect(&words);
@@ -176,19 +178,13 @@ fn the_place_of_the_peak_is_said() {
 #[test]
 fn a_use_of_a_limit_is_said_up_to_ten_times() {
     let used = |value: f64| {
-        let words = Words {
-            unit: "",
-            scale: 1.0,
-            rating: String::new(),
-            place: String::new(),
-        };
         let mut rules = RuleSet::default();
         let limit = Limit {
             fail: Some(1.0),
             warn: None,
         };
         rules.set(Rule::InertiaRatio, limit);
-        Check::new(&rules, Rule::InertiaRatio, Finding::new(value, 1.0), words).used()
+        ratio(&rules, Finding::new(value, 1.0)).used()
     };
     assert_eq!([0.5, 10.0, 10.01].map(used), ["50 %", "1000 %", "> 1000 %"]);
 }

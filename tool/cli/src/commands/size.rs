@@ -23,6 +23,7 @@ use jred_file::read;
 use jred_motion::co_design::CoDesignInput;
 use jred_report::list;
 use jred_report::list::listing;
+use jred_report::list::rule_words::assumptions;
 use jred_report::page;
 use jred_report::table::output::Format;
 use jred_sizing::cycle::Cycle;
@@ -250,7 +251,8 @@ fn write_meter(
     let limits = MeterLimits::new(&context, selection.rules);
     let name = options.file.file_name().unwrap_or_default();
     let machine = format!("{}, {}", plain::path(name), file.title);
-    output::write(path, limits.source(&machine).as_bytes())?;
+    let assumed = assumptions(&candidate.drive, &context.assumptions(selection.rules));
+    output::write(path, limits.source(&machine, &assumed).as_bytes())?;
     let broken = limits.broken();
     if !broken.is_empty() {
         terminal::say(&format!(

@@ -63,7 +63,27 @@ impl Cap {
             Rule::RmsTorque | Rule::WindingTemperature | Rule::HousingTemperature if heat => {
                 Some(Self::RmsTorque)
             }
-            _ => None,
+            Rule::RmsTorque
+            | Rule::WindingTemperature
+            | Rule::HousingTemperature
+            | Rule::HoldingTorque
+            | Rule::ConstantTorque
+            | Rule::BrakeTorque
+            | Rule::BrakeWork
+            | Rule::AmbientTemperature
+            | Rule::CabinetTemperature
+            | Rule::Altitude
+            | Rule::InertiaRatio
+            | Rule::GearboxEmergency
+            | Rule::MotorVoltage
+            | Rule::AmplifierVoltage
+            | Rule::BusVoltage
+            | Rule::BrakeResistance
+            | Rule::ResistorPower
+            | Rule::ResistorPeak
+            | Rule::ResistorPulse
+            | Rule::NaturalFrequency
+            | Rule::Backlash => None,
         }
     }
 }

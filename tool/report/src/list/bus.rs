@@ -202,14 +202,14 @@ fn resistor(bus: &BusAnalysis, answer: &mut Answer) {
     let Some(need) = &bus.need else {
         return;
     };
-    let figures = need.figures();
+    let figures = words::resistor(need);
     let says = if let Some(chosen) = &bus.chosen {
         format!("{chosen}, the smallest of the catalogue that fits; required: {figures}")
     } else {
         let mut says = format!("required: {figures}");
         let _ = match (&bus.proposal, &bus.misses) {
             (Some(key), _) => write!(says, "; {key} from the catalogue is suitable"),
-            (None, Some(misses)) => write!(says, "; {misses}"),
+            (None, Some(misses)) => write!(says, "; {}", words::misses(misses)),
             (None, None) => write!(says, "; the catalogue contains no brake resistors"),
         };
         says

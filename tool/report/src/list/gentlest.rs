@@ -6,6 +6,7 @@ pub(crate) use self::data::GentlestData;
 use super::contact::of_gentlest;
 use crate::answer::Answer;
 use crate::list::kept;
+use crate::list::rule_words::sentence;
 use crate::table::reading::Reading;
 use jred_file::model::axis::Axis;
 use jred_file::model::machine::MachineFile;
@@ -201,7 +202,7 @@ fn describe(answer: &mut Answer, shown: &GentlestView, words: &Vocabulary) {
         } else {
             "drive, whatever the motion"
         };
-        let says = format!("{}: `jred size` refuses the {whose}", check.sentence());
+        let says = format!("{}: `jred size` refuses the {whose}", sentence(check));
         answer.fact("not kept", says);
     }
 }

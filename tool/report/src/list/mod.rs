@@ -16,6 +16,7 @@ pub mod plan;
 pub mod ratio;
 pub mod reduction;
 pub mod rule_list;
+pub mod rule_words;
 pub mod sensitivity;
 pub mod simulation;
 pub mod split;

@@ -6,6 +6,7 @@ use jred_file::text::problem::Result;
 use super::axes::{Axes, Bounds, WorstPhases};
 use super::cure::{Cure, share};
 use super::curve::PowerCurve;
+use super::need::Misses;
 use super::store::BusFigures;
 use super::supply::BusData;
 use super::{Need, Watch};
@@ -55,7 +56,7 @@ pub struct BusAnalysis {
     /// The same, if it was connected to the bus because the machine files give no resistor.
     pub chosen: Option<String>,
     /// Why no resistor of the catalogue meets the need.
-    pub misses: Option<String>,
+    pub misses: Option<Misses>,
     /// Changes that would satisfy every limit.
     pub cures: Vec<Cure>,
 }

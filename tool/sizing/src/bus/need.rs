@@ -7,11 +7,25 @@ use super::store::Bus;
 use super::supply::BusData;
 use crate::catalogue::Resistor;
 use jred_file::model::supply::BrakeResistor;
-use jred_file::number::rounding::short;
-use jred_file::number::words::counted;
 
-/// A requirement, and whether a resistor misses it.
-type Requirement<'a> = (&'static str, Box<dyn Fn(&Resistor) -> bool + 'a>);
+/// How many resistors of a catalogue miss each requirement.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Misses {
+    /// All resistors.
+    pub resistors: usize,
+    /// Too small a resistance.
+    pub small_resistance: usize,
+    /// Too large a resistance.
+    pub large_resistance: usize,
+    /// Too little continuous power.
+    pub power: usize,
+    /// No data for the peak power.
+    pub no_peak_power: usize,
+    /// Too little peak power.
+    pub peak_power: usize,
+    /// Too little pulse energy.
+    pub pulse_energy: usize,
+}
 
 /// Requirements for a brake resistor that by itself limits the bus to the chopper voltage.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, schemars::JsonSchema)]
@@ -113,67 +127,20 @@ impl Need {
         })
     }
 
-    /// Why no resistor of a catalogue meets these requirements: how many resistors miss each of them.
-    pub fn misses(&self, resistors: &[Resistor]) -> String {
+    /// Why no resistor of a catalogue meets these requirements.
+    pub fn misses(&self, resistors: &[Resistor]) -> Misses {
         let least = self.smallest_resistance.unwrap_or(0.0);
-        let reasons: [Requirement; 6] = [
-            (
-                "too small a resistance",
-                Box::new(move |r| r.resistance < least),
-            ),
-            (
-                "too large a resistance",
-                Box::new(|r| r.resistance > self.largest_resistance),
-            ),
-            (
-                "too little continuous power",
-                Box::new(|r| r.rated_power < self.mean),
-            ),
-            (
-                "no data for the peak power",
-                Box::new(|r| r.peak_power.is_none()),
-            ),
-            (
-                "too little peak power",
-                Box::new(|r| r.peak_power.is_some_and(|peak| peak < self.peak)),
-            ),
-            (
-                "too little pulse energy",
-                Box::new(|r| r.pulse_energy.is_some_and(|energy| energy < self.pulse)),
-            ),
-        ];
-        let counts = reasons.iter().filter_map(|(words, misses)| {
-            let count = resistors.iter().filter(|r| misses(r)).count();
-            (count > 0).then(|| format!("{count} with {words}"))
-        });
-        let counts: Vec<String> = counts.collect();
-        let all = counted(resistors.len(), "brake resistor", "brake resistors");
-        format!(
-            "none of the {all} of the catalogue fits: {}",
-            counts.join(", ")
-        )
-    }
-
-    /// The message.
-    pub fn words(&self) -> String {
-        format!("requires a brake resistor of {}", self.figures())
-    }
-
-    /// The figures of the message.
-    pub fn figures(&self) -> String {
-        let largest = short(self.largest_resistance);
-        let range = match self.smallest_resistance.map(short) {
-            Some(least) if self.is_possible() => format!("{least} to {largest} Ω"),
-            Some(least) => {
-                format!("at most {largest} Ω (but the chopper requires at least {least} Ω)")
-            }
-            None => format!("at most {largest} Ω"),
+        let count = |misses: &dyn Fn(&Resistor) -> bool| {
+            resistors.iter().filter(|resistor| misses(resistor)).count()
         };
-        format!(
-            "{range} for {} W mean, {} W peak and {} J a pulse",
-            short(self.mean),
-            short(self.peak),
-            short(self.pulse)
-        )
+        Misses {
+            resistors: resistors.len(),
+            small_resistance: count(&|r| r.resistance < least),
+            large_resistance: count(&|r| r.resistance > self.largest_resistance),
+            power: count(&|r| r.rated_power < self.mean),
+            no_peak_power: count(&|r| r.peak_power.is_none()),
+            peak_power: count(&|r| r.peak_power.is_some_and(|peak| peak < self.peak)),
+            pulse_energy: count(&|r| r.pulse_energy.is_some_and(|energy| energy < self.pulse)),
+        }
     }
 }

@@ -7,7 +7,7 @@ use super::{Amplifier, Motor, broken_line};
 use jred_file::model::surroundings::{LOW, REFERENCE, Surroundings};
 
 /// Highest ambient temperature (°C) for which IEC 60034-1 has a rule; above it maker and user agree on the ratings.
-pub(crate) const HOTTEST_MOTOR: f64 = 60.0;
+pub const HOTTEST_MOTOR: f64 = 60.0;
 
 /// Highest ambient temperature (°C) of amplifiers for which makers give a reduction of the current.
 const HOTTEST_AMPLIFIER: f64 = 55.0;

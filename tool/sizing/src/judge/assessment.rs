@@ -1,4 +1,4 @@
-//! A drive checked against every rule, with messages.
+//! A drive checked against every rule.
 
 use super::{Context, motor};
 use crate::catalogue::{Drive, Resistor};
@@ -6,6 +6,22 @@ use crate::cycle::form::MotorDuty;
 use crate::judge::check::Check;
 use jred_file::model::rule::Rule;
 use jred_file::model::rules::{RuleSet, RuleVerdict};
+use jred_file::units::Sentence;
+
+/// What is assumed about a drive.
+#[derive(Clone, Copy, Debug)]
+pub enum Assumption {
+    /// The figures of this part, which are not from its maker's own document.
+    OtherFigures(&'static str),
+    /// That the amplifier runs the motor: no source pairs them.
+    Pairing,
+    /// The efficiency of the gearbox.
+    GearboxEfficiency,
+    /// A holding brake of at least this torque (N·m): the catalogue gives none of this motor.
+    HoldingBrake(f64),
+    /// A figure of the motor's limits.
+    Limits(Sentence),
+}
 
 /// A drive with the verdict of every rule.
 #[derive(Clone, Debug)]
@@ -21,11 +37,11 @@ pub struct Assessment<'c> {
     /// The least torque of a holding brake (N·m), if one is needed and the catalogue gives no brake of this motor.
     pub least_brake: Option<f64>,
     /// Assumptions about motor and gearbox, and second-hand data.
-    pub assumptions: Vec<String>,
+    pub assumptions: Vec<Assumption>,
 }
 
 impl<'c> Assessment<'c> {
-    /// Checks a drive against every rule, with messages for reports.
+    /// Checks a drive against every rule, for reports.
     pub fn new(context: &Context<'c>, rules: &RuleSet) -> Self {
         Self {
             drive: context.drive,
@@ -46,25 +62,6 @@ impl<'c> Assessment<'c> {
     /// Whether no rule is violated.
     pub fn holds(&self) -> bool {
         self.verdict() != RuleVerdict::Fail
-    }
-
-    /// One sentence for each violated rule.
-    pub fn reasons(&self) -> String {
-        self.sentences(RuleVerdict::Fail)
-            .collect::<Vec<_>>()
-            .join("; ")
-    }
-
-    /// One sentence for each rule that warns, and each assumption.
-    pub fn warnings(&self) -> impl Iterator<Item = String> {
-        (self.sentences(RuleVerdict::Warn)).chain(self.assumptions.iter().cloned())
-    }
-
-    fn sentences(&self, verdict: RuleVerdict) -> impl Iterator<Item = String> {
-        let checks = self.checks.iter();
-        checks
-            .filter(move |c| c.verdict == verdict)
-            .map(Check::sentence)
     }
 
     /// Use of the limit of a rule as text; empty if the rule does not apply.

@@ -1,103 +1,78 @@
 //! One sizing rule applied to one drive: figure, limit, verdict.
 
-use serde::Serialize;
-
-use crate::judge::Words;
-use jred_file::model::rule::{Rule, Sense};
-use jred_file::model::rules::{Finding, RuleSet, RuleVerdict};
+use crate::judge::Grounds;
+use jred_file::model::rule::Rule;
+use jred_file::model::rules::{Finding, Limit, RuleSet, RuleVerdict};
 use jred_file::number::rounding::{cleared, short, told_apart};
+use jred_file::units::{DEGREE, RPM, Vocabulary};
 
 /// A rule with its value, limit and verdict.
-#[derive(Clone, Debug, Serialize, schemars::JsonSchema)]
+#[derive(Clone, Debug)]
 pub struct Check {
     /// Name of the rule.
     pub rule: &'static str,
     /// The rule.
     pub id: Rule,
+    /// Value and rating (SI units).
+    pub finding: Finding,
+    /// The limits, as shares of the rating.
+    pub shares: Limit,
     /// The value, in `unit`; `None` if unknown.
     pub value: Option<f64>,
     /// Its limit, in `unit`; `None` without data in the catalogue.
     pub limit: Option<f64>,
     /// Unit of figure and limit.
     pub unit: &'static str,
-    /// The used share of the limit; zero without a limit, infinite for a limit of zero. JSON has it as the margin.
-    #[serde(skip)]
+    /// SI value of that unit.
+    pub scale: f64,
+    /// The used share of the limit; zero without a limit, infinite for a limit of zero.
     pub used: f64,
     /// Margin as a share of the limit; `None` without a limit, or for a yes-or-no rule.
     pub margin: Option<f64>,
     /// Verdict.
     pub verdict: RuleVerdict,
-    /// How the limit is computed, or the missing data.
-    pub note: String,
+    /// What it rests on.
+    pub grounds: Grounds,
+    /// Words and units of the motor.
+    pub words: &'static Vocabulary,
     /// Source of the limit.
     pub source: String,
 }
 
 impl Check {
-    /// Describes a finding under a rule set.
-    pub fn new(rules: &RuleSet, rule: Rule, finding: Finding, words: Words) -> Self {
+    /// Judges a finding under a rule set.
+    pub fn new(
+        rules: &RuleSet,
+        rule: Rule,
+        finding: Finding,
+        grounds: Grounds,
+        words: &'static Vocabulary,
+    ) -> Self {
         let verdict = rules.verdict(rule, finding);
-        let limit = rules.limit(rule);
-        let Words {
-            unit,
-            scale,
-            rating,
-            place,
-        } = words;
-        let share = limit.fail.or(limit.warn);
+        let shares = rules.limit(rule);
+        let (unit, scale) = unit(rule, &grounds, words);
         let used = rules.use_shown(rule, finding);
-        let shown = |x: f64| x / scale;
-        let bound = share.map(|share| share * finding.rating);
+        let bound = shares.fail.or(shares.warn);
+        let bound = bound.map(|share| share * finding.rating);
         let bound = bound.filter(|bound| finding.is_known() && bound.is_finite());
-        let mut note = match share {
-            None if rules.is_off(rule) => "switched off".to_owned(),
-            _ if !finding.is_known() => format!("no data: {rating}"),
-            None => "no limit given".to_owned(),
-            Some(_) if !finding.rating.is_finite() => format!("no limit: {rating}"),
-            Some(share) if unit.is_empty() => {
-                format!("{} {rating}", short(share * shown(finding.rating)))
-            }
-            Some(share) if unit == "%" => {
-                format!("{} % of the {rating}", short(share * shown(finding.rating)))
-            }
-            Some(share) => {
-                let share = if rule.is_ratio() {
-                    format!("{} times", short(share))
-                } else {
-                    format!("{:.0} % of", share * 100.0)
-                };
-                let shown = short(shown(finding.rating));
-                format!("{share} {shown} {unit}, the {rating}")
-            }
-        };
-        if verdict == RuleVerdict::Warn
-            && let Some(warn) = limit.warn.filter(|_| limit.fail.is_some())
-        {
-            let beyond = match rule.sense() {
-                Sense::AtMost => "above",
-                Sense::AtLeast => "below",
-            };
-            let warn = short(shown(warn * finding.rating));
-            note += format!("; warning {beyond} {warn} {unit}").trim_end();
-        }
-        if !place.is_empty() {
-            note += ", ";
-            note += &place;
-        }
         let margin = bound.is_some() && used.is_finite() && !rule.is_yes_or_no();
         Self {
-            rule: rule.name(),
+            rule: rule.named(words),
             id: rule,
-            value: Some(shown(finding.value)).filter(|v| v.is_finite()),
-            limit: bound.map(shown),
+            finding,
+            shares,
+            value: Some(finding.value / scale).filter(|v| v.is_finite()),
+            limit: bound.map(|bound| bound / scale),
             unit,
+            scale,
             used,
             margin: margin.then_some(match verdict {
                 RuleVerdict::Fail => 1.0 - used,
                 _ => cleared(1.0 - used, 1.0),
             }),
             verdict,
-            note,
+            grounds,
+            words,
             source: rules.source(rule).to_owned(),
         }
     }
@@ -152,14 +127,37 @@ impl Check {
         let limit = bound.map_or_else(String::new, |limit| format!(", limit {limit}"));
         format!("{}{limit}", self.figure())
     }
+}
 
-    /// Figure, limit and the limit's description, as one sentence.
-    pub fn sentence(&self) -> String {
-        let against = format!("{} {}", self.rule, self.against());
-        if self.limit.is_some() {
-            format!("{against} ({})", self.note)
-        } else {
-            format!("{against}: {}", self.note)
-        }
+/// The unit in which a rule is shown, and its SI value.
+const fn unit(rule: Rule, grounds: &Grounds, words: &Vocabulary) -> (&'static str, f64) {
+    match rule {
+        Rule::RmsTorque
+        | Rule::PeakTorque
+        | Rule::HoldingTorque
+        | Rule::ConstantTorque
+        | Rule::BrakeTorque => (words.torque.unit, words.torque.scale),
+        Rule::Speed => (words.speed.unit, words.speed.scale),
+        Rule::InertiaRatio => ("", 1.0),
+        Rule::BrakeWork | Rule::ResistorPulse => ("J", 1.0),
+        Rule::AmbientTemperature | Rule::CabinetTemperature => ("degC", 1.0),
+        Rule::Altitude => ("m", 1.0),
+        Rule::WindingTemperature | Rule::HousingTemperature => match grounds {
+            Grounds::Heat { heating, .. } if heating.relative => ("%", 0.01),
+            _ => ("K", 1.0),
+        },
+        Rule::GearboxPeak | Rule::GearboxCubicMean | Rule::GearboxEmergency => ("N m", 1.0),
+        Rule::GearboxMeanSpeed | Rule::GearboxSpeed => ("rpm", RPM),
+        Rule::GearboxCycles => ("per hour", 1.0),
+        Rule::RmsCurrent | Rule::PeakCurrent => ("A", 1.0),
+        Rule::Overload => ("A^2 s", 1.0),
+        Rule::MotorVoltage | Rule::AmplifierVoltage | Rule::BusVoltage => ("V", 1.0),
+        Rule::BrakeResistance => ("Ohm", 1.0),
+        Rule::ResistorPower | Rule::ResistorPeak => ("W", 1.0),
+        Rule::NaturalFrequency => ("Hz", 1.0),
+        Rule::Backlash => match grounds {
+            Grounds::Backlash { turns: true, .. } => ("deg", DEGREE),
+            _ => ("mm", 1e-3),
+        },
     }
 }

@@ -1,15 +1,14 @@
 //! Current of the amplifier, energy of the DC bus, brake resistor.
 
-use super::{Context, Record, Words};
+use super::{Context, Grounds, Record};
 use crate::bus::store::BusFigures;
 use crate::bus::supply::BusData;
 use crate::bus::{self, Need};
-use crate::catalogue::Resistor;
+use crate::catalogue::{Amplifier, Resistor};
 use crate::judge::overload;
 use crate::thermal::mean::rms_current;
 use jred_file::model::rule::Rule;
 use jred_file::model::rules::Finding;
-use jred_file::number::rounding::short;
 
 /// Measures currents; returns the largest (A) if the rules need it; NaN if the current of a torque is unknown.
 pub(super) fn measure(context: &Context, findings: &mut impl Record) -> Option<f64> {
@@ -155,17 +154,6 @@ fn overload(context: &Context, peak: f64, findings: &mut impl Record) {
     findings.set(Rule::Overload, Finding::against(largest, allowed));
 }
 
-/// Note that the site reduces the amplifier's currents.
-fn reduced(context: &Context) -> String {
-    let derated = (context.drive.amplifier).map(|a| a.derated(&context.site.surroundings));
-    match derated.map(|derated| derated.factor) {
-        Some(factor) if factor < 1.0 => {
-            format!(", reduced to {} % at the site", short(100.0 * factor))
-        }
-        _ => String::new(),
-    }
-}
-
 /// The bus of a drive with its brake resistor, from the machine file or chosen from the catalogue.
 struct DriveBus<'a> {
     data: BusData,
@@ -236,117 +224,52 @@ fn figures(context: &Context, data: &BusData) -> Option<BusFigures> {
     Some(data.bus().ok()?.run(&power(context)))
 }
 
-pub(super) fn words(context: &Context, rule: Rule, finding: Finding) -> Words {
+/// What a rule of amplifier, bus or resistor rests on.
+pub(super) fn grounds(context: &Context, rule: Rule, finding: Finding) -> Grounds {
+    let site = &context.site.surroundings;
     let amplifier = context.drive.amplifier;
-    let known = |text: &str| text.to_owned();
-    let constant = || format!("{} constant of the motor", context.vocabulary().torque);
-    let (unit, rating) = match rule {
-        Rule::RmsCurrent if amplifier.is_none() => ("A", known("amplifier (none chosen)")),
-        Rule::RmsCurrent | Rule::PeakCurrent if finding.value.is_nan() => ("A", constant()),
-        Rule::RmsCurrent => (
-            "A",
-            format!("rated current of the amplifier{}", reduced(context)),
-        ),
+    let reduced = |a: &Amplifier| Grounds::AmplifierCurrent(a.derated(site).factor);
+    match rule {
+        Rule::RmsCurrent => amplifier.map_or(Grounds::NoAmplifier, reduced),
         Rule::PeakCurrent => {
             let motor = context.drive.motor.winding.peak_current;
-            let most = amplifier.map(|a| a.currents(&context.site.surroundings)[1]);
-            let own = motor.is_some_and(|motor| most.is_none_or(|most| motor <= most));
-            let whose = if own {
-                "motor".to_owned()
-            } else {
-                format!("amplifier{}", reduced(context))
-            };
-            ("A", format!("peak current of the {whose}"))
+            let weaker = |a: &&Amplifier| motor.is_none_or(|motor| a.currents(site)[1] < motor);
+            amplifier
+                .filter(weaker)
+                .map_or(Grounds::MotorCurrent, reduced)
         }
-        Rule::Overload => {
-            let rating = match amplifier {
-                _ if finding.rating.is_infinite() => {
-                    known("the current never exceeds the rated current of the amplifier")
-                }
-                Some(a) if a.peak_time.is_none() => {
-                    known("time for which the amplifier can supply its peak current")
-                }
-                _ if finding.value.is_nan() => constant(),
-                _ => known("(peak current² − rated current²)·peak time of the amplifier"),
-            };
-            ("A^2 s", rating)
+        Rule::Overload if amplifier.is_some_and(|a| a.peak_time.is_none()) => {
+            Grounds::Missing("time for which the amplifier can supply its peak current")
         }
-        Rule::BusVoltage => {
-            let missing = missing(&fed(context).data).filter(|_| !finding.is_known());
-            (
-                "V",
-                known(missing.unwrap_or("maximum voltage of the DC bus")),
-            )
-        }
+        Rule::BusVoltage => of_bus(context, finding),
         Rule::ResistorPower | Rule::ResistorPeak | Rule::ResistorPulse
             if finding.value.is_nan() =>
         {
-            let unit = if rule == Rule::ResistorPulse {
-                "J"
-            } else {
-                "W"
-            };
-            let missing = missing(&fed(context).data).unwrap_or("figures of the DC bus");
-            (unit, known(missing))
+            Grounds::Missing(missing(&fed(context).data).unwrap_or("figures of the DC bus"))
         }
-        Rule::BrakeResistance => ("Ohm", known("minimum resistance of the chopper")),
-        Rule::ResistorPower => ("W", known("continuous power of the brake resistor")),
-        Rule::ResistorPeak => ("W", known("peak power of the brake resistor")),
-        _ => ("J", known("pulse energy of the brake resistor")),
-    };
-    Words {
-        unit,
-        scale: 1.0,
-        rating,
-        place: match rule {
-            Rule::BusVoltage => bus_place(context, finding),
-            Rule::BrakeResistance => fed(context).chosen.map_or_else(String::new, |chosen| {
-                format!(
-                    "of {}, the smallest brake resistor of the catalogue that fits",
-                    chosen.key
-                )
-            }),
-            _ => String::new(),
-        },
+        Rule::BrakeResistance => fed(context).chosen.map_or(Grounds::None, |chosen| {
+            Grounds::ChosenResistor(chosen.key.clone())
+        }),
+        _ => Grounds::None,
     }
 }
 
 /// Regenerated energy, and the brake resistor it would require.
-fn bus_place(context: &Context, finding: Finding) -> String {
+fn of_bus(context: &Context, finding: Finding) -> Grounds {
     let DriveBus { data, need, .. } = fed(context);
     let curve = power(context);
     let [_, back] = curve.energies();
-    if back == 0.0 {
-        return "no energy is fed back".to_owned();
-    }
-    let mut words = format!("{} J are fed back per cycle", short(back));
-    if finding.is_known() && finding.value.is_infinite() {
-        words += ", more than is drawn: without a brake resistor the voltage rises without limit";
-    }
-    if data.resistor.is_some() || data.regenerative {
-        return words;
-    }
     let rises = finding.value > data.chopper_voltage.unwrap_or(f64::INFINITY);
-    if let Some(need) = need.or_else(|| Need::of(&data, &curve).filter(|_| rises)) {
-        if finding.value <= finding.rating {
-            let on = data.chopper_voltage.map_or_else(String::new, short);
-            return format!(
-                "{words}; no brake resistor is needed (one of {} holds the bus at {on} V)",
-                need.figures()
-            );
-        }
-        words += ", ";
-        words += &need.words();
-        words += "; ";
-        words += &if context.resistors.is_empty() {
-            "neither [supply] nor the catalogue has one".to_owned()
-        } else {
-            need.misses(context.resistors)
-        };
-    } else if data.chopper_voltage.is_none() && finding.value > finding.rating {
-        words += "; no data for the voltage at which a brake resistor switches on, chopper_voltage of the amplifier or of [supply], so that none can be chosen";
+    let need = need.or_else(|| Need::of(&data, &curve).filter(|_| rises));
+    let resistors = Some(context.resistors).filter(|resistors| !resistors.is_empty());
+    Grounds::Bus {
+        missing: missing(&data),
+        back,
+        taken: data.resistor.is_some() || data.regenerative,
+        chopper_voltage: data.chopper_voltage,
+        need,
+        misses: need.and_then(|need| Some(need.misses(resistors?))),
     }
-    words
 }
 
 /// Voltage of the bus over a cycle in the periodic state, \[time (s), voltage (V)\]; empty if data are missing.

@@ -1,13 +1,11 @@
 //! The gearbox's torques, speeds and cycles.
 
-use super::{Context, Record, Words};
+use super::{Context, Grounds, Record};
 use crate::catalogue::Gearbox;
 use jred_analysis::duty::mechanics::Braking;
 use jred_file::model::rule::Rule;
 use jred_file::model::rules::Finding;
 use jred_file::model::rules::{MeanTorque, RuleSet};
-use jred_file::number::rounding::short;
-use jred_file::units::RPM;
 
 /// Seconds of an hour.
 const HOUR: f64 = 3600.0;
@@ -83,64 +81,39 @@ fn emergency(context: &Context, gearbox: &Gearbox) -> Option<[f64; 2]> {
         .filter(|[torque, _]| torque.is_finite())
 }
 
-pub(super) fn words(context: &Context, rules: &RuleSet, rule: Rule, finding: Finding) -> Words {
-    let (unit, scale, rating) = match rule {
-        Rule::GearboxPeak => ("N m", 1.0, "acceleration torque T2B"),
-        Rule::GearboxCubicMean => ("N m", 1.0, "rated torque T2N"),
-        Rule::GearboxEmergency => ("N m", 1.0, "emergency torque"),
-        Rule::GearboxMeanSpeed => ("rpm", RPM, "rated input speed n1N"),
-        Rule::GearboxSpeed => ("rpm", RPM, "maximum input speed"),
-        _ => (
-            "per hour",
-            1.0,
-            "number up to which T2B is valid; above it, T2B is reduced by the maker's shock factor",
-        ),
-    };
-    let mut words = Words {
-        unit,
-        scale,
-        rating: rating.to_owned(),
-        place: String::new(),
-    };
+/// What a rule of the gearbox rests on.
+pub(super) fn grounds(context: &Context, rules: &RuleSet, rule: Rule, finding: Finding) -> Grounds {
     let Some(gearbox) = context.drive.gearbox else {
-        return words;
+        return Grounds::None;
     };
     match rule {
         Rule::GearboxPeak => {
             let cycles = cycles_per_hour(context);
             let factor = gearbox.shock_factor(cycles);
             if factor > 1.0 {
-                words.rating = format!(
-                    "{rating} reduced by the maker's shock factor of {} for {} cycles per hour",
-                    short(factor),
-                    short(cycles)
-                );
+                return Grounds::ShockFactor { factor, cycles };
             }
         }
         Rule::GearboxCubicMean
             if rules.choices.gearbox_mean_exponent == MeanTorque::RollerBearing =>
         {
-            "mean with the exponent 10/3".clone_into(&mut words.place);
-        }
-        Rule::GearboxEmergency if gearbox.emergency_torque.is_some() && !finding.is_known() => {
-            words.rating = if gearbox.back_efficiency <= 0.0 {
-                "the gearbox is self-locking: its stiffness decides".to_owned()
-            } else {
-                "peak torque of the motor".to_owned()
-            };
+            return Grounds::RollerBearing;
         }
         Rule::GearboxEmergency if finding.is_known() => {
             if let Some([_, inertia]) = emergency(context, gearbox) {
-                words.place = format!(
-                    "if the motor brakes with its peak torque where the machine has {} kg m^2 at the gearbox",
-                    short(inertia)
-                );
+                return Grounds::EmergencyAt(inertia);
             }
         }
-        Rule::GearboxCycles if !gearbox.shock_factors.is_empty() => {
-            "number up to which the maker gives shock factors".clone_into(&mut words.rating);
+        Rule::GearboxEmergency if gearbox.emergency_torque.is_some() => {
+            // Only below zero does it lock: see [`Braking::torque_at`].
+            return if gearbox.back_efficiency < 0.0 {
+                Grounds::SelfLocking
+            } else {
+                Grounds::Missing("peak torque of the motor")
+            };
         }
+        Rule::GearboxCycles if !gearbox.shock_factors.is_empty() => return Grounds::ShockFactors,
         _ => {}
     }
-    words
+    Grounds::None
 }

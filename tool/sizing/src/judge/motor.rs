@@ -1,15 +1,11 @@
 //! The motor's torque, speed, holding torque and inertia ratio.
 
-use std::fmt::Write as _;
-
-use super::{Context, Record, Words};
+use super::{Context, Grounds, Record};
 use crate::cycle::Cycle;
 use crate::motor::envelope::MotorLimits;
 use jred_file::model::rule::Rule;
 use jred_file::model::rules::Finding;
 use jred_file::model::rules::RuleSet;
-use jred_file::number::rounding::short;
-use jred_file::units::Vocabulary;
 
 /// Seconds of a minute.
 const MINUTE: f64 = 60.0;
@@ -118,19 +114,6 @@ pub(super) fn falls(context: &Context) -> bool {
     context.cycle.mechanics().falls && !locks(context)
 }
 
-/// A warning for a motor without a brake, if the machine moves when the motor is without current.
-pub(super) fn unheld(context: &Context, rules: &RuleSet) -> Option<String> {
-    let words = context.vocabulary();
-    least_brake(context, rules).map(|least| {
-        format!(
-            "weight or loads move the machine when the motor is switched off, and the catalogue states no holding brake of \
-             this motor; choose it with a brake of at least {} {}, or hold the machine in another way",
-            short(least / words.torque.scale),
-            words.torque.unit
-        )
-    })
-}
-
 /// The least torque (N·m) of a holding brake, if the machine moves without current and the catalogue gives no brake of this motor.
 pub(super) fn least_brake(context: &Context, rules: &RuleSet) -> Option<f64> {
     let share = rules.limit(Rule::BrakeTorque).fail.unwrap_or(1.0);
@@ -147,89 +130,33 @@ fn constant(context: &Context) -> f64 {
     (resisting * forth + own).max(driving * back - coulomb)
 }
 
-/// How the holding torque was determined.
-fn held(context: &Context, finding: Finding) -> String {
-    let torque = context.vocabulary().torque;
-    let mut place = String::new();
-    if finding.value > 0.0 {
-        place = format!("{torque} at standstill with friction against the motor");
-    }
-    let rest = &context.cycle.mechanics().rest;
-    let time = lasts(context);
-    if let Some(longest) = rest.longest_above(rest.lasting(time)) {
-        let whose = match context.drive.motor.thermal.winding_time {
-            Some(_) => "",
-            None => ", which is not given",
-        };
-        let before = if place.is_empty() { "" } else { "; " };
-        let _ = write!(
-            place,
-            "{before}process loads in a dwell, held for at most {} s, are judged by RMS {torque} and temperature, \
-             because the time constant of the winding is {} s{whose}",
-            short(longest),
-            short(time)
-        );
-    }
-    place
-}
-
-pub(super) fn words(context: &Context, rules: &RuleSet, rule: Rule, finding: Finding) -> Words {
-    let words = context.vocabulary();
-    let Vocabulary {
-        torque,
-        inertia,
-        rotor,
-        ..
-    } = words;
-    let (unit, scale) = match rule {
-        Rule::Speed => (words.speed.unit, words.speed.scale),
-        Rule::InertiaRatio => ("", 1.0),
-        _ => (torque.unit, torque.scale),
-    };
-    let mut rating = match rule {
-        Rule::RmsTorque => format!("S1 {torque} at mean speed"),
-        Rule::PeakTorque => format!("peak {torque} at that speed"),
-        Rule::Speed => "maximum speed".to_owned(),
-        Rule::HoldingTorque | Rule::ConstantTorque => format!("standstill {torque}"),
-        _ => format!("times the {rotor}'s {inertia}"),
-    };
-    let place = match rule {
+/// What a rule of the motor rests on.
+pub(super) fn grounds(context: &Context, rules: &RuleSet, rule: Rule) -> Grounds {
+    match rule {
         Rule::PeakTorque => {
             let envelope = &context.motor.envelope;
             let peak = context
                 .cycle
                 .peak(&context.coefficients, context.ratio, envelope);
-            format!(
-                "at {}, where the cycle comes closest to the envelope",
-                words.speed(peak.speed)
-            )
+            Grounds::PeakAt(peak.speed)
         }
-        Rule::HoldingTorque if locks(context) => {
-            "the gearbox is self-locking and holds by itself".to_owned()
-        }
-        Rule::HoldingTorque => held(context, finding),
-        Rule::ConstantTorque => format!("{torque} of weight and friction only"),
-        Rule::InertiaRatio => {
-            let choices = &rules.choices;
-            let judged = choices.inertia_ratio_of.words();
-            if choices.inertia_ratio_by_moves.is_empty() {
-                judged.to_owned()
-            } else {
-                let moves = short(moves_per_minute(context));
-                if !finding.is_known() {
-                    rating = format!(
-                        "a limit for {moves} moves per minute; prefer the value from the data sheet"
-                    );
-                }
-                format!("{judged}, for {moves} moves per minute")
+        Rule::HoldingTorque | Rule::BrakeTorque if locks(context) => Grounds::SelfLocking,
+        Rule::HoldingTorque => {
+            let rest = &context.cycle.mechanics().rest;
+            let time = lasts(context);
+            Grounds::Holding {
+                dwell: rest.longest_above(rest.lasting(time)),
+                time,
+                given: context.drive.motor.thermal.winding_time.is_some(),
             }
         }
-        _ => String::new(),
-    };
-    Words {
-        unit,
-        scale,
-        rating,
-        place,
+        Rule::InertiaRatio => {
+            let by_moves = !rules.choices.inertia_ratio_by_moves.is_empty();
+            Grounds::InertiaRatio {
+                of: rules.choices.inertia_ratio_of,
+                moves: by_moves.then(|| moves_per_minute(context)),
+            }
+        }
+        _ => Grounds::None,
     }
 }

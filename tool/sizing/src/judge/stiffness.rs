@@ -6,13 +6,10 @@
 
 use std::f64::consts::TAU;
 
-use super::{Context, Record, Words};
+use super::{Context, Grounds, Record};
 use jred_file::model::rule::Rule;
 use jred_file::model::rules::Finding;
 use jred_file::model::site::ToolPlace;
-use jred_file::number::rounding::short;
-use jred_file::units::DEGREE;
-use jred_file::units::Vocabulary;
 
 /// Measures both; they depend only on gearbox, machine and cycle, not on the motor.
 pub(super) fn measure(context: &Context, findings: &mut impl Record) {
@@ -42,15 +39,11 @@ fn stiffness(context: &Context) -> Option<f64> {
     }
 }
 
-/// Lowest natural frequencies (Hz) over the cycle: with the motor holding its position, and with its rotor free.
-fn frequencies(context: &Context) -> Option<[f64; 2]> {
-    let stiffness = stiffness(context)?;
-    let inertia = context.cycle.inertia().max;
+/// Lowest natural frequency (Hz) over the cycle with a free rotor.
+fn free(context: &Context) -> Option<f64> {
     let rotor = context.coefficients.0[0] * context.ratio;
-    Some([
-        frequency(stiffness, 1.0 / inertia),
-        frequency(stiffness, 1.0 / inertia + 1.0 / rotor),
-    ])
+    let inertia = context.cycle.inertia().max;
+    Some(frequency(stiffness(context)?, 1.0 / inertia + 1.0 / rotor))
 }
 
 /// f = √(c/J)/2π (Hz), from a stiffness (N·m/rad) and the inverse of an inertia (kg·m²).
@@ -70,55 +63,21 @@ fn play(context: &Context) -> Option<f64> {
     Some(mechanics.tool_slope? * (gearbox / mechanics.train_ratio + train))
 }
 
-pub(super) fn words(context: &Context, rule: Rule, finding: Finding) -> Words {
-    if rule == Rule::Backlash {
-        return backlash(context, finding);
-    }
-    let (rating, place) = if let Some([_, free]) = frequencies(context) {
-        let shafts = match (context.drive.gearbox, context.site.shaft_stiffness) {
-            (Some(_), None) => "; stiffness of the shafts not given; using rigid shafts",
-            _ => "",
-        };
-        let free = short(free);
-        let Vocabulary { inertia, rotor, .. } = context.vocabulary();
-        let place = format!(
-            "the motor holding its position at the largest {inertia} of the cycle ({free} Hz with a free {rotor}){shafts}"
-        );
-        ("drive frequency", place)
-    } else if context.drive.gearbox.is_some() {
-        ("torsional stiffness of the gearbox", String::new())
-    } else {
-        let missing = "stiffness of the shafts, [stiffness] of the machine file";
-        (missing, String::new())
-    };
-    Words {
-        unit: "Hz",
-        scale: 1.0,
-        rating: rating.to_owned(),
-        place,
+/// What the natural frequency rests on.
+pub(super) fn of_frequency(context: &Context) -> Grounds {
+    Grounds::Stiffness {
+        free: free(context),
+        geared: context.drive.gearbox.is_some(),
+        shafts: context.site.shaft_stiffness.is_some(),
     }
 }
 
-fn backlash(context: &Context, finding: Finding) -> Words {
+/// What the backlash rests on.
+pub(super) fn of_backlash(context: &Context) -> Grounds {
     let tool = context.site.tool.as_ref();
-    let (unit, scale) = match tool.map(|tool| tool.place) {
-        Some(ToolPlace::Turning) => ("deg", DEGREE),
-        _ => ("mm", 1e-3),
-    };
-    let name = tool.map_or("", |tool| tool.name.as_str());
-    let rating = if finding.is_known() {
-        format!("backlash allowed at {name}")
-    } else {
-        "backlash of the gearbox".to_owned()
-    };
-    let train = match context.site.train_play {
-        None if finding.is_known() => "; backlash of the drive train not given; using none",
-        _ => "",
-    };
-    Words {
-        unit,
-        scale,
-        rating,
-        place: format!("at the largest transfer function of {name} in the motion{train}"),
+    Grounds::Backlash {
+        tool: tool.map_or_else(String::new, |tool| tool.name.clone()),
+        turns: tool.is_some_and(|tool| tool.place == ToolPlace::Turning),
+        train: context.site.train_play.is_some(),
     }
 }

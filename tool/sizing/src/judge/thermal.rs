@@ -1,13 +1,13 @@
 //! Temperature of winding and housing.
 
-use super::{Context, Record, Words};
+use super::{Context, Grounds, Record};
 use crate::thermal::classify::Features;
 use crate::thermal::loss_curve::PeakRise;
 use crate::thermal::{Heating, Load, Model, allowed_rise};
 use jred_file::model::operation::Operation;
 use jred_file::model::rule::Rule;
 use jred_file::model::rules::Finding;
-use jred_file::units::{Sentence, Vocabulary};
+use jred_file::units::Sentence;
 
 pub(super) fn follow(context: &Context, findings: &mut impl Record) {
     let Ok(heating) = heating(context) else {
@@ -55,51 +55,8 @@ const fn load<'a>(context: &'a Context) -> Load<'a> {
     }
 }
 
-pub(super) fn words(context: &Context, rule: Rule, finding: Finding) -> Words {
-    let found = heating(context);
-    let relative = found.as_ref().is_ok_and(|found| found.relative);
-    let surroundings = &context.site.surroundings;
-    let Vocabulary { torque, .. } = context.vocabulary();
-    let unknown = match &found {
-        Err(missing) => Some(missing(context.vocabulary())),
-        Ok(found) if rule == Rule::HousingTemperature && !found.housing => {
-            Some("thermal resistances of winding and housing".to_owned())
-        }
-        Ok(_) if finding.rating.is_nan() => Some("maximum temperature of the winding".to_owned()),
-        Ok(_) => None,
-    };
-    let rating = match (unknown, rule) {
-        (Some(missing), _) => missing,
-        (None, Rule::HousingTemperature) => format!(
-            "rise from {} °C to the maximum temperature of the housing",
-            surroundings.ambient
-        ),
-        (None, _) if relative => format!("rise at the S1 {torque}"),
-        (None, _) => {
-            let thin = if surroundings.altitude_factor() < 1.0 {
-                format!(
-                    ", less 1 % per 100 m above 1000 m at {} m",
-                    surroundings.altitude
-                )
-            } else {
-                String::new()
-            };
-            format!(
-                "rise from {} °C to the maximum temperature of the winding{thin}",
-                surroundings.ambient
-            )
-        }
-    };
-    Words {
-        unit: if relative { "%" } else { "K" },
-        scale: if relative { 0.01 } else { 1.0 },
-        rating,
-        place: found.map_or_else(|_| String::new(), |found| place(context, found)),
-    }
-}
-
-/// How the temperature was determined, and the duty type.
-fn place(context: &Context, found: Heating) -> String {
+/// What the temperatures rest on.
+pub(super) fn grounds(context: &Context) -> Grounds {
     let Context {
         cycle,
         site,
@@ -107,28 +64,15 @@ fn place(context: &Context, found: Heating) -> String {
         coefficients,
         ..
     } = context;
-    let mut parts = found.notes(context.vocabulary().torque);
-    parts.push(match site.duty.operation {
-        Operation::Continuous => {
-            let found = Features::of(cycle, coefficients, *ratio).duty_type();
-            match site.duty.kind {
-                Some(stated) if stated != found.number => {
-                    format!("{found} (given: S{stated})")
-                }
-                _ => found.to_string(),
-            }
-        }
-        Operation::Short { operating } => {
-            format!("duty type S2, after {operating} s from cold")
-        }
-        Operation::Intermittent {
-            operating, rest, ..
-        } => format!(
-            "duty type S{}, {operating} s of operation and {rest} s of rest",
-            site.duty.kind.unwrap_or(3)
-        ),
-    });
-    parts.join(", ")
+    match heating(context) {
+        Err(missing) => Grounds::NoHeat(missing),
+        Ok(heating) => Grounds::Heat {
+            heating,
+            surroundings: site.surroundings,
+            duty: site.duty,
+            found: Features::of(cycle, coefficients, *ratio).duty_type(),
+        },
+    }
 }
 
 /// Time (s) and rises of winding and housing (K) over a cycle that repeats without pause; `None` if data of the motor are missing, or if the machine

@@ -1,11 +1,8 @@
 //! Whether motor and amplifier are made for the voltage of the supply: see [`Voltages`](crate::motor::supply::Voltages).
 
-use super::{Context, Record, Words};
-use crate::catalogue::Basis;
+use super::{Context, Grounds, Record, SupplySource};
 use crate::motor::envelope::MotorLimits;
 use jred_file::model::rule::Rule;
-use jred_file::model::rules::{Finding, RuleSet, RuleVerdict};
-use jred_file::number::rounding::short;
 
 /// Both rules; they do not need cycle and gearbox.
 pub(super) fn measure(limits: &MotorLimits, findings: &mut impl Record) {
@@ -15,80 +12,39 @@ pub(super) fn measure(limits: &MotorLimits, findings: &mut impl Record) {
     }
 }
 
-pub(super) fn words(context: &Context, rules: &RuleSet, rule: Rule, finding: Finding) -> Words {
-    let drive = &context.drive;
-    let (part, key, made) = match (rule, drive.amplifier) {
-        (Rule::AmplifierVoltage, Some(amplifier)) => {
-            ("amplifier", &amplifier.key, amplifier.made_for())
-        }
-        _ => ("motor", &drive.motor.key, drive.motor.made_for()),
-    };
-    let rating = match made {
-        None if rule == Rule::AmplifierVoltage => {
-            "the catalogue has neither mains_voltage nor bus_voltage of the amplifier".to_owned()
-        }
-        None => {
-            "the catalogue has neither mains_voltage nor max_bus_voltage of the motor".to_owned()
-        }
-        Some(_) if finding.value.is_nan() => {
-            "voltage of the supply; give mains_voltage or bus_voltage in [supply]".to_owned()
-        }
-        Some(made) => largest(part, made.basis),
-    };
-    let mut place = String::new();
-    if finding.is_known() {
-        let supply = supply(context, finding.value);
-        place = if rules.verdict(rule, finding) == RuleVerdict::Fail {
-            format!(
-                "{supply}; \"{key}\" is not made for that: take one that is, or lower the supply, for example with a transformer"
-            )
-        } else {
-            supply
-        };
-    }
-    Words {
-        unit: "V",
-        scale: 1.0,
-        rating,
-        place,
+/// What the voltage of the motor rests on.
+pub(super) fn of_motor(context: &Context) -> Grounds {
+    let motor = context.drive.motor;
+    Grounds::Voltage {
+        part: motor.key.clone(),
+        made_for: motor.made_for(),
+        supply: supply(context),
     }
 }
 
-/// Description of the largest voltage.
-fn largest(part: &str, basis: Basis) -> String {
-    match basis {
-        Basis::Stated => format!("largest bus voltage of the {part}"),
-        Basis::Mains([stated, highest]) => format!(
-            "largest bus voltage of the {part}, made for {} V mains (class up to {} V, + 10 %)",
-            short(stated),
-            short(highest)
-        ),
-        Basis::Figures(bus, Some(highest)) => format!(
-            "largest bus voltage of the {part}, whose data are for {} V (mains up to {} V, + 10 %)",
-            short(bus),
-            short(highest)
-        ),
-        Basis::Figures(bus, None) => format!(
-            "extra-low voltage, because the data of the {part} are for {} V",
-            short(bus)
-        ),
+/// What the voltage of the amplifier rests on.
+pub(super) fn of_amplifier(context: &Context) -> Grounds {
+    let Some(amplifier) = context.drive.amplifier else {
+        return Grounds::NoAmplifier;
+    };
+    Grounds::Voltage {
+        part: amplifier.key.clone(),
+        made_for: amplifier.made_for(),
+        supply: supply(context),
     }
 }
 
-/// Description of the supply.
-fn supply(context: &Context, highest: f64) -> String {
+fn supply(context: &Context) -> SupplySource {
     let site = context.site;
-    let mains = |volts: f64| format!("{} V mains + 10 %, rectified", short(volts));
     match (
         site.mains_voltage,
         site.bus_voltage,
         context.drive.amplifier,
     ) {
-        (Some(volts), _, _) => mains(volts),
-        (None, None, Some(amplifier)) => match amplifier.mains_voltage {
-            Some(volts) => format!("{}, of the amplifier", mains(volts)),
-            None => format!("bus voltage of the amplifier, {} V", short(highest)),
-        },
-        _ => "bus voltage of [supply]".to_owned(),
+        (Some(volts), _, _) => SupplySource::Mains(volts),
+        (None, None, Some(amplifier)) => amplifier
+            .mains_voltage
+            .map_or(SupplySource::AmplifierBus, SupplySource::AmplifierMains),
+        _ => SupplySource::Bus,
     }
 }

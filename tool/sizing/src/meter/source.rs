@@ -5,9 +5,9 @@ use std::fmt::Write as _;
 use super::{Bound, Field, MeterLimit, MeterLimits, lower_curve};
 
 impl MeterLimits<'_> {
-    /// The source. `machine`: description of the machine that the drive was sized for.
-    pub fn source(&self, machine: &str) -> String {
-        let mut text = self.provenance(machine);
+    /// The source. `machine`: description of the machine that the drive was sized for; `assumed`: the assumptions about the drive.
+    pub fn source(&self, machine: &str, assumed: &[String]) -> String {
+        let mut text = self.provenance(machine, assumed);
         for entry in &self.entries {
             self.constant(entry, &mut text);
         }
@@ -17,7 +17,7 @@ impl MeterLimits<'_> {
         text
     }
 
-    fn provenance(&self, machine: &str) -> String {
+    fn provenance(&self, machine: &str, assumed: &[String]) -> String {
         let drive = self.drive();
         let mut lines = vec![
             format!(
@@ -45,12 +45,7 @@ impl MeterLimits<'_> {
             lines.push(format!("gearbox: {} {}", gearbox.maker, gearbox.model));
         }
         lines.push(format!("rules: {} ({})", self.rules.name, self.rules.title));
-        lines.extend(
-            self.context
-                .assumptions(self.rules)
-                .iter()
-                .map(|a| format!("assumed: {a}")),
-        );
+        lines.extend(assumed.iter().map(|a| format!("assumed: {a}")));
         let unseen = self.unseen();
         if !unseen.is_empty() {
             let words = self.context.vocabulary();

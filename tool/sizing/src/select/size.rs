@@ -5,6 +5,7 @@ use std::collections::HashSet;
 use crate::catalogue::{Catalogue, Drive, DriveId, Resistor};
 use crate::cycle::Cycle;
 use crate::judge::Assessment;
+use crate::judge::check::Check;
 use crate::judge::{Context, Outcome, Screen};
 use crate::motor::envelope::MotorLimits;
 use crate::threads;
@@ -86,8 +87,8 @@ pub struct Gap {
     pub rule: Rule,
     /// Number of drives.
     pub count: usize,
-    /// The missing data of one of them.
-    pub missing: String,
+    /// The rule's check of one of them.
+    pub example: Check,
 }
 
 /// A rule that refused drives violate.
@@ -364,7 +365,7 @@ impl<'c> Selection<'c> {
             Some(Gap {
                 rule,
                 count: gap.count,
-                missing: context.missing(self.rules, rule)?,
+                example: context.check_of(self.rules, rule)?,
             })
         });
         gaps.collect()
@@ -386,7 +387,7 @@ impl<'c> Selection<'c> {
         self.fit.survey().partly_checked()
     }
 
-    /// A candidate checked against every rule, with messages.
+    /// A candidate checked against every rule.
     pub fn judged(&self, candidate: &Candidate<'c>) -> Assessment<'c> {
         Assessment::new(&self.context(candidate), self.rules)
     }

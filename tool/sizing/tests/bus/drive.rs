@@ -9,6 +9,7 @@ use jred_file::model::rules::RuleSet;
 use jred_file::model::rules::RuleVerdict;
 use jred_file::model::site::Site;
 use jred_file::model::supply::{BrakeResistor, Supply};
+use jred_report::list::rule_words::note;
 use jred_sizing::bus;
 use jred_sizing::catalogue::Drive;
 use jred_sizing::catalogue::{Amplifier, Motor, Winding};
@@ -148,9 +149,9 @@ fn a_resistor_too_small_for_the_amplifier() {
         (RuleVerdict::Fail, Some(20.0), Some(30.0), "Ohm")
     );
     assert!(
-        low.note.contains("minimum resistance of the chopper"),
+        note(&low).contains("minimum resistance of the chopper"),
         "{}",
-        low.note
+        note(&low)
     );
     assert_eq!(resistance(Some(20.0), None).verdict, RuleVerdict::Pass);
     // The machine file takes precedence.
@@ -160,7 +161,7 @@ fn a_resistor_too_small_for_the_amplifier() {
     );
     let unknown = resistance(None, None);
     assert_eq!(unknown.verdict, RuleVerdict::NotChecked);
-    assert!(unknown.note.contains("no data"), "{}", unknown.note);
+    assert!(note(&unknown).contains("no data"), "{}", note(&unknown));
 }
 
 /// The findings of a resistor of 1 MW at this chopper voltage, with these of its other ratings.
@@ -234,7 +235,7 @@ fn the_energy_that_comes_back_is_said() {
     let check = checks.iter().find(|c| c.id == Rule::BusVoltage).unwrap();
     let [_, back] =
         bus::power(&cycle, &drive.coefficients(), 1.0, &motor, &prepared, None).energies();
-    let words = format!("{check:?}");
+    let words = note(check);
     let (before, _) = words.split_once(" J are fed back per cycle").expect(&words);
     let number: f64 = before.rsplit(['"', ' ']).next().unwrap().parse().unwrap();
     near("energy", number, back, 1e-3);

@@ -10,6 +10,7 @@ use jred_file::model::rules::RuleVerdict;
 use jred_file::model::rules::{Limit, RuleSet};
 use jred_file::model::site::Site;
 use jred_file::model::supply::BrakeResistor;
+use jred_report::list::rule_words::missing;
 use jred_sizing::catalogue::Drive;
 use jred_sizing::catalogue::{Amplifier, Catalogue, Gearbox, Motor};
 use jred_sizing::cycle::Cycle;
@@ -193,7 +194,7 @@ fn survey(selection: &Selection, fit: &[(String, Outcome)]) {
     let gaps = selection.gaps();
     let found: Vec<_> = gaps.iter().map(|gap| (gap.rule, gap.count)).collect();
     assert_eq!(found, expected);
-    assert!(gaps.iter().all(|gap| !gap.missing.is_empty()));
+    assert!(gaps.iter().all(|gap| !missing(&gap.example).is_empty()));
 }
 
 /// The same duty scaled to this largest torque and speed (N·m, rad/s).

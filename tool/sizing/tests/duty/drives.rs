@@ -5,6 +5,7 @@ use jred_file::model::rule::Rule;
 use jred_file::model::rules::RuleSet;
 use jred_file::model::rules::RuleVerdict;
 use jred_file::model::site::Site;
+use jred_report::list::rule_words::{reasons, sentence};
 use jred_sizing::catalogue::Drive;
 use jred_sizing::catalogue::{Catalogue, Gearbox, Motor};
 use jred_sizing::cycle::Cycle;
@@ -274,7 +275,7 @@ fn ranking() {
         for check in broken {
             let (value, limit) = (check.value.unwrap(), check.limit.unwrap());
             assert!(value > limit, "{}: {value} against {limit}", check.rule);
-            assert!(judged.reasons().contains(check.rule));
+            assert!(reasons(&judged).contains(check.rule));
             assert!(check.margin.is_none_or(|margin| margin < 0.0));
         }
         assert!(candidate.outcome.worst_use > 1.0);
@@ -288,7 +289,7 @@ fn ranking() {
             assert!(
                 held || check.verdict == RuleVerdict::Warn,
                 "{}",
-                check.sentence()
+                sentence(check)
             );
         }
     }
@@ -323,7 +324,7 @@ fn reasons_read_well() {
     let ready = Ready::new(&duty_of(&file, 100));
     let selection = ready.selection();
     for candidate in &selection.first_refused(usize::MAX) {
-        let reasons = selection.judged(candidate).reasons();
+        let reasons = reasons(&selection.judged(candidate));
         for blemish in ["  ", " )", "inf", "NaN"] {
             assert!(!reasons.contains(blemish), "{blemish:?} in: {reasons}");
         }

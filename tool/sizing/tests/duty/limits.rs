@@ -1,6 +1,7 @@
 //! The torque-speed limits of motors, and assumptions for missing data.
 
 use jred_file::model::site::Site;
+use jred_report::list::rule_words::assumptions;
 use jred_sizing::catalogue::{Catalogue, Motor};
 use jred_sizing::cycle::Cycle;
 use jred_sizing::judge::Assessment;
@@ -144,7 +145,7 @@ fn assumptions_are_reported_exactly_where_a_figure_is_missing() {
     let context = Context::new(&cycle, &site, drive(&motor, None), &prepared[0]);
     let judged = Assessment::new(&context, &file.rules);
     let expected = Envelope::of(&motor).assumptions();
-    assert!(judged.assumptions.ends_with(&expected));
+    assert!(assumptions(&judged.drive, &judged.assumptions).ends_with(&expected));
 }
 
 /// Peak torque given up to a speed that the motor does not reach: above its largest speed the torque is still zero.

@@ -4,6 +4,7 @@ use jred_file::model::rule::Rule;
 use jred_file::model::rules::RuleVerdict;
 
 use super::{Stand, near, press_text};
+use jred_report::list::rule_words::note;
 
 /// x of the press's ram, from its triangle.
 fn ram(phi: f64) -> f64 {
@@ -42,7 +43,12 @@ fn the_ram_has_play() {
         assert_eq!((check.unit, check.limit), ("mm", Some(0.05)));
         assert_eq!(check.verdict == RuleVerdict::Fail, most > 5e-5);
         let assumed = "; backlash of the drive train not given; using none";
-        assert_eq!(check.note.contains(assumed), own == 0.0, "{}", check.note);
+        assert_eq!(
+            note(&check).contains(assumed),
+            own == 0.0,
+            "{}",
+            note(&check)
+        );
         // Without a gearbox only the drive train's own.
         near(
             "direct",

@@ -2,6 +2,7 @@
 
 use jred_file::model::rule::Rule;
 use jred_file::model::rules::{RuleSet, RuleVerdict};
+use jred_report::list::rule_words::note;
 use jred_sizing::catalogue::Brake;
 
 use super::{Stand, near};
@@ -85,7 +86,8 @@ fn the_stop_of_a_lift_is_that_of_its_steps() {
     let check = stand.check(true, &RuleSet::default(), Rule::BrakeWork);
     // The drive link of a belt axis is its pulley.
     let number = |after: &str| -> f64 {
-        let (_, rest) = check.note.split_once(after).expect(&check.note);
+        let note = note(&check);
+        let (_, rest) = note.split_once(after).expect(&note);
         rest.split(' ').next().unwrap().parse().unwrap()
     };
     near(
@@ -101,9 +103,9 @@ fn the_stop_of_a_lift_is_that_of_its_steps() {
         1e-3,
     );
     assert!(
-        check.note.contains("at most 20 such stops per hour"),
+        note(&check).contains("at most 20 such stops per hour"),
         "{}",
-        check.note
+        note(&check)
     );
 }
 
@@ -117,7 +119,7 @@ fn a_brake_below_the_weight_takes_work_without_end() {
     };
     let check = lift(weak).check(true, &RuleSet::default(), Rule::BrakeWork);
     assert_eq!(check.verdict, RuleVerdict::Fail);
-    assert!(check.note.contains("without end"), "{}", check.note);
+    assert!(note(&check).contains("without end"), "{}", note(&check));
 }
 
 /// Its torque is judged with a factor of 1.5.
@@ -149,7 +151,7 @@ fn missing_figures_of_a_brake_are_named() {
         };
         let check = lift(brake).check(true, &rules, Rule::BrakeWork);
         assert_eq!(check.verdict, RuleVerdict::NotChecked);
-        assert!(check.note.contains(column), "{}", check.note);
+        assert!(note(&check).contains(column), "{}", note(&check));
     }
     let flat = LIFT.replace("90 deg", "0 deg");
     let mut stand = Stand::new(&flat);

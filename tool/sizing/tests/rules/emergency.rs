@@ -6,6 +6,7 @@ use jred_file::model::rule::Rule;
 use proptest::prelude::*;
 
 use super::{Stand, budget, near, within};
+use jred_report::list::rule_words::note;
 
 /// Torque through the gearbox by elimination from the equations of the two bodies, solved as a linear system in the
 /// torque and the deceleration.
@@ -149,7 +150,13 @@ fn the_press_stops() {
     stand.gearbox.back_efficiency = 2.0 - 1.0 / 0.1;
     assert!(!stand.found(true, Rule::GearboxEmergency).is_known());
     let check = stand.check(true, &stand.file.rules, Rule::GearboxEmergency);
-    assert!(check.note.contains("self-locking"), "{}", check.note);
+    assert!(note(&check).contains("self-locking"), "{}", note(&check));
+    // One that does not lock under inertia lacks the peak torque of the motor.
+    stand.gearbox.back_efficiency = 0.0;
+    stand.motor.peak_torque = None;
+    let check = stand.check(true, &stand.file.rules, Rule::GearboxEmergency);
+    let words = "no data: peak torque of the motor";
+    assert_eq!(note(&check), words);
     stand.gearbox.back_efficiency = 0.9;
     stand.gearbox.emergency_torque = None;
     assert!(!stand.found(true, Rule::GearboxEmergency).is_known());

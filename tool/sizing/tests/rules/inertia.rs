@@ -4,6 +4,7 @@ use jred_file::model::rule::Rule;
 use jred_file::model::rules::RuleVerdict;
 
 use super::{Stand, budget, edited, near, press_text};
+use jred_report::list::rule_words::note;
 
 #[test]
 fn the_judged_figure_is_chosen() {
@@ -43,7 +44,7 @@ fn the_judged_figure_is_chosen() {
             "mean" => "mean λ",
             _ => "largest λ",
         };
-        assert!(check.note.contains(words), "{}", check.note);
+        assert!(note(&check).contains(words), "{}", note(&check));
         // A ratio has no unit: the value is the number itself.
         assert_eq!(check.unit, "");
         near(word, check.value.unwrap(), expected, budget::SAME_SUMS);
@@ -86,9 +87,9 @@ fn limits_by_moves_per_minute() {
         let check = stand.check(true, &set, Rule::InertiaRatio);
         assert_eq!(check.limit, limit, "{pause}");
         assert!(
-            check.note.contains(&format!("{moves} moves per minute")),
+            note(&check).contains(&format!("{moves} moves per minute")),
             "{}",
-            check.note
+            note(&check)
         );
         if limit.is_none() {
             assert_eq!(check.verdict, RuleVerdict::NotChecked);

@@ -1,6 +1,7 @@
 //! A judged drive: assumptions, use of limits, and the keys of missing data.
 
 use jred_file::model::rules::{Limit, RuleVerdict};
+use jred_report::list::rule_words::{assumptions, reasons, warnings};
 use jred_sizing::catalogue::Amplifier;
 use jred_sizing::judge::{Assessment, Outcome, cure};
 
@@ -23,8 +24,8 @@ fn second_hand_data_are_named() {
             amplifier: Some(&amplifier),
             ..stand.drive(true)
         };
-        let said = Context::new(&stand.cycle, &stand.file.site, drive, &prepared)
-            .assumptions(&RuleSet::default());
+        let context = Context::new(&stand.cycle, &stand.file.site, drive, &prepared);
+        let said = assumptions(&drive, &context.assumptions(&RuleSet::default()));
         for (part, name) in (0..).zip(["motor", "gearbox", "amplifier"]) {
             let words = format!("{name} data not taken from the maker's own document");
             assert_eq!(
@@ -63,8 +64,8 @@ fn a_judged_drive_in_figures() {
             found.value / found.rating,
             used,
             judged.holds(),
-            judged.reasons(),
-            judged.warnings().next(),
+            reasons(&judged),
+            warnings(&judged).next(),
         )
     };
     // Only the speed is judged: at 100 %, and at limits of which the drive uses half or twice.

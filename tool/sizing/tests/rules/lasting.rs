@@ -4,6 +4,7 @@ use jred_file::model::rule::Rule;
 use jred_file::model::rules::RuleSet;
 
 use super::{Stand, near};
+use jred_report::list::rule_words::note;
 
 /// A hanging moment of 120 N m, and 300 N m of a process where the shaft rests, on a 3:1 belt of 96 %.
 fn press(before: &str, after: &str) -> Stand {
@@ -57,7 +58,7 @@ fn a_process_load_lasts_as_long_as_its_dwell() {
     near("unknown", held(&mut stand, None), weight, 1e-12);
     let check = stand.check(false, &RuleSet::default(), Rule::HoldingTorque);
     for words in ["at most 1 s", "10 s, which is not given", "RMS torque"] {
-        assert!(check.note.contains(words), "{}", check.note);
+        assert!(note(&check).contains(words), "{}", note(&check));
     }
     // The brake holds all loads at the moment of closing, however short they are.
     stand.brake(9.0);

@@ -6,6 +6,7 @@ use jred_file::model::rule::Rule;
 use jred_file::model::rules::RuleVerdict;
 
 use super::{Stand, budget, near, press_text};
+use jred_report::list::rule_words::{note, sentence};
 
 /// Natural frequencies (Hz) in rising order of a chain of masses with springs between neighbours; the first mass may be fixed.
 fn chain(held: bool, masses: &[f64], springs: &[f64]) -> Vec<f64> {
@@ -89,8 +90,7 @@ fn the_motor_holds_its_position() {
         let fastest = stand.duty.figures(|i| i.omega).peak() / TAU;
         near("drive", found.rating, fastest.max(1.0 / 0.4), 1e-6);
         let check = stand.check(true, &stand.file.rules, Rule::NaturalFrequency);
-        let shown: f64 = check
-            .note
+        let shown: f64 = note(&check)
             .split('(')
             .nth(1)
             .unwrap()
@@ -101,10 +101,10 @@ fn the_motor_holds_its_position() {
             .unwrap();
         near("free", shown, free, 1e-3);
         assert_eq!(
-            check.note.contains("using rigid shafts"),
+            note(&check).contains("using rigid shafts"),
             section.is_empty(),
             "{}",
-            check.note
+            note(&check)
         );
     }
 }
@@ -134,7 +134,7 @@ fn ten_times_the_drive_frequency() {
         } else {
             RuleVerdict::Pass
         };
-        assert_eq!(check.verdict, expected, "{}", check.sentence());
+        assert_eq!(check.verdict, expected, "{}", sentence(&check));
         near("limit", check.limit.unwrap(), 10.0 * drive, 1e-12);
         near("margin", check.margin.unwrap(), 1.0 - 10.0 / factor, 1e-9);
         let strict = super::read(&format!(
@@ -152,7 +152,7 @@ fn nothing_known_is_not_checked() {
     for geared in [false, true] {
         let check = stand.check(geared, &stand.file.rules, Rule::NaturalFrequency);
         assert_eq!(check.verdict, RuleVerdict::NotChecked);
-        assert!(check.note.contains("stiffness"), "{}", check.note);
+        assert!(note(&check).contains("stiffness"), "{}", note(&check));
     }
     // Coupled directly: only the shaft.
     let stand = Stand::new(&format!(

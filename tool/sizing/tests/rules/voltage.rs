@@ -5,6 +5,7 @@ use std::f64::consts::SQRT_2;
 use super::{Context, Finding, Rule, RuleSet, Stand, budget, near, press_text, read};
 use jred_file::model::rules::RuleVerdict;
 use jred_file::model::site::Site;
+use jred_report::list::rule_words::{self, note};
 use jred_sizing::bus::supply::BusData;
 use jred_sizing::catalogue::{Amplifier, Basis, Catalogue, Drive, Motor};
 use jred_sizing::motor::envelope::{Envelope, MotorLimits};
@@ -150,9 +151,7 @@ fn what_is_said_about_it() {
     let mut stand = press_at("mains_voltage = \"400 V\"");
     stand.motor.mains_voltage = Some(200.0);
     let sentence = |stand: &Stand| {
-        stand
-            .check(true, &stand.file.rules, Rule::MotorVoltage)
-            .sentence()
+        rule_words::sentence(&stand.check(true, &stand.file.rules, Rule::MotorVoltage))
     };
     let said = sentence(&stand);
     for words in [
@@ -167,17 +166,15 @@ fn what_is_said_about_it() {
     let check = stand.check(true, &stand.file.rules, Rule::MotorVoltage);
     assert_eq!(check.verdict, RuleVerdict::NotChecked);
     assert!(
-        check
-            .note
-            .contains("neither mains_voltage nor max_bus_voltage"),
+        note(&check).contains("neither mains_voltage nor max_bus_voltage"),
         "{}",
-        check.note
+        note(&check)
     );
     let mut nowhere = Stand::press();
     nowhere.motor.mains_voltage = Some(200.0);
     let check = nowhere.check(true, &nowhere.file.rules, Rule::MotorVoltage);
     assert_eq!(check.verdict, RuleVerdict::NotChecked);
-    assert!(check.note.contains("[supply]"), "{}", check.note);
+    assert!(note(&check).contains("[supply]"), "{}", note(&check));
 }
 
 /// The limit is a share like those of other rules.
@@ -436,7 +433,7 @@ fn the_supply_of_an_amplifier_is_said() {
         let context = Context::new(&stand.cycle, &stand.file.site, drive, &prepared);
         let checks = context.checks(&RuleSet::default());
         let check = checks.iter().find(|c| c.id == Rule::MotorVoltage).unwrap();
-        check.note.clone()
+        note(check)
     };
     let mains = note(&amplifier(400.0));
     assert!(

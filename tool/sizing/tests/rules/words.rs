@@ -3,6 +3,7 @@
 use jred_file::model::rules::RuleVerdict;
 use jred_file::model::supply::BrakeResistor;
 use jred_file::units::RPM;
+use jred_report::list::rule_words::note;
 use jred_sizing::catalogue::{Amplifier, Motor};
 use jred_sizing::motor::envelope::MotorLimits;
 
@@ -131,7 +132,7 @@ fn every_rule_has_its_unit_and_names_its_limit() {
             finding.value / scale,
             1e-12,
         );
-        assert!(check.note.contains(&rating), "{rule}: {}", check.note);
+        assert!(note(check).contains(&rating), "{rule}: {}", note(check));
         assert_ne!(check.verdict, RuleVerdict::NotChecked, "{rule}");
     }
     // All except the torque without acceleration, which is off without a limit, and those of a hot or a high site.
@@ -235,7 +236,7 @@ fn a_missing_figure_is_named() {
         let (_, _, check) = found.iter().find(|(found, ..)| *found == rule).unwrap();
         assert_eq!(check.verdict, RuleVerdict::NotChecked, "{check:?}");
         let words = format!("no data: {missing}");
-        assert!(check.note.starts_with(&words), "{rule:?}: {}", check.note);
+        assert!(note(check).starts_with(&words), "{rule:?}: {}", note(check));
         assert_eq!(check.limit, None);
     }
 }
@@ -250,7 +251,7 @@ fn a_thermal_figure_that_is_none_is_not_used() {
             .iter()
             .find(|(rule, ..)| *rule == Rule::WindingTemperature);
         let (_, finding, check) = winding.unwrap().clone();
-        (finding.value.to_bits(), check.unit, check.note)
+        (finding.value.to_bits(), check.unit, note(&check))
     };
     let fields: [Field; 4] = [
         |motor| &mut motor.thermal.winding_resistance,
@@ -285,9 +286,9 @@ fn the_peak_current_is_of_the_weaker_part() {
             .unwrap();
         assert_eq!(finding.rating, limit);
         assert!(
-            check.note.contains(&format!("peak current of the {whose}")),
+            note(check).contains(&format!("peak current of the {whose}")),
             "{}",
-            check.note
+            note(check)
         );
     }
 }
@@ -308,6 +309,6 @@ fn places_are_said() {
     ";
     for [rule, place] in rows(cases) {
         let (_, _, check) = found_of(&found, &rule);
-        assert!(check.note.contains(&place), "{rule}: {}", check.note);
+        assert!(note(check).contains(&place), "{rule}: {}", note(check));
     }
 }

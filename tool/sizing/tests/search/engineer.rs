@@ -10,6 +10,7 @@ use jred_file::model::machine::MachineFile;
 use jred_file::model::rule::Rule;
 use jred_file::model::rules::RuleVerdict;
 use jred_file::model::supply::BrakeResistor;
+use jred_report::list::rule_words::note;
 use jred_sizing::catalogue::{Catalogue, Drive, Sources};
 use jred_sizing::cycle::Cycle;
 use jred_sizing::judge::{Assessment, Context};
@@ -296,9 +297,9 @@ fn what_the_catalogue_lacks_is_named() {
         "none of the 3 brake resistors of the catalogue fits: 2 with too small a resistance, 3 with no data for the peak power",
     ] {
         assert!(
-            check.note.contains(words),
+            note(check).contains(words),
             "{words:?} is not in\n{}",
-            check.note
+            note(check)
         );
     }
     catalogue.resistors.clear();
@@ -310,11 +311,9 @@ fn what_the_catalogue_lacks_is_named() {
         .find(|c| c.id == Rule::BusVoltage)
         .unwrap();
     assert!(
-        check
-            .note
-            .ends_with("neither [supply] nor the catalogue has one"),
+        note(check).ends_with("neither [supply] nor the catalogue has one"),
         "{}",
-        check.note
+        note(check)
     );
 }
 

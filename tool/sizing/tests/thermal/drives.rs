@@ -9,6 +9,7 @@ use jred_file::model::rule::Rule;
 use jred_file::model::rules::RuleSet;
 use jred_file::model::rules::RuleVerdict;
 use jred_file::model::site::Site;
+use jred_report::list::rule_words::note;
 use jred_sizing::catalogue::Drive;
 use jred_sizing::catalogue::{Amplifier, Gearbox, Motor, Thermal, Winding};
 use jred_sizing::cycle::Cycle;
@@ -118,15 +119,15 @@ fn every_model_that_data_allow() {
     );
     near("limit", two.limit.unwrap(), 115.0, budget::THERMAL);
     assert!(
-        two.note.contains("duty type S5") && two.note.contains("40 °C"),
+        note(&two).contains("duty type S5") && note(&two).contains("40 °C"),
         "{}",
-        two.note
+        note(&two)
     );
     // Thin air is reported where it has an effect, above 1000 m.
     for (altitude, thin) in [(1000.0, false), (1001.0, true)] {
         let mut high = site.clone();
         high.surroundings.altitude = altitude;
-        let note = winding(&full, &high).note;
+        let note = note(&winding(&full, &high));
         assert_eq!(note.contains("less 1 % per 100 m"), thin, "{note}");
     }
 
@@ -136,9 +137,9 @@ fn every_model_that_data_allow() {
     let found = winding(&steady, &site);
     near("mean losses", found.value.unwrap(), mean, budget::SIMPSON);
     assert!(
-        found.note.contains("temperature ripple ignored"),
+        note(&found).contains("temperature ripple ignored"),
         "{}",
-        found.note
+        note(&found)
     );
 
     let mut slow = full.clone();
@@ -168,14 +169,14 @@ fn every_model_that_data_allow() {
     let found = winding(&bare, &site);
     assert_eq!((found.unit, found.limit), ("%", Some(100.0)));
     assert!(
-        found.note.starts_with("100 % of the rise at the S1 torque"),
+        note(&found).starts_with("100 % of the rise at the S1 torque"),
         "{}",
-        found.note
+        note(&found)
     );
     assert!(
-        found.note.contains("estimated from the RMS torque"),
+        note(&found).contains("estimated from the RMS torque"),
         "{}",
-        found.note
+        note(&found)
     );
     // Every loss is at least that of the torque, and less than with friction at the largest speed.
     let least = (rms * 2.0 / 50.0).powi(2);
@@ -230,7 +231,11 @@ fn the_housing_keeps_its_limit_where_it_is_known() {
         }
         let found = housing(&one, &at_most(Some(70.0))).unwrap();
         assert_eq!(found.verdict, RuleVerdict::NotChecked);
-        assert!(found.note.contains("thermal resistances"), "{}", found.note);
+        assert!(
+            note(&found).contains("thermal resistances"),
+            "{}",
+            note(&found)
+        );
     }
 }
 
@@ -260,9 +265,9 @@ fn what_is_missing_is_said() {
     let found = winding(&open, &site);
     assert_eq!(found.verdict, RuleVerdict::NotChecked);
     assert!(
-        found.note.contains("maximum temperature of the winding"),
+        note(&found).contains("maximum temperature of the winding"),
         "{}",
-        found.note
+        note(&found)
     );
     let cold = Site {
         duty: jred_file::model::operation::Duty {
@@ -277,9 +282,9 @@ fn what_is_missing_is_said() {
     let found = winding(&steady, &cold);
     assert_eq!(found.verdict, RuleVerdict::NotChecked);
     assert!(
-        found.note.contains("thermal time constants"),
+        note(&found).contains("thermal time constants"),
         "{}",
-        found.note
+        note(&found)
     );
     let short = winding(&motor(), &cold).value.unwrap();
     assert!(short < winding(&motor(), &site).value.unwrap());
@@ -291,7 +296,7 @@ fn what_is_missing_is_said() {
     ] {
         let found = check(&all, rule);
         assert_eq!(found.verdict, RuleVerdict::NotChecked, "{rule:?}");
-        assert!(found.note.contains(word), "{}", found.note);
+        assert!(note(found).contains(word), "{}", note(found));
     }
 }
 
@@ -302,7 +307,7 @@ fn runaway_fails() {
     hot.thermal.housing_resistance = Some(50.0);
     let found = winding(&hot, &Site::default());
     assert_eq!((found.verdict, found.value), (RuleVerdict::Fail, None));
-    assert!(found.note.contains("thermal runaway"), "{}", found.note);
+    assert!(note(&found).contains("thermal runaway"), "{}", note(&found));
 }
 
 #[test]
@@ -384,7 +389,7 @@ fn a_stated_duty_type_is_compared() {
     let stated = |kind| {
         let mut site = Site::default();
         site.duty.kind = kind;
-        winding(&motor(), &site).note
+        note(&winding(&motor(), &site))
     };
     assert!(!stated(None).contains("(given"));
     assert!(!stated(Some(5)).contains("(given"), "{}", stated(Some(5)));

@@ -1,11 +1,13 @@
-//! Sentences about a bus: conflicts, missing data, cures.
+//! Sentences about a bus: conflicts, missing data, cures, brake resistors.
 
 use std::fmt::Write as _;
 
 use jred_file::number::rounding::short;
+use jred_file::number::words::counted;
 use jred_sizing::bus::analysis::BusAnalysis;
 use jred_sizing::bus::conflict::Conflict;
 use jred_sizing::bus::cure::{Bound, Change, Cure, CureKind};
+use jred_sizing::bus::need::{Misses, Need};
 use jred_sizing::bus::period::{Common, LOOKED_AT, MOST_CYCLES};
 use jred_sizing::bus::verdict::{Missing, Open};
 
@@ -164,4 +166,44 @@ fn rounded(value: f64, towards: fn(f64) -> f64) -> f64 {
         let unit = 10f64.powi(-exponent);
         towards(value * unit) / unit
     }
+}
+
+/// The brake resistor that is needed.
+pub fn needed(need: &Need) -> String {
+    format!("requires a brake resistor of {}", resistor(need))
+}
+
+/// The figures of the brake resistor that is needed.
+pub fn resistor(need: &Need) -> String {
+    let largest = short(need.largest_resistance);
+    let range = match need.smallest_resistance.map(short) {
+        Some(least) if need.is_possible() => format!("{least} to {largest} Ω"),
+        Some(least) => {
+            format!("at most {largest} Ω (but the chopper requires at least {least} Ω)")
+        }
+        None => format!("at most {largest} Ω"),
+    };
+    let [mean, peak, pulse] = [need.mean, need.peak, need.pulse].map(short);
+    format!("{range} for {mean} W mean, {peak} W peak and {pulse} J a pulse")
+}
+
+/// Why no resistor of the catalogue fits.
+pub fn misses(misses: &Misses) -> String {
+    let reasons = [
+        (misses.small_resistance, "too small a resistance"),
+        (misses.large_resistance, "too large a resistance"),
+        (misses.power, "too little continuous power"),
+        (misses.no_peak_power, "no data for the peak power"),
+        (misses.peak_power, "too little peak power"),
+        (misses.pulse_energy, "too little pulse energy"),
+    ];
+    let counts = reasons.into_iter().filter(|(count, _)| *count > 0);
+    let counts: Vec<String> = counts
+        .map(|(count, words)| format!("{count} with {words}"))
+        .collect();
+    let all = counted(misses.resistors, "brake resistor", "brake resistors");
+    format!(
+        "none of the {all} of the catalogue fits: {}",
+        counts.join(", ")
+    )
 }

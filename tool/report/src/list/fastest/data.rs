@@ -9,11 +9,11 @@ use super::moves::{eased, greatest};
 use super::{FastestView, of_fastest};
 use crate::answer::schema::Data;
 use crate::list::kept::{self, KeptPart};
+use crate::list::rule_words::CheckData;
 use jred_motion::fastest::Reserve;
 use jred_motion::fastest::cycle::FastestMove;
 use jred_motion::fastest::joint_force::JointForcePeak;
 use jred_motion::fastest::ruled::{Cap, Judgement};
-use jred_sizing::judge::check::Check;
 
 use super::WindingHeat;
 
@@ -44,7 +44,7 @@ pub(crate) struct FastestData<'a> {
     winding: Option<WindingData>,
     /// Rules of sizing that judge the motion (`--reserve rules`).
     #[serde(skip_serializing_if = "Option::is_none")]
-    rules: Option<RulesData<'a>>,
+    rules: Option<RulesData>,
     /// Largest forces in the joints whose force is limited.
     joint_forces: Vec<ForceData<'a>>,
     /// A one-sided contact that the motion loses.
@@ -119,11 +119,11 @@ struct WindingData {
 }
 
 #[derive(Serialize, JsonSchema)]
-struct RulesData<'a> {
+struct RulesData {
     /// Rules that limit the search and are satisfied.
-    kept: Vec<&'a Check>,
+    kept: Vec<CheckData>,
     /// Rules that the motion violates.
-    not_kept: Vec<&'a Check>,
+    not_kept: Vec<CheckData>,
     /// Limits that were lowered for the rules.
     lowered: LoweredLimits,
 }
@@ -323,7 +323,7 @@ fn winding(warmth: &WindingHeat) -> WindingData {
     }
 }
 
-fn rules(judged: &Judgement) -> RulesData<'_> {
+fn rules(judged: &Judgement) -> RulesData {
     let mut lowered = LoweredLimits::default();
     for (cap, value) in &judged.caps {
         let place = match cap {
@@ -335,8 +335,8 @@ fn rules(judged: &Judgement) -> RulesData<'_> {
         *place = Some(*value);
     }
     RulesData {
-        kept: judged.kept().collect(),
-        not_kept: judged.violated().collect(),
+        kept: judged.kept().map(CheckData::from).collect(),
+        not_kept: judged.violated().map(CheckData::from).collect(),
         lowered,
     }
 }

@@ -7,6 +7,7 @@ use jred_sizing::judge::check::Check;
 
 use super::FastestView;
 use crate::answer::Answer;
+use crate::list::rule_words::sentence;
 
 impl FastestView<'_> {
     /// The rules that the motion satisfies, and those that it violates.
@@ -29,7 +30,7 @@ impl FastestView<'_> {
         for check in judged.violated() {
             let says = format!(
                 "{}: `jred size` refuses the motion{}",
-                check.sentence(),
+                sentence(check),
                 cure(judged, check)
             );
             answer.fact("not kept", says);

@@ -7,9 +7,9 @@ use super::{GentlestView, rows, violated, why};
 use crate::answer::schema::Data;
 use crate::list::contact::of_gentlest;
 use crate::list::kept::{self, KeptPart};
+use crate::list::rule_words::CheckData;
 use jred_motion::gentlest::Optimum;
 use jred_motion::gentlest::cycle::{Figures, Goal};
-use jred_sizing::judge::check::Check;
 
 /// The JSON of `jred gentlest` (SI units).
 #[derive(Serialize, JsonSchema)]
@@ -31,7 +31,7 @@ pub(crate) struct GentlestData<'a> {
     /// A one-sided contact that the motion loses.
     contact_lost: Option<String>,
     /// Rules of sizing that the motion violates with this drive.
-    rules_not_kept: Vec<&'a Check>,
+    rules_not_kept: Vec<CheckData>,
     /// Unit of positions: rad or m.
     unit: &'static str,
     /// The moves.
@@ -159,7 +159,7 @@ pub(super) fn data<'a>(shown: &'a GentlestView) -> GentlestData<'a> {
         global,
         local_because,
         contact_lost: shown.broken.map(of_gentlest),
-        rules_not_kept: violated(shown).collect(),
+        rules_not_kept: violated(shown).map(CheckData::from).collect(),
         unit: axis.coordinate.per(),
         moves: moves.collect(),
         kept: kept::parts(file, &gentlest.chain),

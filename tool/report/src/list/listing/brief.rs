@@ -4,6 +4,7 @@ use super::full::{doubt, kilowatts};
 use super::{Listing, table};
 use crate::answer::Answer;
 use crate::list::marks;
+use crate::list::rule_words::note;
 use crate::table::reading::ColumnKind::{Quantity, Share, Verdict, Words};
 use jred_file::model::machine::MachineFile;
 use jred_file::model::rule::Rule;
@@ -255,7 +256,7 @@ impl Listing<'_> {
             let figures = check.map_or_else(String::new, |check| {
                 // A part is missing; the note names it.
                 let note = if check.id.is_yes_or_no() {
-                    format!(" ({})", check.note)
+                    format!(" ({})", note(check))
                 } else {
                     String::new()
                 };

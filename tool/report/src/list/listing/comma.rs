@@ -2,6 +2,7 @@
 
 use super::Listing;
 use crate::answer::Answer;
+use crate::list::rule_words::note;
 use jred_file::number::csv;
 use jred_sizing::judge::Assessment;
 use jred_sizing::select::size::{Candidate, Certainty};
@@ -67,7 +68,7 @@ fn rows(rank: &str, certainty: &str, judged: &Assessment) -> String {
             csv::known(check.value),
             csv::known(check.limit),
             check.unit.to_owned(),
-            check.note.clone(),
+            note(check),
             certainty.to_owned(),
             csv::known(drive.mass()),
             csv::known(judged.price()),

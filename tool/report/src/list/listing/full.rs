@@ -3,6 +3,7 @@
 use super::{Listing, table};
 use crate::answer::Answer;
 use crate::list::marks;
+use crate::list::rule_words::{missing, note, reasons, warnings};
 use crate::table::reading::ColumnKind::{self, Quantity, Share, Verdict, Words};
 use crate::table::reading::Reading;
 use jred_analysis::duty::Instant;
@@ -50,18 +51,18 @@ pub(crate) fn rules(answer: &mut Answer, judged: &Assessment) {
             check.used(),
             margin(check),
             check.verdict.word().to_owned(),
-            check.note.clone(),
+            note(check),
         ]
     };
     answer.table(table(header, checked.into_iter().map(row), 1));
-    let missing = open
+    let open = open
         .iter()
-        .map(|check| format!("{} ({})", check.rule, check.note));
-    let missing: Vec<String> = missing.collect();
-    if !missing.is_empty() {
-        answer.sentence(format!("not checked: {}", missing.join("; ")));
+        .map(|check| format!("{} ({})", check.rule, note(check)));
+    let open: Vec<String> = open.collect();
+    if !open.is_empty() {
+        answer.sentence(format!("not checked: {}", open.join("; ")));
     }
-    for warning in judged.warnings() {
+    for warning in warnings(judged) {
         answer.warning(warning);
     }
 }
@@ -178,7 +179,7 @@ impl Listing<'_> {
             let drives = counted(gap.count, "drive", "drives");
             let says = format!(
                 "{drives} (no data: {}); needs {}",
-                gap.missing,
+                missing(&gap.example),
                 cure(gap.rule)
             );
             answer.fact(gap.rule.named(words), says);
@@ -286,7 +287,7 @@ impl Listing<'_> {
     /// The refused drives with the rules that they violate.
     pub(crate) fn refused(&self, answer: &mut Answer) {
         for refused in self.list.refused(self.selection) {
-            let reasons = self.selection.judged(&refused).reasons();
+            let reasons = reasons(&self.selection.judged(&refused));
             answer.sentence(format!("{}: {reasons}", refused.drive.name()));
         }
     }
@@ -311,7 +312,7 @@ fn next_smaller(selection: &Selection) -> Option<String> {
         "next smaller motor, {}: {} is refused: {}",
         kilowatts(next.rated_power()?),
         next.drive.name(),
-        next.reasons()
+        reasons(next)
     ))
 }
 

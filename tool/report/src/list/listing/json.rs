@@ -9,6 +9,7 @@ use serde_json::json;
 use super::{Explanation, Listing};
 use crate::answer::Answer;
 use crate::answer::schema::Data;
+use crate::list::rule_words::{self, CheckData, missing};
 use crate::list::suited::MotionData;
 use jred_file::model::coordinate::Coordinate;
 use jred_file::model::rule::Rule;
@@ -16,7 +17,6 @@ use jred_file::model::rules::RuleVerdict;
 use jred_file::number::figures::Figures;
 use jred_sizing::catalogue::MotorKind;
 use jred_sizing::cycle::form::MotorDuty;
-use jred_sizing::judge::check::Check;
 use jred_sizing::judge::{Assessment, cure};
 use jred_sizing::select::size::{Candidate, Certainty, Selection};
 
@@ -234,7 +234,7 @@ pub(crate) struct DriveData<'a> {
     /// Duty of the motor.
     duty: MotorDuty,
     /// The rules.
-    checks: Vec<Check>,
+    checks: Vec<CheckData>,
     /// Assumptions where data are missing.
     assumptions: Vec<String>,
 }
@@ -344,7 +344,7 @@ fn gaps(selection: &Selection, kind: MotorKind) -> Vec<GapData> {
         rule: gap.rule.named(kind.vocabulary()),
         id: gap.rule,
         drives: gap.count,
-        missing: gap.missing,
+        missing: missing(&gap.example),
         cure: cure(gap.rule),
     });
     gaps.collect()
@@ -395,7 +395,7 @@ fn drive<'c>(selection: &Selection<'c>, candidate: &Candidate<'c>) -> DriveData<
         },
         verdict,
         duty,
-        checks,
-        assumptions,
+        checks: checks.iter().map(CheckData::from).collect(),
+        assumptions: rule_words::assumptions(&drive, &assumptions),
     }
 }

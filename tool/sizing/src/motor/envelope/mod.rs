@@ -75,6 +75,11 @@ impl Envelope {
         self.capped(self.continuous.standstill / factor, 0.0)
     }
 
+    /// Assumptions for missing data, for any kind of motor.
+    pub fn assumed(&self) -> &[Sentence] {
+        &self.assumptions
+    }
+
     /// Assumptions for missing data.
     pub fn assumptions(&self) -> Vec<String> {
         let sentences = self.assumptions.iter();

@@ -292,13 +292,7 @@ fn the_smallest_resistor_that_is_enough_is_proposed() {
             .iter()
             .all(|cure| !words::cure(cure).contains("brake_resistor.resistance"))
     );
-    assert!(
-        found
-            .need
-            .unwrap()
-            .figures()
-            .contains("but the chopper requires at least")
-    );
+    assert!(words::resistor(&found.need.unwrap()).contains("but the chopper requires at least"));
 }
 
 /// Two equal axes half a period apart cancel on the bus, in step they add up: judged are the worst phases, or those in step.
@@ -343,10 +337,10 @@ fn the_worst_phases_are_judged() {
         ..supply
     };
     let need = answer(&apart, &bare, false).need.unwrap();
-    let words = need.words();
+    let words = words::needed(&need);
     assert!(
         words.starts_with("requires a brake resistor of at most 350 Ω for ")
-            && words.ends_with(&need.figures()),
+            && words.ends_with(&words::resistor(&need)),
         "{words}"
     );
 }
