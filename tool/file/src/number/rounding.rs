@@ -19,6 +19,40 @@ pub fn significant(x: f64, digits: i32) -> String {
     format!("{x:.places$e}")
 }
 
+/// Four digits, rounded up: a lower limit on the safe side.
+pub fn up(x: f64) -> f64 {
+    to_side(x, f64::ceil)
+}
+
+/// Four digits, rounded down: an upper limit on the safe side.
+pub fn down(x: f64) -> f64 {
+    to_side(x, f64::floor)
+}
+
+fn to_side(value: f64, side: fn(f64) -> f64) -> f64 {
+    if value == 0.0 || !value.is_finite() {
+        return value;
+    }
+    // A number that has four digits up to rounding errors stays.
+    let towards = |x: f64| {
+        let whole = x.round();
+        if (x - whole).abs() <= 1e-9 * x.abs() {
+            whole
+        } else {
+            side(x)
+        }
+    };
+    let exponent = value.abs().log10().floor() as i32 - 3;
+    // Whole powers of ten are exact, their inverses are not.
+    if exponent > 0 {
+        let unit = 10f64.powi(exponent);
+        towards(value / unit) * unit
+    } else {
+        let unit = 10f64.powi(-exponent);
+        towards(value * unit) / unit
+    }
+}
+
 /// Two numbers with four significant digits, or with as many more, up to twelve, as distinguish them.
 pub fn told_apart(pair: [f64; 2]) -> [String; 2] {
     let texts = |digits: i32| pair.map(|x| plain(x, digits));

@@ -6,4 +6,5 @@ pub mod named;
 pub mod pareto;
 pub mod rank;
 pub mod ratio;
+pub mod requirement;
 pub mod size;

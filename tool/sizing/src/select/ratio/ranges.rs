@@ -120,7 +120,7 @@ impl Trial<'_> {
 
 impl Gear {
     /// A gearbox with these data and no limits.
-    fn with_ratio(self, ratio: f64) -> Gearbox {
+    pub(crate) fn with_ratio(self, ratio: f64) -> Gearbox {
         Gearbox {
             ratio,
             inertia: self.inertia,

@@ -1,0 +1,100 @@
+//! `jred require`.
+
+use std::path::Path;
+
+use miette::{Result, miette};
+
+use crate::commands::core_error::duty_report;
+use crate::commands::{Completion, print_answer, read_warned};
+use crate::options::require::Require;
+use crate::output;
+use jred_analysis::duty::Duty;
+use jred_file::plain;
+use jred_file::read;
+use jred_file::units::RPM;
+use jred_report::list::require::RequirementView;
+use jred_report::page;
+use jred_sizing::catalogue::MotorKind;
+use jred_sizing::cycle::Cycle;
+use jred_sizing::select::fit::input_kind;
+use jred_sizing::select::ratio::Gear;
+use jred_sizing::select::requirement::{Inquiry, Requirement};
+use jred_sizing::study::common::sizeable;
+
+/// Largest speed of a motor for the usual ratios if none is given (rad/s).
+const MAX_SPEED: f64 = 6000.0 * RPM;
+
+/// Runs `jred require`.
+///
+/// # Errors
+/// Bad input, or a file that cannot be written.
+pub(super) fn run(options: &Require) -> Result<Completion> {
+    let mut file = read_warned(&options.file)?;
+    if let Some(set) = &options.rules {
+        file.rules = read::rules_based_on(&file.rules, read::rule_set(set, Path::new(""))?)?;
+    }
+    sizeable(&file)?;
+    output::check([("--report", &options.report)])?;
+    let motion = file.required_motion()?;
+    let duty =
+        Duty::new(&file, motion, options.course.with(&options.accuracy)).map_err(duty_report)?;
+    let inquiry = Inquiry {
+        file: &file,
+        cycle: &Cycle::new(&duty),
+        gear: Gear {
+            inertia: options.gearbox_inertia.unwrap_or(0.0),
+            efficiency: options.efficiency,
+        },
+        allowance: options.allowance,
+    };
+    let ratios = ratios(options, &inquiry)?;
+    let requirements: Vec<Requirement> = ratios
+        .into_iter()
+        .map(|ratio| inquiry.requirement(ratio))
+        .collect();
+    let shown = RequirementView {
+        inquiry: &inquiry,
+        requirements: &requirements,
+    };
+    let mut answer = shown.answer();
+    if let Some(path) = &options.report {
+        output::write(path, page::require_page(&shown).as_bytes())?;
+        answer.sentence(format!(
+            "request for quotation written to {}",
+            plain::path(path)
+        ));
+    }
+    print_answer(&answer, options.format)?;
+    Ok(if requirements.iter().any(Requirement::is_possible) {
+        Completion::Holds
+    } else {
+        Completion::Violated
+    })
+}
+
+/// The ratios that are asked for.
+fn ratios(options: &Require, inquiry: &Inquiry) -> Result<Vec<Option<f64>>> {
+    if let Some(list) = &options.ratios {
+        let gears = list.0.iter().any(Option::is_some);
+        if gears && input_kind(inquiry.file) == MotorKind::Linear {
+            return Err(miette!(
+                help = "leave out --ratios, or add a [[drive_train]] with a rotating input",
+                "the drive link slides: a linear motor has no gear ratio"
+            ));
+        }
+        return Ok(list.0.clone());
+    }
+    let most = options.max_speed.unwrap_or(MAX_SPEED);
+    let mut ratios = inquiry.usual_ratios(most, options.within);
+    if ratios.is_empty() {
+        let [from, to] = options.within.unwrap_or([1.0, 100.0]);
+        return Err(miette!(
+            help = "raise --max-speed, widen --within, or name the ratios with --ratios",
+            "no usual ratio from {from} to {to} keeps the motor below {:.0} rpm: the input turns at up to {:.1} rpm",
+            most / RPM,
+            inquiry.cycle.peak_speed() / RPM
+        ));
+    }
+    ratios.dedup();
+    Ok(ratios)
+}

@@ -1,0 +1,441 @@
+//! Requirements of a drive, for any maker.
+
+use schemars::JsonSchema;
+use serde::Serialize;
+
+use crate::answer::Answer;
+use crate::answer::schema::Data;
+use crate::table::reading::{ColumnKind, Reading};
+use crate::table::rows::csv_line;
+use jred_file::model::rule::Rule;
+use jred_file::number::rounding::{down, percent, short, significant, up};
+use jred_file::units::{RPM, Vocabulary};
+use jred_sizing::bus::Need;
+use jred_sizing::cell::Cell;
+use jred_sizing::select::fit::input_kind;
+use jred_sizing::select::requirement::{GearboxRequirement, Inquiry, Requirement, TorqueNeed};
+
+/// One minute of arc (rad).
+const ARCMIN: f64 = std::f64::consts::PI / (180.0 * 60.0);
+
+/// Rotors of the boundary of a ratio, in equal ratios.
+const ROTORS: u32 = 9;
+
+/// The requirements of a machine.
+#[derive(Clone, Copy, Debug)]
+pub struct RequirementView<'a> {
+    /// The machine and the choices.
+    pub inquiry: &'a Inquiry<'a>,
+    /// The requirement at each ratio.
+    pub requirements: &'a [Requirement],
+}
+
+/// The JSON of `jred require`.
+#[derive(Serialize, JsonSchema)]
+pub(crate) struct RequireData<'a> {
+    /// Whether the motor is linear: forces (N), masses (kg) and m/s then stand for torques, inertias and rad/s.
+    linear: bool,
+    /// Efficiency of the gearbox.
+    efficiency: f64,
+    /// Inertia of the gearbox at its input.
+    #[serde(rename = "gearbox inertia [kg m^2]")]
+    gearbox_inertia: f64,
+    /// S1 torque above the least possible, as a share of it.
+    allowance: f64,
+    /// Index of the ratio that is described in full.
+    described: usize,
+    /// Each ratio.
+    ratios: Vec<RatioData<'a>>,
+}
+
+#[derive(Serialize, JsonSchema)]
+struct RatioData<'a> {
+    #[serde(flatten)]
+    requirement: &'a Requirement,
+    /// The least torques of a motor with each of these rotors.
+    boundary: Vec<TorqueNeed>,
+}
+
+impl Data for RequireData<'_> {
+    const FORM: &'static str = "jred-require/1";
+}
+
+impl RequirementView<'_> {
+    pub(crate) fn words(&self) -> &'static Vocabulary {
+        input_kind(self.inquiry.file).vocabulary()
+    }
+
+    /// The ratio with the smallest motor: the least S1 torque among those that are possible.
+    pub(crate) fn described(&self) -> Option<&Requirement> {
+        let possible = self.requirements.iter().filter(|r| r.is_possible());
+        let best = possible.min_by(|a, b| a.s1_torque.total_cmp(&b.s1_torque));
+        best.or(self.requirements.first())
+    }
+
+    /// That ratio with its neighbours.
+    pub(crate) fn near_described(&self) -> &[Requirement] {
+        let is_described =
+            |found: &Requirement| self.described().is_some_and(|d| std::ptr::eq(d, found));
+        let at = self.requirements.iter().position(is_described).unwrap_or(0);
+        let last = self.requirements.len().min(at + 2);
+        self.requirements
+            .get(at.saturating_sub(1)..last)
+            .unwrap_or_default()
+    }
+
+    /// The least torques over the rotor: from half the window's start to twice its end.
+    pub(crate) fn boundary(&self, found: &Requirement) -> Vec<TorqueNeed> {
+        let [from, to] = found.rotor;
+        let (low, high) = match (from > 0.0, to.is_finite()) {
+            (true, true) => (from, 2.0 * to),
+            (true, false) => (from, 10.0 * from),
+            (false, true) => (0.05 * to, 2.0 * to),
+            (false, false) => return Vec::new(),
+        };
+        let step = |k: u32| low * (high / low).powf(f64::from(k) / f64::from(ROTORS - 1));
+        let mut rotors: Vec<f64> = (0..ROTORS).map(step).collect();
+        rotors.extend(
+            [from, to]
+                .into_iter()
+                .filter(|end| *end > 0.0 && end.is_finite()),
+        );
+        rotors.sort_by(f64::total_cmp);
+        rotors.dedup();
+        let needs = rotors
+            .into_iter()
+            .map(|rotor| self.inquiry.needs(found.ratio, rotor));
+        needs.collect()
+    }
+
+    /// The requirement of every ratio, and one of them in full.
+    pub fn answer(&self) -> Answer<'static> {
+        let Inquiry {
+            file,
+            gear,
+            allowance,
+            ..
+        } = *self.inquiry;
+        let described = self.described();
+        let data = RequireData {
+            linear: self.words().slides(),
+            efficiency: gear.efficiency,
+            gearbox_inertia: gear.inertia,
+            allowance,
+            described: described
+                .and_then(|found| {
+                    self.requirements
+                        .iter()
+                        .position(|r| std::ptr::eq(r, found))
+                })
+                .unwrap_or(0),
+            ratios: (self.requirements.iter())
+                .map(|requirement| RatioData {
+                    requirement,
+                    boundary: self.boundary(requirement),
+                })
+                .collect(),
+        };
+        let title = format!("{}: requirements of the drive, for any maker", file.title);
+        let mut answer = Answer::new(file.title.clone(), &data).titled(title);
+        self.ratios(&mut answer);
+        if let Some(found) = described {
+            answer.heading(format!("{}, in full", name(found.ratio)));
+            self.motor(&mut answer, found);
+            self.gearbox(&mut answer, found);
+            self.electric(&mut answer, found);
+        }
+        self.notes(&mut answer);
+        answer.csv(self.csv());
+        answer
+    }
+
+    /// A row for each ratio.
+    pub(crate) fn ratios(&self, answer: &mut Answer) {
+        let words = self.words();
+        let (torque, speed, inertia) = (&words.torque, &words.speed, &words.inertia);
+        let columns = [
+            "ratio".to_owned(),
+            format!("max [{}]", speed.unit),
+            format!("mean [{}]", speed.unit),
+            format!("{} [{}]", words.rotor, inertia.unit),
+            format!("S1 [{}]", torque.unit),
+            format!("peak [{}]", torque.unit),
+            "S1 power [kW]".to_owned(),
+        ];
+        let rows = self.requirements.iter().map(|found| -> Vec<Cell> {
+            let power = found.power() / 1000.0;
+            vec![
+                found
+                    .ratio
+                    .map_or_else(|| "direct".to_owned(), short)
+                    .into(),
+                significant(found.max_speed / speed.scale, 4).into(),
+                significant(found.mean_speed / speed.scale, 4).into(),
+                window(found.rotor.map(|end| end / inertia.scale)).into(),
+                short(up(found.s1_torque)).into(),
+                short(up(found.peak_torque)).into(),
+                significant(power, 3).into(),
+            ]
+        });
+        answer.table(Reading {
+            columns: columns.to_vec(),
+            rows: rows.collect(),
+            kinds: [
+                [ColumnKind::Quantity; 3],
+                [
+                    ColumnKind::Words,
+                    ColumnKind::Quantity,
+                    ColumnKind::Quantity,
+                ],
+            ]
+            .concat()
+            .into_iter()
+            .chain([ColumnKind::Quantity])
+            .collect(),
+            whole: 7,
+            ..Reading::default()
+        });
+    }
+
+    pub(crate) fn motor(&self, answer: &mut Answer, found: &Requirement) {
+        let words = self.words();
+        let (torque, inertia) = (&words.torque, &words.inertia);
+        let effort = |x: f64| format!("{} {}", short(up(x)), torque.unit);
+        let turns = |x: f64| words.speed(x);
+        answer.fact(
+            "motor",
+            format!(
+                "S1 {torque} {} at {}, and {} at standstill",
+                effort(found.s1_torque),
+                turns(found.mean_speed),
+                effort(found.standstill_torque)
+            ),
+        );
+        let points = found.envelope.iter();
+        let points: Vec<String> = points
+            .map(|[speed, most]| format!("{} at {}", short(up(*most)), turns(*speed)))
+            .collect();
+        answer.fact(
+            format!("peak {torque}"),
+            format!("{} up to the maximum speed", effort(found.peak_torque)),
+        );
+        answer.fact(
+            "or over speed",
+            format!("{} ({})", points.join(", "), torque.unit),
+        );
+        answer.fact("maximum speed", turns(found.max_speed));
+        answer.fact(
+            words.rotor,
+            format!(
+                "{} {} with brake",
+                window(found.rotor.map(|end| end / inertia.scale)),
+                inertia.unit
+            ),
+        );
+        answer.fact(
+            "holding brake",
+            match found.brake_torque {
+                Some(least) => format!(
+                    "at least {}: the machine moves without current",
+                    effort(least)
+                ),
+                None => "not needed: the machine stays where it is without current".to_owned(),
+            },
+        );
+    }
+
+    pub(crate) fn gearbox(&self, answer: &mut Answer, found: &Requirement) {
+        let Some(gearbox) = &found.gearbox else {
+            return;
+        };
+        let GearboxRequirement {
+            peak_torque,
+            rated_torque,
+            emergency_torque,
+            rated_speed,
+            max_speed,
+            cycles,
+            stiffness,
+            backlash,
+        } = *gearbox;
+        let efficiency = percent(self.inquiry.gear.efficiency);
+        answer.fact(
+            "gearbox",
+            format!(
+                "T2B {} N m at {} cycles per hour, T2N {} N m, n1N {} rpm, at most {} rpm; computed with {efficiency} efficiency and {} kg cm^2",
+                short(up(peak_torque)),
+                short(cycles),
+                short(up(rated_torque)),
+                short(up(rated_speed / RPM)),
+                short(up(max_speed / RPM)),
+                short(self.inquiry.gear.inertia * 1e4)
+            ),
+        );
+        if let Some(torque) = emergency_torque {
+            answer.fact(
+                "emergency torque",
+                format!(
+                    "{} N m, if the motor brakes with {} N m; more with a stronger motor",
+                    short(up(torque)),
+                    short(up(found.peak_torque))
+                ),
+            );
+        }
+        match stiffness {
+            Some(stiffness) if stiffness.is_finite() => answer.fact(
+                "stiffness",
+                format!("at least {} N m/arcmin", short(up(stiffness * ARCMIN))),
+            ),
+            Some(_) => answer.warning(
+                "the shafts of the drive train alone are too soft for the natural frequency: no gearbox helps; change [stiffness]",
+            ),
+            None => {}
+        }
+        match backlash {
+            Some(play) if play < 0.0 => answer.warning(
+                "the drive train alone has more backlash than the tool may have: no gearbox helps; change [stiffness] or the tool's play",
+            ),
+            Some(play) => answer.fact("backlash", format!("at most {} arcmin", short(down(play / ARCMIN)))),
+            None => {}
+        }
+    }
+
+    pub(crate) fn electric(&self, answer: &mut Answer, found: &Requirement) {
+        let words = self.words();
+        let unit = words.torque.unit;
+        let [continuous, peak] = found.currents.map(|x| short(up(x)));
+        answer.fact(
+            "amplifier",
+            format!("continuous current {continuous} {unit}/k_T, peak current {peak} {unit}/k_T, with k_T the {} constant in {unit}/A", words.torque),
+        );
+        let back = &found.regeneration;
+        answer.fact(
+            "regeneration",
+            if back.energy == 0.0 {
+                "no energy flows back".to_owned()
+            } else {
+                format!(
+                    "at most {} J per cycle, {} W mean, {} W peak, {} J a pulse; motoring peak {} W",
+                    short(up(back.energy)),
+                    short(up(back.mean)),
+                    short(up(back.peak)),
+                    short(up(back.pulse)),
+                    short(up(back.motoring_peak))
+                )
+            },
+        );
+        if let Some(need) = &back.resistor {
+            answer.fact("brake resistor", resistor(need));
+        }
+    }
+
+    pub(crate) fn notes(&self, answer: &mut Answer) {
+        let words = self.words();
+        let (torque, inertia, rotor) = (words.torque, words.inertia, words.rotor);
+        let Inquiry {
+            file, allowance, ..
+        } = *self.inquiry;
+        answer.sentence(format!(
+            "A motor with these figures and a {rotor} in the window satisfies every rule of the set \"{}\" that needs no data of its winding. \
+             The window belongs to an S1 {torque} {} above the least possible; figures are rounded to the safe side.",
+            file.rules.name,
+            percent(allowance)
+        ));
+        let square = |found: &Requirement| -> String {
+            let [constant, linear, square] = found.mean_square;
+            format!(
+                "RMS {torque}² = {} + {}·J + {}·J²",
+                significant(constant, 5),
+                significant(linear, 5),
+                significant(square, 5)
+            )
+        };
+        if let Some(found) = self.described() {
+            answer.sentence(format!(
+                "Any other {rotor}: {} ({torque} in {}, J its {inertia} in {}).",
+                square(found),
+                torque.unit,
+                if words.slides() { "kg" } else { "kg m²" }
+            ));
+        }
+        let limit = file.rules.limit(Rule::InertiaRatio);
+        if !limit.is_set() {
+            answer.sentence(format!("The rule set has no limit for the {inertia} ratio: the smallest {rotor} is not limited."));
+        }
+        answer.sentence(
+            "Not contained: temperatures, and losses, friction and saturation of the motor. Check the offers: add them to a catalogue, and run `jred size FILE --catalogue FOLDER`.",
+        );
+    }
+
+    /// Every figure of every ratio, and its boundary.
+    fn csv(&self) -> String {
+        let words = self.words();
+        let (torque, speed, inertia) = (
+            words.torque.unit,
+            words.speed_si,
+            if words.slides() { "kg" } else { "kg m^2" },
+        );
+        let header = [
+            "ratio".to_owned(),
+            format!("rotor [{inertia}]"),
+            format!("least S1 torque [{torque}]"),
+            format!("least peak torque [{torque}]"),
+            "in the window".to_owned(),
+            format!("mean speed [{speed}]"),
+            format!("maximum speed [{speed}]"),
+        ];
+        let mut csv = csv_line(header.iter().map(|name| Cell::from(name.as_str())));
+        for found in self.requirements {
+            let [from, to] = found.rotor;
+            for need in self.boundary(found) {
+                let row: [Cell; 7] = [
+                    found.ratio.map_or_else(|| "direct".into(), Cell::from),
+                    need.rotor.into(),
+                    need.s1_torque.into(),
+                    need.peak_torque.into(),
+                    if (from..=to).contains(&need.rotor) {
+                        "yes"
+                    } else {
+                        "no"
+                    }
+                    .into(),
+                    found.mean_speed.into(),
+                    found.max_speed.into(),
+                ];
+                csv += &csv_line(row.into_iter());
+            }
+        }
+        csv
+    }
+}
+
+/// A ratio as a heading.
+pub(crate) fn name(ratio: Option<f64>) -> String {
+    ratio.map_or_else(
+        || "direct coupling".to_owned(),
+        |ratio| format!("ratio {}", short(ratio)),
+    )
+}
+
+fn resistor(need: &Need) -> String {
+    let least = need.smallest_resistance.map_or_else(String::new, |least| {
+        format!("at least {} Ω, ", short(least))
+    });
+    format!(
+        "{least}at most {} Ω, {} W mean, {} W peak, {} J a pulse",
+        short(down(need.largest_resistance)),
+        short(up(need.mean)),
+        short(up(need.peak)),
+        short(up(need.pulse))
+    )
+}
+
+/// A range, its start rounded up and its end down.
+fn window([from, to]: [f64; 2]) -> String {
+    match (from > 0.0, to.is_finite()) {
+        (true, true) => format!("{} to {}", short(up(from)), short(down(to))),
+        (true, false) => format!("at least {}", short(up(from))),
+        (false, true) => format!("at most {}", short(down(to))),
+        (false, false) => "any".to_owned(),
+    }
+}
