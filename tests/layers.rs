@@ -199,6 +199,7 @@ const TOOL: [(&str, &[&str]); 8] = [
         "sizing",
         &[
             "threads",
+            "cell",
             "catalogue",
             "motor",
             "cycle",

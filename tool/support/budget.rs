@@ -184,6 +184,9 @@ pub(crate) const RUNGE_KUTTA: f64 = 1e-8;
 /// The integral of squared currents over linear pieces.
 pub(crate) const OVERLOAD: f64 = 1e-12;
 
+/// Overload of an amplifier with the default number of instants (A²s, or relative), against a finer one: 4e-9.
+pub(crate) const OVERLOAD_STEPS: f64 = 1e-6;
+
 /// A catalogue figure in its unit, converted in another order of operations: a few roundings [3e-16].
 pub(crate) const UNIT_CONVERSION: f64 = 1e-14;
 

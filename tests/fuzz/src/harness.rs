@@ -25,10 +25,10 @@ use jred_report::table::output::{Format as Sheet, write};
 use jred_report::table::rows::RowFormat;
 use jred_report::table::screen::Screen;
 use jred_sizing::catalogue::Catalogue;
+use jred_sizing::cell::Cell;
 use jred_sizing::cycle::Cycle;
 use jred_sizing::select::fit::fit_input;
 use jred_sizing::select::size::Selection;
-use jred_sizing::study::cell::Cell;
 
 use crate::{NAMED, at, files, no_number};
 

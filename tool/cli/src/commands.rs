@@ -2,6 +2,7 @@
 
 pub mod balance;
 pub mod bus;
+mod catalogue;
 mod core_error;
 mod export;
 pub mod fastest;
@@ -9,6 +10,7 @@ pub mod gentlest;
 mod plan;
 pub mod ratio;
 mod reduce;
+mod require;
 pub mod sensitivity;
 mod simulate;
 pub mod size;
@@ -74,6 +76,7 @@ fn dispatch(command: &options::Command) -> Result<Completion> {
         options::Command::Size(options) => size::size(options),
         options::Command::Vary(options) => vary::vary(options),
         options::Command::Ratio(options) => ratio::ratio(options),
+        options::Command::Require(options) => require::run(options),
         options::Command::Sensitivity(options) => sensitivity::sensitivity(options),
         options::Command::Tolerance(options) => tolerance::tolerance(options),
         options::Command::Merge(options) => vary::run_merge(options),
@@ -84,6 +87,7 @@ fn dispatch(command: &options::Command) -> Result<Completion> {
         options::Command::Gentlest(options) => gentlest::gentlest(options),
         options::Command::Balance(options) => balance::balance(options),
         options::Command::Export(options) => export::run(options),
+        options::Command::Catalogue(options) => catalogue::run(options),
         options::Command::Rules(options) => {
             let Some(set) = &options.set else {
                 return print_answer(&rule_list::all(), options.format);
@@ -104,6 +108,7 @@ const fn doing(command: &options::Command) -> &'static str {
         Command::Size(_) => "checking drives",
         Command::Vary(_) | Command::Tolerance(_) => "reading machine and catalogue",
         Command::Ratio(_) => "searching gear ratios",
+        Command::Require(_) => "computing requirements",
         Command::Sensitivity(_) => "changing each quantity",
         Command::Merge(_) => "merging rows",
         Command::Bus(_) => "following the DC bus",
@@ -112,6 +117,7 @@ const fn doing(command: &options::Command) -> &'static str {
         Command::Fastest(_) => "computing the fastest motion",
         Command::Gentlest(_) => "computing the gentlest motion",
         Command::Balance(_) => "computing counterweights and springs",
+        Command::Catalogue(_) => "reading the catalogue",
         Command::Export(_) => "searching for the smallest table",
         Command::Rules(_) => "reading rules",
         Command::Split(_) => "dividing the ratio",

@@ -6,7 +6,9 @@ pub mod catalogue;
 pub mod export;
 pub mod fastest;
 pub mod gentlest;
+pub mod parts;
 pub mod plan;
+pub mod require;
 pub mod sampling;
 pub mod search;
 pub mod simulate;
@@ -92,6 +94,8 @@ pub enum Command {
     Vary(search::Vary),
     /// Find the gear ratio for each motor: best ratio, suitable range, and gearboxes in it.
     Ratio(search::Ratio),
+    /// State what a drive of any maker must be able to do at each gear ratio, for a request for quotation; no catalogue is needed.
+    Require(require::Require),
     /// Show how each quantity in the machine file affects the rules, and which violates one first.
     Sensitivity(search::Sensitivity),
     /// Estimate the probability that a drive satisfies its rules when quantities scatter within tolerances.
@@ -111,6 +115,9 @@ pub enum Command {
     Gentlest(gentlest::Gentlest),
     /// Find counterweights and springs that minimise the torque of the drive, or the fluctuation of the reduced inertia.
     Balance(balance::Balance),
+    /// Look into a catalogue, check one, or write an empty one to fill in.
+    #[command(subcommand)]
+    Catalogue(parts::Catalogue),
     /// Write a fast firmware table that meets a torque error.
     Export(export::Export),
     /// List the built-in rule sets, or the limits of one set with their sources.

@@ -207,9 +207,11 @@ fn the_report_of_the_press() {
     let rows: Vec<&str> = page.split("<p>").collect();
     for drive in &refused[..50] {
         let motor = drive["motor"].as_str().unwrap();
+        let on = drive["amplifier"].as_str();
+        let on = on.map_or_else(String::new, |amplifier| format!(" on {amplifier}"));
         let name = match drive["gearbox"].as_str() {
-            Some(gearbox) => format!("{motor} + {gearbox}: "),
-            None => format!("{motor}, direct: "),
+            Some(gearbox) => format!("{motor} + {gearbox}{on}: "),
+            None => format!("{motor}, direct{on}: "),
         };
         let row = rows
             .iter()

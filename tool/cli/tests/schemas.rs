@@ -79,6 +79,7 @@ fn every_answer_follows_its_schema() {
             &[
                 "reduce --reactions --positions 24",
                 "size --explain --top 3",
+                "require",
                 "size --pareto power,mass",
                 "bus",
                 "steady --delta 0.05",
@@ -98,6 +99,15 @@ fn every_answer_follows_its_schema() {
             ],
         ),
         (&["belt-axis"], &["sensitivity --change 5"]),
+        (
+            &[""],
+            &[
+                "catalogue list",
+                "catalogue list amplifiers",
+                "catalogue check built-in",
+                "catalogue show sgm7a-30a",
+            ],
+        ),
     ] {
         for machine in machines {
             for command in commands {

@@ -22,6 +22,7 @@ mod figures;
 mod mechanism;
 mod motion;
 mod notes;
+mod require;
 mod section;
 mod thinned;
 
@@ -30,6 +31,7 @@ use section::{Figure, Page, Section};
 
 pub use mechanism::mechanism_page;
 pub use motion::{fastest_page, gentlest_page, steady_page};
+pub use require::require_page;
 
 /// Number of motors on the page, each with its first gearbox and amplifier.
 const LISTED: usize = 25;

@@ -15,6 +15,7 @@ mod duplicates;
 mod entry;
 mod fault;
 mod files;
+mod gaps;
 mod gearbox;
 mod keep;
 mod lists;
@@ -23,6 +24,7 @@ mod mgdb;
 mod motor;
 mod pairing;
 mod plausible;
+mod record;
 mod row;
 mod table;
 mod toml_table;
@@ -34,10 +36,12 @@ pub use derating::{Basis as DeratingBasis, Derating, HOTTEST_MOTOR, SiteRating};
 pub use disk::Sources;
 pub use drive::{Drive, DriveId};
 pub use fault::{BrokenRows, CatalogueError, SHOWN};
+pub use gaps::Gap;
 pub use gearbox::Gearbox;
 
 pub use motor::{Brake, Commutation, Motor, MotorKind, Thermal, Winding};
 pub use pairing::{Drives, Pairing};
+pub use record::{ColumnTitle, Parts};
 pub(crate) use voltage::VOLTAGE_CLASS;
 pub use voltage::{Basis, RatedBusVoltage};
 

@@ -15,6 +15,7 @@
 
 pub mod bus;
 pub mod catalogue;
+pub mod cell;
 pub mod cycle;
 pub mod explain;
 pub mod judge;

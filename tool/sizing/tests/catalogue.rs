@@ -3,6 +3,7 @@
 #![allow(clippy::float_cmp)]
 
 mod broken;
+mod columns;
 mod contradictions;
 mod database;
 mod format;
@@ -17,8 +18,11 @@ use crate::support::{budget, near};
 use jred_file::units::RPM;
 use jred_sizing::catalogue::Catalogue;
 
+/// The built-in catalogue, each motor once: without its optional brake.
 fn built_in() -> Catalogue {
-    Catalogue::load(None, None).unwrap()
+    let mut catalogue = Catalogue::load(None, None).unwrap();
+    catalogue.keep(|motor| !motor.key.ends_with("-brake"), |_| true);
+    catalogue
 }
 
 #[test]
@@ -47,12 +51,12 @@ fn the_built_in_catalogue_is_plausible() {
         );
         if let Some(standstill) = motor.standstill_torque {
             let share = standstill / rated_torque;
-            assert!((1.0..2.2).contains(&share), "{key}: M0/Mn {share}");
+            assert!((1.0..2.7).contains(&share), "{key}: M0/Mn {share}");
             assert!(standstill < peak_torque, "{key}");
         }
         // Rotor inertia grows with the torque to the power 5/3 (similar shape); makers differ by a factor of ten.
         let slimness = motor.rotor_inertia / peak_torque.powf(5.0 / 3.0);
-        assert!((5e-7..2e-5).contains(&slimness), "{key}: {slimness:e}");
+        assert!((5e-7..4e-5).contains(&slimness), "{key}: {slimness:e}");
         // Time to accelerate the bare rotor to rated speed at peak torque.
         let time = motor.rotor_inertia * rated_speed / peak_torque;
         assert!((9e-4..0.2).contains(&time), "{key}: {time} s");
@@ -68,8 +72,13 @@ fn the_built_in_catalogue_is_plausible() {
         assert!((2.0..=220.0).contains(&gearbox.ratio), "{key}");
         assert!((0.8..1.0).contains(&gearbox.efficiency), "{key}");
         if let Some(rated) = gearbox.rated_torque {
-            let overload = gearbox.peak_torque.unwrap() / rated;
-            assert!((1.0..4.0).contains(&overload), "{key}: {overload}");
+            let overload = gearbox.peak_torque.map(|peak| peak / rated);
+            let fits = overload.is_none_or(|overload| (1.0..4.0).contains(&overload));
+            assert!(fits, "{key}: {overload:?}");
+            assert!(
+                overload.is_some() || gearbox.maker.starts_with("Apex"),
+                "{key}"
+            );
         }
         if let Some(speed) = gearbox.rated_speed {
             assert!(speed < gearbox.max_speed.unwrap(), "{key}");
@@ -82,7 +91,8 @@ fn the_built_in_catalogue_is_plausible() {
         }
         // The ratio is part of the type designation.
         assert!(
-            gearbox.model.contains(&format!("i={}", gearbox.ratio)),
+            gearbox.model.contains(&format!("i={}", gearbox.ratio))
+                || gearbox.model.contains(&format!("-{:03}", gearbox.ratio)),
             "{key}: {}",
             gearbox.model
         );
@@ -93,6 +103,15 @@ fn the_built_in_catalogue_is_plausible() {
 #[test]
 fn the_built_in_motors_agree_with_their_rated_power() {
     let catalogue = built_in();
+    let mut stated = 0;
+    for motor in &catalogue.motors {
+        let Some(power) = motor.stated_power else {
+            continue;
+        };
+        let found = motor.rated_torque.unwrap() * motor.rated_speed.unwrap();
+        near(&motor.key, found, power, budget::DATA_SHEET_POWER);
+        stated += 1;
+    }
     let table = include_str!("data/rated_power.csv");
     let (mut powers, mut rates) = (0, 0);
     for row in table.lines().skip(2) {
@@ -116,7 +135,7 @@ fn the_built_in_motors_agree_with_their_rated_power() {
     }
     assert_eq!((powers, rates), (107, 48));
     // Those without a stated power.
-    let others = catalogue.motors.len() - powers;
+    let others = catalogue.motors.len() - stated;
     assert_eq!(others, 19, "17 of Fagor, HG-KN43J, SGMUH-30D");
 }
 
@@ -146,15 +165,16 @@ fn the_built_in_motors_agree_with_themselves() {
             constants += 1;
         }
         if let Some(at_rest) = winding.standstill_current {
-            near(key, standstill / at_rest, rated / current, 0.05);
+            // Friction is part of the rated current.
+            near(key, standstill / at_rest, rated / current, 0.09);
         }
         // Saturation takes up to a fifth of the torque; friction, part of the rated current, can raise the apparent value.
         if let Some(most) = winding.peak_current {
             let share = (peak / most) / (rated / current);
-            assert!((0.8..1.3).contains(&share), "{key}: {share}");
+            assert!((0.65..1.3).contains(&share), "{key}: {share}");
         }
     }
-    assert_eq!((constants, currents), (20, 79));
+    assert_eq!((constants, currents), (36, 119));
 }
 
 /// Each stated voltage is one of those that the sources name.
@@ -187,16 +207,16 @@ fn the_built_in_motors_name_their_voltage() {
     let expected = [
         ("100 V AC", 9),
         ("115 V AC", 3),
-        ("200 V AC", 36),
+        ("200 V AC", 44),
         ("230 V AC", 3),
-        ("380 V AC", 17),
+        ("380 V AC", 25),
         ("400 V AC", 1),
-        ("not stated", 57),
+        ("not stated", 84),
     ];
     let expected = expected.map(|(said, count)| (said.to_owned(), count));
     assert_eq!(counts, BTreeMap::from(expected));
     let others = catalogue.motors.iter().filter(|motor| !motor.from_maker);
-    assert_eq!(others.count(), 17 + 27 + 17 + 6);
+    assert_eq!(others.count(), 26 + 27 + 17 + 6 + 3);
 }
 
 #[test]
@@ -216,6 +236,16 @@ fn the_built_in_brake_resistors() {
         [47.0, 70.0],
         [47.0, 70.0],
         [20.0, 180.0],
+        // ABB: SACE and JBR of ACSM1.
+        [120.0, 105.0],
+        [80.0, 135.0],
+        [40.0, 360.0],
+        [20.0, 570.0],
+        [13.0, 790.0],
+        [4.0, 2200.0],
+        [44.0, 1000.0],
+        [22.0, 2000.0],
+        [13.0, 2000.0],
     ]);
     assert_eq!(found, expected);
     assert!(

@@ -7,6 +7,7 @@ mod figures;
 mod filter;
 mod obstacle;
 mod ratio;
+mod requirement;
 
 use std::path::Path;
 

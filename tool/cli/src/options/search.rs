@@ -157,7 +157,7 @@ impl SelectionOptions {
     }
 }
 
-fn ratio(text: &str) -> Result<[f64; 2], String> {
+pub(super) fn ratio(text: &str) -> Result<[f64; 2], String> {
     let shape = "write FROM..TO, such as 3..10";
     let parts = text.split_once("..");
     let parsed = parts.and_then(|(a, b)| Some([a.trim().parse().ok()?, b.trim().parse().ok()?]));
@@ -302,7 +302,7 @@ pub struct Ratio {
     pub format: Format,
 }
 
-fn efficiency(text: &str) -> Result<f64, String> {
+pub(super) fn efficiency(text: &str) -> Result<f64, String> {
     let parsed = match text.strip_suffix('%') {
         Some(percent) => percent.trim().parse::<f64>().map(|x| x / 100.0),
         None => text.parse(),

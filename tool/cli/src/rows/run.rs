@@ -13,7 +13,7 @@ use super::store;
 use crate::busy;
 use crate::output;
 use jred_report::table::rows::RowFormat;
-use jred_sizing::study::cell::Cell;
+use jred_sizing::cell::Cell;
 use jred_sizing::study::shard::Shard;
 use jred_sizing::study::task::RowSource;
 

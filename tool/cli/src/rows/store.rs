@@ -14,7 +14,7 @@ use miette::{IntoDiagnostic as _, Report, Result, WrapErr as _, miette};
 
 use crate::output;
 use jred_report::table::rows::RowFormat;
-use jred_sizing::study::cell::Cell;
+use jred_sizing::cell::Cell;
 use jred_sizing::study::header::Header;
 
 fn no_rows(path: &Path) -> Report {

@@ -3,7 +3,7 @@
 use serde_json::Value;
 
 use super::command::figure;
-use crate::support::{Folder, Run, jred_with, press_text, shipped};
+use crate::support::{Folder, Run, jred_with, press_text, shipped, without_resistors};
 
 /// A vertical axis that feeds back more than half of what it draws.
 fn lift() -> String {
@@ -59,6 +59,8 @@ fn run_as(
     let mut arguments = vec!["bus", "--steps", "100", "--format", format];
     arguments.extend(files.iter().map(|file| file.to_str().unwrap()));
     arguments.extend(more);
+    let parts = without_resistors(folder);
+    arguments.extend(["--catalogue", parts.to_str().unwrap()]);
     jred_with(&arguments).ends(ends)
 }
 

@@ -13,6 +13,9 @@ small,Maker,S,6,12,made up
 large,Maker,L,20,40,made up
 ";
 
+/// Which motors they run.
+pub(super) const RUN_BY: &str = "motor,amplifiers\nfxm*,small;large\n";
+
 /// CSV and JSON carry every digit: both read back to the same numbers, bit for bit.
 #[test]
 fn csv_and_json_carry_every_digit() {
@@ -152,6 +155,7 @@ fn positions_and_times() {
 fn rows_tell_amplifiers_apart() {
     let (press, folder) = (press_file(), Folder::new());
     folder.file("amplifiers.csv", AMPLIFIERS);
+    folder.file("compatibility.csv", RUN_BY);
     let arguments = ["--all", "--motor", "fxm3*", "--format", "csv"];
     let run = run(&[
         &["size", press.to_str().unwrap(), "--catalogue", "built-in"] as &[&str],

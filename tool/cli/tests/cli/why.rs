@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use super::forms::AMPLIFIERS;
+use super::forms::{AMPLIFIERS, RUN_BY};
 use crate::support::{Folder, Run, edited_press, jred, jred_with, press_file};
 
 /// A few motors with all gearboxes; the whole catalogue would be 100 MB of JSON.
@@ -118,6 +118,7 @@ fn names_as_printed_are_understood() {
     }
     let folder = Folder::new();
     folder.file("amplifiers.csv", AMPLIFIERS);
+    folder.file("compatibility.csv", RUN_BY);
     for amplifier in ["small", "large"] {
         let own = format!("{} on {amplifier}", name(geared, " + ", ""));
         // A motor without a current is combined with every amplifier.

@@ -6,6 +6,7 @@ pub(crate) mod schema;
 #[path = "../../../support/mod.rs"]
 mod shared;
 
+use std::path::{Path, PathBuf};
 use std::process::Output;
 
 use serde_json::Value;
@@ -13,7 +14,9 @@ use serde_json::Value;
 pub(crate) use shared::*;
 
 /// All commands.
-pub(crate) const COMMANDS: [&str; 17] = [
+pub(crate) const COMMANDS: [&str; 19] = [
+    "catalogue",
+    "require",
     "reduce",
     "check",
     "size",
@@ -60,11 +63,11 @@ pub(crate) fn jred_of<const N: usize>(line: &str, files: [&dyn AsRef<std::ffi::O
 
 /// The same with any number of arguments.
 pub(crate) fn jred_with(arguments: &[impl AsRef<std::ffi::OsStr>]) -> Run {
-    jred_in(std::path::Path::new("."), arguments)
+    jred_in(Path::new("."), arguments)
 }
 
 /// The same in a folder.
-pub(crate) fn jred_in(folder: &std::path::Path, arguments: &[impl AsRef<std::ffi::OsStr>]) -> Run {
+pub(crate) fn jred_in(folder: &Path, arguments: &[impl AsRef<std::ffi::OsStr>]) -> Run {
     let mut command = assert_cmd::Command::new(env!("CARGO_BIN_EXE_jred"));
     command
         .current_dir(folder)
@@ -152,14 +155,25 @@ impl Run {
 }
 
 /// The machine files of `machines/` that can be sized with the built-in catalogue.
-pub(crate) fn sizeable_machines() -> Vec<std::path::PathBuf> {
+pub(crate) fn sizeable_machines() -> Vec<PathBuf> {
     // The catalogue has no linear drive, and a time-dependent ratio cannot be sized.
     let refused = ["linear-gripper.toml", "variator-press.toml"];
     let files = std::fs::read_dir(shipped("")).unwrap();
     let files = files.map(|entry| entry.unwrap().path());
-    let is_machine = |file: &std::path::PathBuf| {
+    let is_machine = |file: &PathBuf| {
         file.extension().is_some_and(|end| end == "toml")
             && !refused.iter().any(|name| file.ends_with(name))
     };
     files.filter(is_machine).collect()
+}
+
+/// A catalogue of the built-in motors and gearboxes alone.
+pub(crate) fn without_resistors(folder: &Folder) -> PathBuf {
+    let home = Path::new(env!("CARGO_MANIFEST_DIR")).join("../sizing/catalogue");
+    let parts = folder.path("parts");
+    std::fs::create_dir_all(&parts).unwrap();
+    for table in ["motors.csv", "gearboxes.csv"] {
+        std::fs::copy(home.join(table), parts.join(table)).unwrap();
+    }
+    parts
 }

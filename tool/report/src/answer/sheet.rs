@@ -4,7 +4,7 @@ use serde_json::{Map, Value, json};
 
 use super::Answer;
 use crate::table::reading::Reading;
-use jred_sizing::study::cell::Cell;
+use jred_sizing::cell::Cell;
 
 /// Named columns of cells under a title.
 #[derive(Clone, Debug, Default)]

@@ -9,7 +9,7 @@ use crate::table::reading::Reading;
 use jred_export::{Export, SearchResult};
 use jred_file::model::coordinate::Coordinate;
 use jred_file::number::rounding::short;
-use jred_sizing::study::cell::Cell;
+use jred_sizing::cell::Cell;
 
 pub(crate) use data::ExportData;
 pub use failure::{impossible, not_reached};

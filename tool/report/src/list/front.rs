@@ -9,9 +9,9 @@ use crate::answer::schema::Data;
 use crate::table::reading::Reading;
 use jred_file::number::rounding::rounded;
 use jred_sizing::catalogue::Drive;
+use jred_sizing::cell::Cell;
 use jred_sizing::select::pareto::{Front, ParetoPoint};
 use jred_sizing::select::rank::Objective;
-use jred_sizing::study::cell::Cell;
 
 /// The JSON of `jred size --pareto`.
 #[derive(Serialize, JsonSchema)]

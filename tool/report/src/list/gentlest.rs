@@ -16,9 +16,9 @@ use jred_file::units::Vocabulary;
 use jred_motion::contact::ContactLimits;
 use jred_motion::gentlest::cycle::{Figures, GentlestResult, Goal, LAWS, Request};
 use jred_motion::gentlest::{LeastEffortMove, Optimum, Reason};
+use jred_sizing::cell::Cell;
 use jred_sizing::judge::check::Check;
 use jred_sizing::select::fit::input_kind;
-use jred_sizing::study::cell::Cell;
 
 mod data;
 

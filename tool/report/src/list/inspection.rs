@@ -11,7 +11,7 @@ use crate::table::reading::Reading;
 use jred_analysis::inspect::{Findings, MotionFindings, NEAR_DEAD_POINT, RECOMMENDED};
 use jred_file::model::coordinate::Coordinate;
 use jred_file::number::rounding::{short, shown};
-use jred_sizing::study::cell::Cell;
+use jred_sizing::cell::Cell;
 
 pub(crate) use data::CheckData;
 pub(crate) use words::change_points;

@@ -18,7 +18,7 @@ use crate::answer::Answer;
 use crate::list::suited::MotionChoice;
 use crate::table::output::Format;
 use crate::table::reading::{ColumnKind, Reading};
-use jred_sizing::study::cell::Cell;
+use jred_sizing::cell::Cell;
 
 pub use asked::Asked;
 pub use choice::{List, explained};

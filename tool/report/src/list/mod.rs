@@ -2,6 +2,7 @@
 
 pub mod balance;
 pub mod bus;
+pub mod catalogue;
 pub mod contact;
 mod driven;
 pub mod export;
@@ -15,6 +16,7 @@ mod marks;
 pub mod plan;
 pub mod ratio;
 pub mod reduction;
+pub mod require;
 pub mod rule_list;
 pub mod rule_words;
 pub mod sensitivity;

@@ -6,8 +6,8 @@ use crate::answer::sheet::Sheet;
 use crate::table::reading::Reading;
 use jred_file::model::rule::Rule;
 use jred_file::number::rounding::{short, significant};
+use jred_sizing::cell::Cell;
 use jred_sizing::select::ratio::{Gear, Range};
-use jred_sizing::study::cell::Cell;
 use jred_sizing::study::ratio::{MotorRatio, Ratios};
 
 /// Name and version of the form in JSON, and its columns.

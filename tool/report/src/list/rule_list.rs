@@ -13,7 +13,7 @@ use jred_file::number::rounding::figure;
 use jred_file::read;
 use jred_file::units::Vocabulary;
 use jred_sizing::catalogue::MotorKind;
-use jred_sizing::study::cell::Cell;
+use jred_sizing::cell::Cell;
 
 /// All built-in sets, one line each.
 pub fn all() -> Answer<'static> {

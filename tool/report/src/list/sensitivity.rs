@@ -5,7 +5,7 @@ use crate::table::reading::Reading;
 use jred_file::number::rounding::{short, significant};
 use jred_file::number::words::counted;
 use jred_file::units::Vocabulary;
-use jred_sizing::study::cell::Cell;
+use jred_sizing::cell::Cell;
 use jred_sizing::study::chosen::ChosenDrive;
 use jred_sizing::study::common::{Study, sentence};
 use jred_sizing::study::sensitivity::{Dependence, Fixed, Reach, Room, Sensitivity};

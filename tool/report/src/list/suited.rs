@@ -8,7 +8,7 @@ use jred_file::number::rounding::{percent, short};
 use jred_file::units::Vocabulary;
 use jred_motion::co_design::{CoDesign, DriveWithMotion};
 use jred_sizing::catalogue::Drive;
-use jred_sizing::study::cell::Cell;
+use jred_sizing::cell::Cell;
 
 use crate::answer::Answer;
 use crate::list::kept::{self, KeptPart};

@@ -5,7 +5,7 @@ use crate::table::reading::Reading;
 use jred_file::model::rules::RuleSet;
 use jred_file::number::rounding::short;
 use jred_file::number::words::counted;
-use jred_sizing::study::cell::Cell;
+use jred_sizing::cell::Cell;
 use jred_sizing::study::tolerance::Samples;
 use jred_sizing::study::tolerance::summary::{Probability, Summary, quantile};
 

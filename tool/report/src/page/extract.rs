@@ -8,7 +8,7 @@ use crate::table::reading::Reading;
 use jred_analysis::reduce::{Request, Sets, largest};
 use jred_file::number::columns::{Column, ColumnQuantity, Columns};
 use jred_file::number::rounding::{rounded, short};
-use jred_sizing::study::cell::Cell;
+use jred_sizing::cell::Cell;
 
 /// Rows of each table.
 const ROWS: usize = 13;

@@ -7,7 +7,7 @@ use super::screen::Screen;
 use crate::table::output::text_table;
 use jred_file::model::rules::RuleVerdict;
 use jred_file::number::rounding::significant;
-use jred_sizing::study::cell::Cell;
+use jred_sizing::cell::Cell;
 
 /// Largest width of a table; wider cells are wrapped.
 const WIDEST: u16 = 120;

@@ -5,7 +5,7 @@ use serde_json::{Map, Value};
 use crate::table::output::text_table;
 use jred_file::number::csv;
 use jred_file::number::rounding::rounded;
-use jred_sizing::study::cell::Cell;
+use jred_sizing::cell::Cell;
 use jred_sizing::study::header::digest;
 
 jred_file::words! {

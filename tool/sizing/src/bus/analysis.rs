@@ -81,7 +81,7 @@ impl BusAnalysis {
                 Some(power) if only_in_step => Need::of(&data, power),
                 _ => Need::over(&data, &answer.shared, watch),
             };
-            let proposal = need.and_then(|need| need.proposal(&catalogue.resistors));
+            let proposal = need.and_then(|need| need.proposal(&catalogue.resistors, None));
             if let Some(resistor) = proposal.filter(|_| data.resistor.is_none()) {
                 let with = BusData {
                     resistor: Some(resistor.on_bus()),
@@ -95,7 +95,7 @@ impl BusAnalysis {
             if let (Some(need), None) = (need, proposal)
                 && !catalogue.resistors.is_empty()
             {
-                answer.misses = Some(need.misses(&catalogue.resistors));
+                answer.misses = Some(need.misses(&catalogue.resistors, None));
             }
         }
         if only_in_step && !answer.failed().is_empty() {

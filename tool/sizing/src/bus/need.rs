@@ -5,7 +5,7 @@ use super::curve::PowerCurve;
 use super::phases::Watch;
 use super::store::Bus;
 use super::supply::BusData;
-use crate::catalogue::Resistor;
+use crate::catalogue::{Amplifier, Resistor};
 use jred_file::model::supply::BrakeResistor;
 
 /// How many resistors of a catalogue miss each requirement.
@@ -19,8 +19,8 @@ pub struct Misses {
     pub large_resistance: usize,
     /// Too little continuous power.
     pub power: usize,
-    /// No data for the peak power.
-    pub no_peak_power: usize,
+    /// Made for other amplifiers.
+    pub other_amplifier: usize,
     /// Too little peak power.
     pub peak_power: usize,
     /// Too little pulse energy.
@@ -104,23 +104,31 @@ impl Need {
             .is_none_or(|least| least <= self.largest_resistance)
     }
 
-    /// Whether a resistor meets these requirements.
+    /// Whether a resistor meets these requirements, as far as its data say.
     pub fn is_met(&self, resistor: &Resistor) -> bool {
         let least = self.smallest_resistance.unwrap_or(0.0);
         (least..=self.largest_resistance).contains(&resistor.resistance)
             && resistor.rated_power >= self.mean
-            && resistor.peak_power.is_some_and(|peak| peak >= self.peak)
+            && resistor.peak_power.is_none_or(|peak| peak >= self.peak)
             && resistor
                 .pulse_energy
                 .is_none_or(|energy| energy >= self.pulse)
     }
 
-    /// The smallest suitable resistor of a catalogue (by rated power, then price), those with the maker's own figures first.
-    pub fn proposal<'c>(&self, resistors: &'c [Resistor]) -> Option<&'c Resistor> {
+    /// The smallest suitable resistor of a catalogue (by rated power, then price), those with a peak power first, then those with the maker's own
+    /// figures.
+    pub fn proposal<'c>(
+        &self,
+        resistors: &'c [Resistor],
+        amplifier: Option<&Amplifier>,
+    ) -> Option<&'c Resistor> {
         let price = |r: &Resistor| r.price.unwrap_or(f64::INFINITY);
-        let met = resistors.iter().filter(|resistor| self.is_met(resistor));
+        let made_for = |resistor: &&Resistor| resistor.suits(amplifier);
+        let met = resistors.iter().filter(made_for);
+        let met = met.filter(|resistor| self.is_met(resistor));
         met.min_by(|a, b| {
-            (b.from_maker.cmp(&a.from_maker))
+            (b.peak_power.is_some().cmp(&a.peak_power.is_some()))
+                .then(b.from_maker.cmp(&a.from_maker))
                 .then(a.rated_power.total_cmp(&b.rated_power))
                 .then(price(a).total_cmp(&price(b)))
                 .then_with(|| a.key.cmp(&b.key))
@@ -128,7 +136,7 @@ impl Need {
     }
 
     /// Why no resistor of a catalogue meets these requirements.
-    pub fn misses(&self, resistors: &[Resistor]) -> Misses {
+    pub fn misses(&self, resistors: &[Resistor], amplifier: Option<&Amplifier>) -> Misses {
         let least = self.smallest_resistance.unwrap_or(0.0);
         let count = |misses: &dyn Fn(&Resistor) -> bool| {
             resistors.iter().filter(|resistor| misses(resistor)).count()
@@ -138,7 +146,7 @@ impl Need {
             small_resistance: count(&|r| r.resistance < least),
             large_resistance: count(&|r| r.resistance > self.largest_resistance),
             power: count(&|r| r.rated_power < self.mean),
-            no_peak_power: count(&|r| r.peak_power.is_none()),
+            other_amplifier: count(&|r| !r.suits(amplifier)),
             peak_power: count(&|r| r.peak_power.is_some_and(|peak| peak < self.peak)),
             pulse_energy: count(&|r| r.pulse_energy.is_some_and(|energy| energy < self.pulse)),
         }

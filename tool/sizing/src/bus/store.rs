@@ -48,6 +48,7 @@ pub struct BusFigures {
     pub highest: f64,
     /// Energy stored at the start of a period above that at U₀ (J).
     #[serde(rename = "stored at the start [J]")]
+    #[schemars(with = "Option<f64>")]
     pub stored: f64,
 }
 

@@ -34,11 +34,14 @@ impl BusData {
         motor: &Motor,
     ) -> Self {
         let own = |figure: fn(&Amplifier) -> Option<f64>| amplifier.and_then(figure);
+        let voltage = bus_voltage
+            .or(own(Amplifier::nominal_voltage))
+            .or(motor.bus_voltage);
         Self {
-            voltage: bus_voltage
-                .or(own(Amplifier::nominal_voltage))
-                .or(motor.bus_voltage),
-            capacitance: supply.capacitance.or(own(|a| a.capacitance)),
+            voltage,
+            capacitance: supply
+                .capacitance
+                .or(amplifier.and_then(|a| a.bus_capacitance(voltage))),
             chopper_voltage: supply.chopper_voltage.or(own(|a| a.chopper_voltage)),
             max_voltage: [
                 supply.max_voltage.or(own(|a| a.max_voltage)),

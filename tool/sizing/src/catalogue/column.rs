@@ -136,7 +136,7 @@ impl CellContent {
 }
 
 macro_rules! columns {
-    ($($column:ident $name:literal [$($kind:ident)*] [$($holds:ident)*];)*) => {
+    ($($column:ident $name:literal [$($kind:ident)*] [$($holds:ident)*] $help:literal;)*) => {
         /// A column; its index is its position in [`Column::ALL`].
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         pub(super) enum Column { $($column,)* }
@@ -152,6 +152,11 @@ macro_rules! columns {
                 match self { $(Self::$column => CellContent::Of(&[$(&units::$holds,)*]),)* }
             }
 
+            /// Its meaning, in one line.
+            pub(super) const fn help(self) -> &'static str {
+                match self { $(Self::$column => $help,)* }
+            }
+
             /// The tables that contain it.
             pub(super) const fn kinds(self) -> &'static [Kind] {
                 match self { $(Self::$column => &[$(Kind::$kind,)*],)* }
@@ -161,94 +166,105 @@ macro_rules! columns {
 }
 
 columns! {
-    Key "key" [Motors Gearboxes Amplifiers Resistors] [];
-    Maker "maker" [Motors Gearboxes Amplifiers Resistors] [];
-    Model "model" [Motors Gearboxes Amplifiers Resistors] [];
-    MotorKind "kind" [Motors] [];
-    RatedTorque "rated_torque" [Motors] [TORQUE];
-    RatedForce "rated_force" [Motors] [FORCE];
-    RatedSpeed "rated_speed" [Motors] [ANGULAR_SPEED VELOCITY];
-    StandstillTorque "standstill_torque" [Motors] [TORQUE];
-    StandstillForce "standstill_force" [Motors] [FORCE];
-    PeakTorque "peak_torque" [Motors] [TORQUE];
-    PeakForce "peak_force" [Motors] [FORCE];
-    MaxSpeed "max_speed" [Motors] [ANGULAR_SPEED VELOCITY];
-    MaxPower "max_power" [Motors] [POWER];
-    NoLoadSpeed "no_load_speed" [Motors] [ANGULAR_SPEED VELOCITY];
-    RotorInertia "rotor_inertia" [Motors] [INERTIA];
-    MovingMass "moving_mass" [Motors] [MASS];
-    CornerSpeed "peak_corner_speed" [Motors] [ANGULAR_SPEED VELOCITY];
-    TorqueAtMaxSpeed "peak_torque_at_max_speed" [Motors] [TORQUE];
-    ForceAtMaxSpeed "peak_force_at_max_speed" [Motors] [FORCE];
-    PeakCurve "peak_curve" [Motors] [];
-    ContinuousCurve "continuous_curve" [Motors] [];
-    CoulombFriction "coulomb_friction" [Motors] [TORQUE];
-    FrictionForce "friction_force" [Motors] [FORCE];
-    ViscousFriction "viscous_friction" [Motors] [VISCOUS_MOMENT VISCOUS_FORCE];
-    Commutation "commutation" [Motors] [];
-    TorqueConstant "torque_constant" [Motors] [TORQUE_CONSTANT FORCE_CONSTANT];
-    VoltageConstant "voltage_constant" [Motors] [VOLTAGE_CONSTANT LINEAR_VOLTAGE_CONSTANT];
-    WindingResistance "winding_resistance" [Motors] [RESISTANCE];
-    WindingInductance "winding_inductance" [Motors] [INDUCTANCE];
-    PolePairs "pole_pairs" [Motors] [];
-    StandstillCurrent "standstill_current" [Motors] [CURRENT];
-    NoLoadCurrent "no_load_current" [Motors] [CURRENT];
-    WindingThermalResistance "thermal_resistance_winding" [Motors] [THERMAL_RESISTANCE];
-    HousingThermalResistance "thermal_resistance_housing" [Motors] [THERMAL_RESISTANCE];
-    WindingTime "thermal_time_winding" [Motors] [TIME];
-    HousingTime "thermal_time_housing" [Motors] [TIME];
-    MaxTemperature "max_winding_temperature" [Motors] [TEMPERATURE];
-    BrakeTorque "brake_torque" [Motors] [TORQUE];
-    BrakeForce "brake_force" [Motors] [FORCE];
-    BrakeInertia "brake_inertia" [Motors] [INERTIA];
-    BrakeMass "brake_mass" [Motors] [MASS];
-    BrakeDynamicTorque "brake_dynamic_torque" [Motors] [TORQUE];
-    BrakeDynamicForce "brake_dynamic_force" [Motors] [FORCE];
-    BrakeClosingTime "brake_closing_time" [Motors] [TIME];
-    BrakeWork "brake_work" [Motors] [ENERGY];
-    BrakeStops "brake_stops" [Motors] [];
-    TemperatureDerating "temperature_derating" [Motors Amplifiers] [];
-    AltitudeDerating "altitude_derating" [Motors Amplifiers] [];
-    BuiltInGearbox "built_in_gearbox" [Motors] [];
-    BusVoltage "bus_voltage" [Motors Amplifiers] [VOLTAGE];
-    MainsVoltage "mains_voltage" [Motors Amplifiers] [VOLTAGE];
-    MaxBusVoltage "max_bus_voltage" [Motors] [VOLTAGE];
-    RatedCurrent "rated_current" [Motors Amplifiers] [CURRENT];
-    PeakCurrent "peak_current" [Motors Amplifiers] [CURRENT];
-    Ratio "ratio" [Gearboxes] [];
-    Reverses "reverses" [Gearboxes] [];
-    Stages "stages" [Gearboxes] [];
-    RatedOutputTorque "rated_output_torque" [Gearboxes] [TORQUE];
-    PeakOutputTorque "peak_output_torque" [Gearboxes] [TORQUE];
-    EmergencyOutputTorque "emergency_output_torque" [Gearboxes] [TORQUE];
-    RatedInputSpeed "rated_input_speed" [Gearboxes] [ANGULAR_SPEED];
-    MaxInputSpeed "max_input_speed" [Gearboxes] [ANGULAR_SPEED];
-    InputInertia "input_inertia" [Gearboxes] [INERTIA];
-    Efficiency "efficiency" [Gearboxes] [SHARE];
-    BackDriving "back_driving" [Gearboxes] [SHARE];
-    NoLoadTorque "no_load_torque" [Gearboxes] [TORQUE];
-    Stiffness "stiffness" [Gearboxes] [TORSION_STIFFNESS];
-    Backlash "backlash" [Gearboxes] [ANGLE];
-    ShockFactors "shock_factors" [Gearboxes] [];
-    PeakTime "peak_time" [Amplifiers] [TIME];
-    Capacitance "capacitance" [Amplifiers] [CAPACITANCE];
-    ChopperVoltage "chopper_voltage" [Amplifiers] [VOLTAGE];
-    MaxVoltage "max_voltage" [Amplifiers] [VOLTAGE];
-    MinResistance "min_resistance" [Amplifiers] [RESISTANCE];
-    ConstantLoss "constant_loss" [Amplifiers] [POWER];
-    CurrentLoss "loss_per_current" [Amplifiers] [LOSS];
-    Resistance "resistance" [Resistors] [RESISTANCE];
-    RatedPower "rated_power" [Resistors] [POWER];
-    PeakPower "peak_power" [Resistors] [POWER];
-    PulseEnergy "pulse_energy" [Resistors] [ENERGY];
-    Mass "mass" [Motors Gearboxes Amplifiers] [MASS];
-    Price "price" [Motors Gearboxes Amplifiers Resistors] [];
-    FiguresFrom "figures_from" [Motors Gearboxes Amplifiers Resistors] [];
-    Source "source" [Motors Gearboxes Amplifiers Resistors] [];
-    ListedMotor "motor" [Compatibility] [];
-    ListedGearboxes "gearboxes" [Compatibility] [];
-    Direct "direct" [Compatibility] [];
-    ListedAmplifiers "amplifiers" [Compatibility] [];
+    Key "key" [Motors Gearboxes Amplifiers Resistors] [] "unique short name";
+    Maker "maker" [Motors Gearboxes Amplifiers Resistors] [] "maker";
+    Model "model" [Motors Gearboxes Amplifiers Resistors] [] "type designation, with which it is ordered";
+    MotorKind "kind" [Motors] [] "rotary (default) or linear";
+    RatedTorque "rated_torque" [Motors] [TORQUE] "S1 torque at rated speed";
+    RatedForce "rated_force" [Motors] [FORCE] "S1 force at rated speed";
+    RatedSpeed "rated_speed" [Motors] [ANGULAR_SPEED VELOCITY] "speed of the rated figures";
+    StandstillTorque "standstill_torque" [Motors] [TORQUE] "S1 torque at standstill, M0";
+    StandstillForce "standstill_force" [Motors] [FORCE] "S1 force at standstill";
+    PeakTorque "peak_torque" [Motors] [TORQUE] "largest short-time torque";
+    PeakForce "peak_force" [Motors] [FORCE] "largest short-time force";
+    MaxSpeed "max_speed" [Motors] [ANGULAR_SPEED VELOCITY] "largest speed";
+    MaxPower "max_power" [Motors] [POWER] "largest continuous power";
+    NoLoadSpeed "no_load_speed" [Motors] [ANGULAR_SPEED VELOCITY] "speed without load at bus_voltage";
+    RotorInertia "rotor_inertia" [Motors] [INERTIA] "inertia of the rotor without brake";
+    MovingMass "moving_mass" [Motors] [MASS] "mass of the moving part";
+    CornerSpeed "peak_corner_speed" [Motors] [ANGULAR_SPEED VELOCITY] "the peak torque is available up to this speed";
+    TorqueAtMaxSpeed "peak_torque_at_max_speed" [Motors] [TORQUE] "peak torque at the largest speed";
+    ForceAtMaxSpeed "peak_force_at_max_speed" [Motors] [FORCE] "peak force at the largest speed";
+    PeakCurve "peak_curve" [Motors] [] "points \"0 rpm: 12 N m; 6000 rpm: 4 N m\" from standstill, not rising; replaces the four peak figures";
+    ContinuousCurve "continuous_curve" [Motors] [] "S1 torque over speed, as peak_curve";
+    CoulombFriction "coulomb_friction" [Motors] [TORQUE] "friction of the shaft; 0 if not given";
+    FrictionForce "friction_force" [Motors] [FORCE] "friction of the moving part; 0 if not given";
+    ViscousFriction "viscous_friction" [Motors] [VISCOUS_MOMENT VISCOUS_FORCE] "friction that rises with the speed; 0 if not given";
+    Commutation "commutation" [Motors] [] "sine (default: three phases, RMS currents, line to line) or block (direct current)";
+    TorqueConstant "torque_constant" [Motors] [TORQUE_CONSTANT FORCE_CONSTANT] "torque per ampere RMS, k_t";
+    VoltageConstant "voltage_constant" [Motors] [VOLTAGE_CONSTANT LINEAR_VOLTAGE_CONSTANT] "voltage per speed, k_e";
+    WindingResistance "winding_resistance" [Motors] [RESISTANCE] "at 20 °C, line to line";
+    WindingInductance "winding_inductance" [Motors] [INDUCTANCE] "line to line";
+    PolePairs "pole_pairs" [Motors] [] "pairs of poles";
+    StandstillCurrent "standstill_current" [Motors] [CURRENT] "current at standstill torque";
+    NoLoadCurrent "no_load_current" [Motors] [CURRENT] "current without load at no_load_speed";
+    WindingThermalResistance "thermal_resistance_winding" [Motors] [THERMAL_RESISTANCE] "winding to housing, or to the surroundings if alone";
+    HousingThermalResistance "thermal_resistance_housing" [Motors] [THERMAL_RESISTANCE] "housing to surroundings";
+    WindingTime "thermal_time_winding" [Motors] [TIME] "thermal time constant of the winding";
+    HousingTime "thermal_time_housing" [Motors] [TIME] "thermal time constant of the housing, or the only one";
+    MaxTemperature "max_winding_temperature" [Motors] [TEMPERATURE] "largest temperature of the winding";
+    BrakeTorque "brake_torque" [Motors] [TORQUE] "static torque of the holding brake";
+    BrakeForce "brake_force" [Motors] [FORCE] "static force of the holding brake";
+    BrakeInertia "brake_inertia" [Motors] [INERTIA] "inertia that the brake adds";
+    BrakeMass "brake_mass" [Motors] [MASS] "mass that the brake adds to the moving part";
+    BrakeDynamicTorque "brake_dynamic_torque" [Motors] [TORQUE] "mean torque of the brake while it slips";
+    BrakeDynamicForce "brake_dynamic_force" [Motors] [FORCE] "mean force of the brake while it slips";
+    BrakeClosingTime "brake_closing_time" [Motors] [TIME] "time until the brake has its torque";
+    BrakeWork "brake_work" [Motors] [ENERGY] "largest work of one stop";
+    BrakeStops "brake_stops" [Motors] [] "such stops per hour";
+    BrakeOption "brake_option" [Motors] [] "yes: the motor is offered without and, as KEY-brake, with its brake";
+    BrakeOpeningTime "brake_opening_time" [Motors] [TIME] "time until the brake is open";
+    BrakePower "brake_power" [Motors] [POWER] "power that keeps the brake open";
+    MassWithBrake "mass_with_brake" [Motors] [MASS] "mass with the brake";
+    Flange "flange" [Motors Gearboxes] [LENGTH] "size of the flange between motor and gearbox";
+    Shaft "shaft_diameter" [Motors] [LENGTH] "diameter of the motor shaft";
+    TemperatureDerating "temperature_derating" [Motors Amplifiers] [] "factor of the S1 torque or of the currents, \"40 degC: 100 %; 55 degC: 80 %\", falling";
+    AltitudeDerating "altitude_derating" [Motors Amplifiers] [] "the same over the altitude, \"1000 m: 100 %; 3000 m: 80 %\"";
+    BuiltInGearbox "built_in_gearbox" [Motors] [] "key of the gearbox of a gear motor: the two fit only each other";
+    BusVoltage "bus_voltage" [Motors Amplifiers] [VOLTAGE] "nominal voltage of the DC bus, if not √2 times mains_voltage";
+    MainsVoltage "mains_voltage" [Motors Amplifiers] [VOLTAGE] "of the data sheet or its class (\"200 V class\"): figures are valid behind a rectifier on it";
+    MaxBusVoltage "max_bus_voltage" [Motors] [VOLTAGE] "largest voltage of the insulation, braking included";
+    RatedCurrent "rated_current" [Motors Amplifiers] [CURRENT] "of a motor: at rated torque; of an amplifier: continuous output";
+    PeakCurrent "peak_current" [Motors Amplifiers] [CURRENT] "of a motor: at peak torque; of an amplifier: short-time output";
+    Ratio "ratio" [Gearboxes] [] "input speed over output speed";
+    Reverses "reverses" [Gearboxes] [] "yes: the output turns against the input";
+    Stages "stages" [Gearboxes] [] "number of stages";
+    RatedOutputTorque "rated_output_torque" [Gearboxes] [TORQUE] "T2N";
+    PeakOutputTorque "peak_output_torque" [Gearboxes] [TORQUE] "acceleration torque T2B";
+    EmergencyOutputTorque "emergency_output_torque" [Gearboxes] [TORQUE] "emergency torque T2Not, a limited number of times";
+    RatedInputSpeed "rated_input_speed" [Gearboxes] [ANGULAR_SPEED] "n1N";
+    MaxInputSpeed "max_input_speed" [Gearboxes] [ANGULAR_SPEED] "largest input speed";
+    InputInertia "input_inertia" [Gearboxes] [INERTIA] "at the input; may be 0";
+    Efficiency "efficiency" [Gearboxes] [SHARE] "at full load";
+    BackDriving "back_driving" [Gearboxes] [SHARE] "share of a torque that drives back which reaches the motor: same (as the efficiency, default), friction (2 − 1/η), self-locking (0) or a share";
+    NoLoadTorque "no_load_torque" [Gearboxes] [TORQUE] "at the input; leave it out if the efficiency includes it";
+    Stiffness "stiffness" [Gearboxes] [TORSION_STIFFNESS] "torsional, at the output";
+    Backlash "backlash" [Gearboxes] [ANGLE] "at the output";
+    ShockFactors "shock_factors" [Gearboxes] [] "cycles per hour and the maker's factor, \"1000/h: 1; 2000/h: 1.25\", rising";
+    MaxMotorShaft "max_motor_shaft" [Gearboxes] [LENGTH] "largest motor shaft that the hub takes; motors with a larger one are not combined";
+    PeakTime "peak_time" [Amplifiers] [TIME] "longest time of the peak current from cold";
+    Capacitance "capacitance" [Amplifiers] [CAPACITANCE] "of the DC bus";
+    ChopperVoltage "chopper_voltage" [Amplifiers] [VOLTAGE] "the brake resistor is on";
+    MaxVoltage "max_voltage" [Amplifiers] [VOLTAGE] "largest voltage of the DC bus";
+    MinResistance "min_resistance" [Amplifiers] [RESISTANCE] "smallest external brake resistor";
+    AbsorbableEnergy "absorbable_energy" [Amplifiers] [ENERGY] "energy that the DC bus absorbs up to chopper_voltage; replaces capacitance";
+    InternalResistance "internal_resistance" [Amplifiers] [RESISTANCE] "internal brake resistor";
+    InternalPower "internal_resistor_power" [Amplifiers] [POWER] "mean power that the internal brake resistor dissipates";
+    ConstantLoss "constant_loss" [Amplifiers] [POWER] "loss without current";
+    CurrentLoss "loss_per_current" [Amplifiers] [LOSS] "loss per ampere RMS";
+    Resistance "resistance" [Resistors] [RESISTANCE] "resistance";
+    RatedPower "rated_power" [Motors Resistors] [POWER] "of a resistor: continuous; of a motor: only compared with rated torque times rated speed";
+    PeakPower "peak_power" [Resistors] [POWER] "largest short-time power";
+    PulseEnergy "pulse_energy" [Resistors] [ENERGY] "energy of a single pulse";
+    Fits "fits" [Resistors] [] "keys of the amplifiers that it is made for, separated by ; or blanks; KEY* matches all that begin so; empty: any";
+    Mass "mass" [Motors Gearboxes Amplifiers Resistors] [MASS] "without brake, if that is an option";
+    Price "price" [Motors Gearboxes Amplifiers Resistors] [] "with its currency";
+    FiguresFrom "figures_from" [Motors Gearboxes Amplifiers Resistors] [] "maker (default), or other than the maker's own document: results say so";
+    Source "source" [Motors Gearboxes Amplifiers Resistors] [] "document and page of the figures";
+    ListedMotor "motor" [Compatibility] [] "key of a motor; KEY* for all that begin so";
+    ListedGearboxes "gearboxes" [Compatibility] [] "keys of gearboxes, separated by ; or blanks; empty: none; no such column: any";
+    Direct "direct" [Compatibility] [] "no: the motor may not be coupled directly";
+    ListedAmplifiers "amplifiers" [Compatibility] [] "keys of amplifiers; empty: any that is suitable";
 }
 
 impl Column {

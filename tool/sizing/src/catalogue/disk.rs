@@ -59,7 +59,13 @@ impl Sources {
             }
         }
         if self.catalogues.is_empty() {
-            groups.push(built_in(|k| !matches!(k, Kind::Motors | Kind::Gearboxes)));
+            // The built-in amplifiers run built-in motors only.
+            let listed = self.motors.is_none();
+            groups.push(built_in(|kind| match kind {
+                Kind::Motors | Kind::Gearboxes => false,
+                Kind::Compatibility | Kind::Amplifiers => listed,
+                Kind::Resistors => true,
+            }));
         }
         for path in &self.catalogues {
             groups.push(if path.as_os_str() == "built-in" {

@@ -9,7 +9,7 @@ use super::gearbox::Gearbox;
 use super::lists::{Listing, listing};
 use super::motor::Motor;
 use super::row::{CatalogueRow, RowResult};
-use jred_file::model::supply::{MAINS, rectified};
+use jred_file::model::supply::{BrakeResistor, MAINS, rectified};
 use jred_file::number::rounding::figure;
 use jred_file::plain;
 use motor::motor;
@@ -94,6 +94,8 @@ fn gearbox(row: &CatalogueRow) -> RowResult<Gearbox> {
         stiffness: row.optional(Column::Stiffness),
         backlash: row.not_negative(Column::Backlash),
         shock_factors: row.points(Column::ShockFactors, [CellContent::Hourly, FACTOR]),
+        max_motor_shaft: row.optional(Column::MaxMotorShaft),
+        flange: row.optional(Column::Flange),
         mass: row.optional(Column::Mass),
         price: row.optional(Column::Price),
         from_maker: from_maker(row),
@@ -168,6 +170,8 @@ fn amplifier(row: &CatalogueRow) -> RowResult<Amplifier> {
         chopper_voltage: row.optional(Column::ChopperVoltage),
         max_voltage: row.optional(Column::MaxVoltage),
         min_resistance: row.optional(Column::MinResistance),
+        absorbable_energy: row.optional(Column::AbsorbableEnergy),
+        internal_resistor: internal_resistor(row),
         losses: [
             row.not_negative(Column::ConstantLoss).unwrap_or(0.0),
             row.not_negative(Column::CurrentLoss).unwrap_or(0.0),
@@ -192,6 +196,28 @@ fn amplifier(row: &CatalogueRow) -> RowResult<Amplifier> {
     row.at_least(highest, mains);
     row.checked()?;
     Ok(amplifier)
+}
+
+/// The internal brake resistor: both figures or none.
+fn internal_resistor(row: &CatalogueRow) -> Option<BrakeResistor> {
+    let [resistance, power] = [Column::InternalResistance, Column::InternalPower];
+    match (row.optional(resistance), row.optional(power)) {
+        (Some(resistance), Some(power)) => Some(BrakeResistor {
+            resistance,
+            power,
+            peak_power: None,
+            pulse_energy: None,
+        }),
+        (Some(_), None) => {
+            row.missing(power, &[]);
+            None
+        }
+        (None, Some(_)) => {
+            row.missing(resistance, &[]);
+            None
+        }
+        (None, None) => None,
+    }
 }
 
 /// The maker's derating factors at the site.
@@ -226,6 +252,8 @@ fn resistor(row: &CatalogueRow) -> RowResult<Resistor> {
         rated_power: row.positive(Column::RatedPower),
         peak_power: row.optional(Column::PeakPower),
         pulse_energy: row.optional(Column::PulseEnergy),
+        fits: row.words(Column::Fits).unwrap_or_default().to_owned(),
+        mass: row.optional(Column::Mass),
         price: row.optional(Column::Price),
         from_maker: from_maker(row),
         source: row.text(Column::Source),

@@ -10,15 +10,23 @@ use super::fault::{CatalogueError, Text};
 use super::mgdb;
 
 /// The built-in catalogue, each row with its source.
-const BUILT_IN: [(Kind, &str); 3] = [
+const BUILT_IN: [(Kind, &str); 5] = [
     (Kind::Motors, include_str!("../../catalogue/motors.csv")),
     (
         Kind::Gearboxes,
         include_str!("../../catalogue/gearboxes.csv"),
     ),
     (
+        Kind::Amplifiers,
+        include_str!("../../catalogue/amplifiers.csv"),
+    ),
+    (
         Kind::Resistors,
         include_str!("../../catalogue/resistors.csv"),
+    ),
+    (
+        Kind::Compatibility,
+        include_str!("../../catalogue/compatibility.csv"),
     ),
 ];
 

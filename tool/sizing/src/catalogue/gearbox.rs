@@ -1,6 +1,6 @@
 //! A gearbox of the catalogue.
 
-use super::broken_line;
+use super::{Motor, broken_line};
 
 /// A gearbox; SI units.
 #[derive(Clone, Debug, PartialEq)]
@@ -44,6 +44,10 @@ pub struct Gearbox {
     pub backlash: Option<f64>,
     /// Shock factors of the maker: (cycles per hour, factor), cycles rising; empty: not given.
     pub shock_factors: Vec<[f64; 2]>,
+    /// Largest diameter of the motor shaft that its hub takes (m).
+    pub max_motor_shaft: Option<f64>,
+    /// Size of the flange for the motor (m).
+    pub flange: Option<f64>,
     /// Mass (kg).
     pub mass: Option<f64>,
     /// Price, in the currency of the catalogue.
@@ -55,6 +59,14 @@ pub struct Gearbox {
 }
 
 impl Gearbox {
+    /// Whether its hub takes the shaft of a motor, as far as the data say.
+    pub fn takes(&self, motor: &Motor) -> bool {
+        match (self.max_motor_shaft, motor.shaft_diameter) {
+            (Some(most), Some(shaft)) => shaft <= most * (1.0 + 1e-9),
+            _ => true,
+        }
+    }
+
     /// Its size: the rated output torque, else the acceleration torque (N·m).
     pub fn size(&self) -> Option<f64> {
         self.rated_torque.or(self.peak_torque)
@@ -104,6 +116,8 @@ impl Default for Gearbox {
             stiffness: None,
             backlash: None,
             shock_factors: Vec::new(),
+            max_motor_shaft: None,
+            flange: None,
             mass: None,
             price: None,
             from_maker: false,

@@ -107,6 +107,11 @@ impl Loader {
             for key in listing.amplifiers.iter().flatten() {
                 partners[1].extend(found(&amplifiers, key, "amplifier"));
             }
+            for amplifier in &partners[1] {
+                if let Some(listed) = pairing.listed.get_mut(*amplifier as usize) {
+                    *listed = true;
+                }
+            }
             for motor in named {
                 let all = gathered.entry(motor).or_default();
                 for (all, these) in all.iter_mut().zip(&partners) {
@@ -152,13 +157,17 @@ fn form_of(text: &Text) -> Syntax {
     }
 }
 
+/// Keys separated by semicolons or blanks.
+pub(super) fn keys(words: &str) -> impl Iterator<Item = &str> {
+    words.split([';', ' ']).filter(|key| !key.is_empty())
+}
+
 /// A line of jred's own compatibility table.
 pub(super) fn listing(row: &CatalogueRow) -> RowResult<Listing> {
     let keys = |column| {
         let words = row.words(column).unwrap_or_default();
-        let keys = words.split([';', ' ']).filter(|key| !key.is_empty());
-        let keys: Vec<String> = keys.map(ToOwned::to_owned).collect();
-        row.given(column).then_some(keys)
+        let all = || keys(words).map(ToOwned::to_owned).collect();
+        row.given(column).then(all)
     };
     let listing = Listing {
         at: row.place(Column::ListedMotor),

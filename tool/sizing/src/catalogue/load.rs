@@ -304,6 +304,7 @@ impl Loader {
         let mut pairing = Pairing {
             motors: vec![Partners::default(); self.catalogue.motors.len()],
             lists_amplifiers: false,
+            listed: vec![false; self.catalogue.amplifiers.len()],
             built_in: vec![false; self.catalogue.gearboxes.len()],
         };
         self.pair_gear_motors(&mut pairing);
@@ -326,6 +327,8 @@ impl Loader {
             catalogue.remark_amplifiers(&mut self.remarks);
         }
         catalogue.warnings = self.remarks.into_lines();
+        catalogue.mark_amplifiers();
+        catalogue.offer_brakes();
         if catalogue.motors.is_empty() {
             let names: Vec<&str> = self.texts.iter().map(|t| t.name.as_str()).collect();
             let names = names.join(", ");

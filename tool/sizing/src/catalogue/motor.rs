@@ -17,6 +17,7 @@ pub enum Commutation {
 
 /// A servo motor; SI units. `None`: not given. For a linear motor read force (N) for torque, m/s for speed, and the mass of the moving part (kg) for
 /// the rotor's inertia.
+#[expect(clippy::struct_excessive_bools, reason = "each is a fact of its own")]
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Motor {
     /// Key, unique in the catalogue.
@@ -37,6 +38,8 @@ pub struct Motor {
     pub peak_torque: Option<f64>,
     /// Largest speed (rad/s).
     pub max_speed: Option<f64>,
+    /// Rated power as stated (W); compared with rated torque times rated speed, not used.
+    pub stated_power: Option<f64>,
     /// Largest continuous power (W).
     pub max_power: Option<f64>,
     /// Inertia of the rotor without brake (kg·m²).
@@ -61,6 +64,12 @@ pub struct Motor {
     pub derating: Derating,
     /// Its holding brake.
     pub brake: Option<Brake>,
+    /// Whether it can be ordered with a brake: the next motor of the catalogue has it.
+    pub brake_is_optional: bool,
+    /// Size of its flange (m).
+    pub flange: Option<f64>,
+    /// Diameter of its shaft (m).
+    pub shaft_diameter: Option<f64>,
     /// DC-bus voltage that the data are valid for (V).
     pub bus_voltage: Option<f64>,
     /// Mains voltage that the motor is made for (V), with its whole voltage class.
@@ -69,6 +78,8 @@ pub struct Motor {
     pub max_bus_voltage: Option<f64>,
     /// Whether a list of the catalogue names the amplifiers that run it.
     pub amplifiers_listed: bool,
+    /// Whether the catalogue has amplifiers, but none that runs it.
+    pub lacks_amplifier: bool,
     /// Mass (kg).
     pub mass: Option<f64>,
     /// Price, in the currency of the catalogue.
@@ -154,12 +165,38 @@ pub struct Brake {
     pub work: Option<f64>,
     /// Allowed number of such stops per hour.
     pub stops_per_hour: Option<f64>,
+    /// Time until it is open (s).
+    pub opening_time: Option<f64>,
+    /// Power that keeps it open (W).
+    pub power: Option<f64>,
+    /// Mass that it adds to the motor (kg).
+    pub mass: Option<f64>,
 }
 
 impl Motor {
     /// Inertia of the brake (kg·m²); zero without a brake.
     pub fn brake_inertia(&self) -> f64 {
         self.brake.map_or(0.0, |brake| brake.inertia)
+    }
+
+    /// The motor without and with a brake that is an option; otherwise the motor as it is.
+    pub(super) fn variants(self) -> Vec<Self> {
+        let Some(brake) = self.brake.filter(|_| self.brake_is_optional) else {
+            return vec![self];
+        };
+        let with = Self {
+            key: format!("{}-brake", self.key),
+            model: format!("{} with brake", self.model),
+            mass: self.mass.zip(brake.mass).map(|(mass, brake)| mass + brake),
+            price: None,
+            brake_is_optional: false,
+            ..self.clone()
+        };
+        let without = Self {
+            brake: None,
+            ..self
+        };
+        vec![without, with]
     }
 
     /// Inertia of the rotor with its brake (kg·m²).

@@ -19,6 +19,8 @@ pub struct Pairing {
     pub(super) motors: Vec<Partners>,
     /// Whether a list names amplifiers for any motor.
     pub(super) lists_amplifiers: bool,
+    /// By index of the amplifier: whether a list names it, so that it runs no other motors.
+    pub(super) listed: Vec<bool>,
     /// By index of the gearbox: whether it is part of gear motors and so used with no other motor.
     pub(super) built_in: Vec<bool>,
 }
@@ -164,8 +166,15 @@ impl<'c> Drives<'c> {
     fn advance_gearbox(&mut self) -> bool {
         let catalogue = self.catalogue;
         let built_in = |index: usize| catalogue.pairing.built_in.get(index) == Some(&true);
+        let motor = self.motor.map(|(_, motor)| motor);
+        let takes = |index: usize| {
+            let gearbox = catalogue.gearboxes.get(index);
+            gearbox
+                .zip(motor)
+                .is_none_or(|(gearbox, motor)| gearbox.takes(motor))
+        };
         let index = match &mut self.gearboxes {
-            Gearboxes::All(rest) => rest.find(|index| !built_in(*index)),
+            Gearboxes::All(rest) => rest.find(|index| !built_in(*index) && takes(*index)),
             Gearboxes::These(rest) => rest.next().map(|index| *index as usize),
         };
         self.next = 0;
@@ -226,6 +235,31 @@ impl<'c> Iterator for Drives<'c> {
 }
 
 impl Catalogue {
+    /// Marks the motors that no amplifier runs.
+    pub(super) fn mark_amplifiers(&mut self) {
+        if self.amplifiers.is_empty() {
+            return;
+        }
+        let lacks = (0..self.motors.len()).map(|index| self.amplifiers_of(index).is_empty());
+        let lacks: Vec<bool> = lacks.collect();
+        for (motor, lacks) in self.motors.iter_mut().zip(lacks) {
+            motor.lacks_amplifier = lacks;
+        }
+    }
+
+    /// Adds every motor whose brake is an option once more, with its brake and the same partners.
+    pub(super) fn offer_brakes(&mut self) {
+        let partners = std::mem::take(&mut self.pairing.motors).into_iter();
+        let mut partners = partners.map(Some).chain(std::iter::repeat_with(|| None));
+        for motor in std::mem::take(&mut self.motors) {
+            let own = partners.next().flatten().unwrap_or_default();
+            for variant in motor.variants() {
+                self.motors.push(variant);
+                self.pairing.motors.push(own.clone());
+            }
+        }
+    }
+
     /// Every possible drive, with its id.
     pub fn drives(&self) -> Drives<'_> {
         Drives::new(self, 0..self.motors.len())
@@ -253,20 +287,28 @@ impl Catalogue {
         if !any_own && self.pairing.lists_amplifiers {
             return Vec::new();
         }
-        let all = self.amplifiers.iter().filter(|a| !any_own || own(a));
-        all.filter(|a| Pairing::suits(motor, a)).collect()
+        let listed = |index: usize| self.pairing.listed.get(index) == Some(&true);
+        let all = self.amplifiers.iter().enumerate();
+        let free = all.filter(|(index, a)| !listed(*index) && (!any_own || own(a)));
+        free.map(|(_, amplifier)| amplifier)
+            .filter(|a| Pairing::suits(motor, a))
+            .collect()
     }
 
     /// Number of possible drives, computed without iterating over them.
     pub fn count(&self) -> usize {
-        let bound = self.pairing.built_in.iter().filter(|b| **b).count();
-        let free = self.gearboxes.len() - bound.min(self.gearboxes.len());
+        let built_in = |index: usize| self.pairing.built_in.get(index) == Some(&true);
+        let all = self.gearboxes.iter().enumerate();
+        let free: Vec<&Gearbox> = all
+            .filter(|(index, _)| !built_in(*index))
+            .map(|(_, gearbox)| gearbox)
+            .collect();
         let of = |(index, motor): (usize, &Motor)| {
             let partners = self.pairing.partners(index);
             let gearboxes = match partners.and_then(|p| p.gearboxes.as_deref()) {
                 Some(these) => these.len(),
                 None if motor.kind == MotorKind::Linear => 0,
-                None => free,
+                None => free.iter().filter(|gearbox| gearbox.takes(motor)).count(),
             };
             let direct = usize::from(!partners.is_some_and(|p| p.never_direct));
             (gearboxes + direct) * self.amplifiers_of(index).len().max(1)

@@ -26,6 +26,9 @@ const RUN_UP: [f64; 2] = [5e-4, 2.0];
 /// Rated torque over mass (N·m/kg).
 const TORQUE_DENSITY: [f64; 2] = [0.01, 30.0];
 
+/// Rated torque times rated speed over the stated rated power: data sheets round the power to two digits.
+const POWER: [f64; 2] = [0.93, 1.07];
+
 /// Rated speed (rad/s): 0.5 rpm and 150 000 rpm.
 const SPEED: [f64; 2] = [0.05, 15_700.0];
 
@@ -143,6 +146,18 @@ pub(super) fn motor(remarks: &mut Remarks, place: &dyn Fn() -> String, motor: &M
                 )
             });
         }
+    }
+    if let Some((stated, found)) = motor.stated_power.zip(motor.rated_power())
+        && outside(found / stated, POWER)
+    {
+        remarks.add("motors whose rated power is not torque times speed", || {
+            format!(
+                "{}: rated_power of \"{key}\" is {} W, but rated torque times rated speed is {} W: check the three and their units",
+                place(),
+                figure(stated),
+                figure(found)
+            )
+        });
     }
     winding(remarks, place, motor);
     curves(remarks, place, motor);

@@ -8,7 +8,7 @@ use jred_file::model::rule::Rule;
 use jred_file::model::rules::{RuleSet, RuleVerdict};
 use jred_file::units::Sentence;
 
-/// What is assumed about a drive.
+/// An assumption about a drive.
 #[derive(Clone, Copy, Debug)]
 pub enum Assumption {
     /// The figures of this part, which are not from its maker's own document.

@@ -12,7 +12,9 @@ pub(super) fn measure(context: &Context, findings: &mut impl Record) {
     let brake = context.drive.motor.brake;
     let falls = falls(context);
     if brake.is_some() || falls {
-        let torque = brake.map(|brake| brake.torque);
+        // A motor ordered without its optional brake has none.
+        let without = context.drive.motor.brake_is_optional.then_some(0.0);
+        let torque = brake.map(|brake| brake.torque).or(without);
         findings.set(Rule::BrakeTorque, Finding::against(braked(context), torque));
     }
     let Some(brake) = brake else { return };
@@ -34,7 +36,7 @@ fn stop(context: &Context, brake: &Brake) -> Option<BrakeStop> {
     Some(context.cycle.mechanics().run_on.worst(&closing))
 }
 
-/// What the rule of the brake's work rests on.
+/// Grounds of the rule of the brake's work.
 pub(super) fn stopped(context: &Context) -> Grounds {
     let brake = context.drive.motor.brake.unwrap_or_default();
     let Some(stop) = stop(context, &brake) else {

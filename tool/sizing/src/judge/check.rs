@@ -31,7 +31,7 @@ pub struct Check {
     pub margin: Option<f64>,
     /// Verdict.
     pub verdict: RuleVerdict,
-    /// What it rests on.
+    /// Its grounds.
     pub grounds: Grounds,
     /// Words and units of the motor.
     pub words: &'static Vocabulary,

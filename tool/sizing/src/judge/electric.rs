@@ -68,11 +68,17 @@ fn peak_current(context: &Context) -> f64 {
 /// Overload, bus and brake resistor; [`measure`] provides the largest current (A).
 pub(super) fn follow(context: &Context, peak_current: Option<f64>, findings: &mut impl Record) {
     overload(context, peak_current.unwrap_or(f64::NAN), findings);
-    let DriveBus { data, .. } = fed(context);
+    let DriveBus {
+        mut data,
+        is_internal,
+        ..
+    } = fed(context);
     if data.regenerative {
         return;
     }
-    if let (Some(resistor), Some(least)) = (data.resistor, data.min_resistance) {
+    if is_internal {
+        data.min_resistance = data.resistor.map(|own| own.resistance);
+    } else if let (Some(resistor), Some(least)) = (data.resistor, data.min_resistance) {
         findings.set(
             Rule::BrakeResistance,
             Finding::new(resistor.resistance, least),
@@ -113,7 +119,7 @@ pub(super) fn follow(context: &Context, peak_current: Option<f64>, findings: &mu
         let peak = figures.burnt_peak;
         findings.set(Rule::ResistorPower, Finding::new(mean, resistor.power));
         // A resistor that never switches on needs no pulse ratings.
-        if figures.burnt > 0.0 || resistor.peak_power.is_some() {
+        if !is_internal && (figures.burnt > 0.0 || resistor.peak_power.is_some()) {
             findings.set(
                 Rule::ResistorPeak,
                 Finding::against(peak, resistor.peak_power),
@@ -154,27 +160,34 @@ fn overload(context: &Context, peak: f64, findings: &mut impl Record) {
     findings.set(Rule::Overload, Finding::against(largest, allowed));
 }
 
-/// The bus of a drive with its brake resistor, from the machine file or chosen from the catalogue.
+/// The bus of a drive with its brake resistor: from the machine file, of the amplifier, or chosen from the catalogue.
 struct DriveBus<'a> {
     data: BusData,
     chosen: Option<&'a Resistor>,
+    /// Whether the resistor is that of the amplifier, whose resistance and peak power are the amplifier's own.
+    is_internal: bool,
     /// Requirements for a resistor, if one is needed and the file gives no resistor.
     need: Option<Need>,
 }
 
-/// The bus of a drive. If it rises too far without a brake resistor, or its capacitance is unknown, the smallest suitable resistor of the catalogue
-/// is connected to it.
+/// The bus of a drive. If the machine file gives no brake resistor, and the bus rises too far without one or its capacitance is unknown, it is that of
+/// the amplifier if that can dissipate the mean power, else the smallest suitable resistor of the catalogue.
 fn fed<'a>(context: &Context<'a>) -> DriveBus<'a> {
     let site = context.site;
     let drive = &context.drive;
-    let mut data = BusData::new(&site.supply, site.bus_voltage, drive.amplifier, drive.motor);
+    let data = BusData::new(&site.supply, site.bus_voltage, drive.amplifier, drive.motor);
     let mut fed = DriveBus {
         data,
         chosen: None,
+        is_internal: false,
         need: None,
     };
     let free = data.resistor.is_none() && !data.regenerative && data.chopper_voltage.is_some();
-    if !free || context.resistors.is_empty() || !context.cycle.regenerates(&context.coefficients) {
+    let internal = drive
+        .amplifier
+        .and_then(|amplifier| amplifier.internal_resistor);
+    let none = context.resistors.is_empty() && internal.is_none();
+    if !free || none || !context.cycle.regenerates(&context.coefficients) {
         return fed;
     }
     let curve = power(context);
@@ -182,12 +195,28 @@ fn fed<'a>(context: &Context<'a>) -> DriveBus<'a> {
         let highest = bus.run(&curve).highest;
         data.asks_for_a_resistor(highest)
     });
-    if rises {
-        fed.need = Need::of(&data, &curve);
-        fed.chosen = fed.need.and_then(|need| need.proposal(context.resistors));
-        data.resistor = fed.chosen.map(Resistor::on_bus);
-        fed.data = data;
+    if !rises {
+        return fed;
     }
+    let own = internal.filter(|own| {
+        let with = BusData {
+            resistor: Some(*own),
+            ..data
+        };
+        let run = with.bus().map(|bus| bus.run(&curve));
+        run.is_ok_and(|run| {
+            let enough = run.burnt <= own.power * curve.period();
+            enough && data.max_voltage.is_none_or(|most| run.highest <= most)
+        })
+    });
+    if own.is_some() {
+        fed.is_internal = true;
+        fed.data.resistor = own;
+        return fed;
+    }
+    fed.need = Need::of(&data, &curve);
+    fed.chosen = (fed.need).and_then(|need| need.proposal(context.resistors, drive.amplifier));
+    fed.data.resistor = fed.chosen.map(Resistor::on_bus);
     fed
 }
 
@@ -224,7 +253,7 @@ fn figures(context: &Context, data: &BusData) -> Option<BusFigures> {
     Some(data.bus().ok()?.run(&power(context)))
 }
 
-/// What a rule of amplifier, bus or resistor rests on.
+/// Grounds of a rule of amplifier, bus or resistor.
 pub(super) fn grounds(context: &Context, rule: Rule, finding: Finding) -> Grounds {
     let site = &context.site.surroundings;
     let amplifier = context.drive.amplifier;
@@ -268,7 +297,7 @@ fn of_bus(context: &Context, finding: Finding) -> Grounds {
         taken: data.resistor.is_some() || data.regenerative,
         chopper_voltage: data.chopper_voltage,
         need,
-        misses: need.and_then(|need| Some(need.misses(resistors?))),
+        misses: need.and_then(|need| Some(need.misses(resistors?, context.drive.amplifier))),
     }
 }
 

@@ -81,7 +81,7 @@ fn emergency(context: &Context, gearbox: &Gearbox) -> Option<[f64; 2]> {
         .filter(|[torque, _]| torque.is_finite())
 }
 
-/// What a rule of the gearbox rests on.
+/// Grounds of a rule of the gearbox.
 pub(super) fn grounds(context: &Context, rules: &RuleSet, rule: Rule, finding: Finding) -> Grounds {
     let Some(gearbox) = context.drive.gearbox else {
         return Grounds::None;

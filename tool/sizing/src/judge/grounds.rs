@@ -1,4 +1,4 @@
-//! What a check rests on: the data that its description needs besides rule and finding.
+//! Grounds of a check: the data that its description needs besides rule and finding.
 
 use crate::bus::Need;
 use crate::bus::need::Misses;
@@ -10,7 +10,7 @@ use jred_file::model::rules::InertiaOf;
 use jred_file::model::surroundings::Surroundings;
 use jred_file::units::Sentence;
 
-/// What a check rests on.
+/// Grounds of a check.
 #[derive(Clone, Debug)]
 pub enum Grounds {
     /// Rule and finding say all.

@@ -130,7 +130,7 @@ fn constant(context: &Context) -> f64 {
     (resisting * forth + own).max(driving * back - coulomb)
 }
 
-/// What a rule of the motor rests on.
+/// Grounds of a rule of the motor.
 pub(super) fn grounds(context: &Context, rules: &RuleSet, rule: Rule) -> Grounds {
     match rule {
         Rule::PeakTorque => {

@@ -33,7 +33,7 @@ pub(super) fn measure(context: &Context, findings: &mut impl Record) {
     }
 }
 
-/// What these rules rest on.
+/// Grounds of these rules.
 pub(super) fn grounds(context: &Context) -> Grounds {
     let site = &context.site.surroundings;
     Grounds::Site {

@@ -63,7 +63,30 @@ fn play(context: &Context) -> Option<f64> {
     Some(mechanics.tool_slope? * (gearbox / mechanics.train_ratio + train))
 }
 
-/// What the natural frequency rests on.
+impl Context<'_> {
+    /// The stiffness of a gearbox (N·m/rad) with which the natural frequency is `share` times the drive frequency, in series with the shafts;
+    /// infinite if the shafts alone are too soft.
+    pub(crate) fn stiffness_for(&self, share: f64) -> f64 {
+        let omega = TAU * share * self.cycle.mechanics().drive_frequency;
+        let both = self.cycle.inertia().max * omega * omega;
+        match self.site.shaft_stiffness {
+            None => both,
+            Some(shafts) if shafts > both => both * shafts / (shafts - both),
+            Some(_) => f64::INFINITY,
+        }
+    }
+
+    /// The backlash of a gearbox (rad) with which that at the tool is `share` of the allowed one; negative if the drive train alone has more; `None`
+    /// without a tool.
+    pub(crate) fn backlash_for(&self, share: f64) -> Option<f64> {
+        let tool = self.site.tool.as_ref()?;
+        let mechanics = self.cycle.mechanics();
+        let train = self.site.train_play.unwrap_or(0.0);
+        Some((share * tool.play / mechanics.tool_slope? - train) * mechanics.train_ratio)
+    }
+}
+
+/// Grounds of the natural frequency.
 pub(super) fn of_frequency(context: &Context) -> Grounds {
     Grounds::Stiffness {
         free: free(context),
@@ -72,7 +95,7 @@ pub(super) fn of_frequency(context: &Context) -> Grounds {
     }
 }
 
-/// What the backlash rests on.
+/// Grounds of the backlash.
 pub(super) fn of_backlash(context: &Context) -> Grounds {
     let tool = context.site.tool.as_ref();
     Grounds::Backlash {

@@ -55,7 +55,7 @@ const fn load<'a>(context: &'a Context) -> Load<'a> {
     }
 }
 
-/// What the temperatures rest on.
+/// Grounds of the temperatures.
 pub(super) fn grounds(context: &Context) -> Grounds {
     let Context {
         cycle,

@@ -12,7 +12,7 @@ pub(super) fn measure(limits: &MotorLimits, findings: &mut impl Record) {
     }
 }
 
-/// What the voltage of the motor rests on.
+/// Grounds of the voltage of the motor.
 pub(super) fn of_motor(context: &Context) -> Grounds {
     let motor = context.drive.motor;
     Grounds::Voltage {
@@ -22,7 +22,7 @@ pub(super) fn of_motor(context: &Context) -> Grounds {
     }
 }
 
-/// What the voltage of the amplifier rests on.
+/// Grounds of the voltage of the amplifier.
 pub(super) fn of_amplifier(context: &Context) -> Grounds {
     let Some(amplifier) = context.drive.amplifier else {
         return Grounds::NoAmplifier;

@@ -39,7 +39,8 @@ pub struct Unknown {
     pub price: usize,
 }
 
-fn matches(patterns: &[Pattern], text: &str) -> bool {
+/// Whether a text matches one of the patterns, in either case; without patterns any does.
+pub fn matches(patterns: &[Pattern], text: &str) -> bool {
     const EITHER_CASE: MatchOptions = MatchOptions {
         case_sensitive: false,
         require_literal_separator: false,

@@ -2,10 +2,10 @@
 
 use super::axis::Grid;
 use super::edit::Edit;
+use crate::cell::Cell;
 use crate::select::filter::Filter;
 use crate::select::rank::{Objective, rank};
 use crate::select::size::{Candidate, Selection};
-use crate::study::cell::Cell;
 use crate::study::common::{Study, sentence};
 use crate::study::header::{Header, digest};
 use crate::study::task::RowSource;

@@ -5,7 +5,6 @@
 //! stopped and continued: the file always equals that of an undisturbed run, byte for byte.
 
 pub mod axis;
-pub mod cell;
 pub mod chosen;
 pub mod common;
 mod edge;

@@ -1,7 +1,7 @@
 //! A study, row by row.
 
-use super::cell::Cell;
 use super::header::Header;
+use crate::cell::Cell;
 
 /// A study: rows that are computed one by one, in any order.
 pub trait RowSource: Sync {

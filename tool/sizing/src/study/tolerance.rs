@@ -19,8 +19,8 @@ use rand::rngs::ChaCha8Rng;
 use rand::{RngExt as _, SeedableRng as _};
 use rand_distr::{Distribution as _, StandardNormal};
 
+use crate::cell::Cell;
 use crate::judge::broken;
-use crate::study::cell::Cell;
 use crate::study::chosen::ChosenDrive;
 use crate::study::common::{PreparedMachine, Study, sentence};
 use crate::study::edit::Edit;

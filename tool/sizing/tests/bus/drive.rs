@@ -12,7 +12,7 @@ use jred_file::model::supply::{BrakeResistor, Supply};
 use jred_report::list::rule_words::note;
 use jred_sizing::bus;
 use jred_sizing::catalogue::Drive;
-use jred_sizing::catalogue::{Amplifier, Motor, Winding};
+use jred_sizing::catalogue::{Amplifier, Motor, Resistor, Winding};
 use jred_sizing::cycle::Cycle;
 use jred_sizing::cycle::form::Coefficients;
 use jred_sizing::judge::Context;
@@ -343,4 +343,94 @@ fn the_mean_power_of_a_resistor_is_its_energy_over_the_cycle() {
         "{burnt} J of {back} J"
     );
     assert!(figure(Rule::ResistorPulse) <= burnt * (1.0 + 1e-12));
+}
+
+/// Checks of the press on an amplifier with an internal resistor of this power (W), with a catalogue of one resistor.
+fn internal(power: f64, resistors: &[Resistor]) -> (Vec<Check>, Option<String>) {
+    let (cycle, motor) = (cycle(), motor());
+    let site = Site {
+        bus_voltage: Some(560.0),
+        supply: Supply {
+            given: true,
+            capacitance: None,
+            chopper_voltage: Some(780.0),
+            max_voltage: Some(820.0),
+            min_resistance: Some(25.0),
+            regenerative: false,
+            brake_resistor: None,
+        },
+        ..Site::default()
+    };
+    let amplifier = Amplifier {
+        key: "a-7".to_owned(),
+        rated_current: 100.0,
+        peak_current: 400.0,
+        absorbable_energy: Some(0.5),
+        internal_resistor: Some(BrakeResistor {
+            resistance: 40.0,
+            power,
+            peak_power: None,
+            pulse_energy: None,
+        }),
+        ..Amplifier::default()
+    };
+    let prepared = MotorLimits::new(&motor, Some(&amplifier), &site);
+    let drive = Drive {
+        motor: &motor,
+        gearbox: None,
+        amplifier: Some(&amplifier),
+    };
+    let context = Context::new(&cycle, &site, drive, &prepared).with_resistors(resistors);
+    let chosen = context.resistor().map(|resistor| resistor.key.clone());
+    (context.checks(&RuleSet::default()), chosen)
+}
+
+/// The resistor of the amplifier comes first; where its power is not sufficient, one of the catalogue that is made for the amplifier replaces it.
+#[test]
+fn the_internal_resistor_comes_first() {
+    let external = |fits: &str| Resistor {
+        key: "r".to_owned(),
+        resistance: 30.0,
+        rated_power: 1e5,
+        peak_power: Some(1e6),
+        pulse_energy: Some(1e6),
+        fits: fits.to_owned(),
+        ..Resistor::default()
+    };
+    let find = |checks: &[Check], rule| checks.iter().find(|c| c.id == rule).cloned();
+    let (checks, chosen) = internal(1e5, &[external("")]);
+    assert_eq!(chosen, None);
+    let power = find(&checks, Rule::ResistorPower).unwrap();
+    assert!(
+        power.value.unwrap() > 0.0 && power.limit == Some(1e5),
+        "{power:?}"
+    );
+    assert!(find(&checks, Rule::BrakeResistance).is_none());
+    assert!(find(&checks, Rule::ResistorPeak).is_none());
+    let mean = power.value.unwrap();
+    for (fits, expected) in [("", Some("r")), ("a-*", Some("r")), ("b-1; b-2", None)] {
+        let (checks, chosen) = internal(0.9 * mean, &[external(fits)]);
+        assert_eq!(chosen.as_deref(), expected, "{fits}");
+        let voltage = find(&checks, Rule::BusVoltage).unwrap();
+        assert_eq!(
+            voltage.verdict == RuleVerdict::Pass,
+            expected.is_some(),
+            "{voltage:?}"
+        );
+    }
+}
+
+/// The absorbable energy lifts the bus from the supply voltage exactly to the voltage of the chopper.
+#[test]
+fn absorbable_energy_is_a_capacitance() {
+    let amplifier = Amplifier {
+        absorbable_energy: Some(12.0),
+        chopper_voltage: Some(390.0),
+        ..Amplifier::default()
+    };
+    let capacitance = amplifier.bus_capacitance(Some(320.0)).unwrap();
+    let stored = 0.5 * capacitance * (390.0f64.powi(2) - 320.0f64.powi(2));
+    near("energy", stored, 12.0, budget::BUS);
+    assert_eq!(amplifier.bus_capacitance(None), None);
+    assert_eq!(amplifier.bus_capacitance(Some(400.0)), None);
 }

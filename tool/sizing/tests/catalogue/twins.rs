@@ -65,7 +65,7 @@ fn one_part_in_two_rows() {
 fn no_part_is_in_the_built_in_catalogue_twice() {
     assert_eq!(super::built_in().warnings, [""; 0]);
     let gearboxes = super::built_in().gearboxes;
-    assert_eq!(gearboxes.len(), 85);
+    assert_eq!(gearboxes.len(), 111);
     // All ratios of a series have the inertia of the same clamping hub; the smaller hub of 24 mm would give 3.8 and 3 kg cm^2.
     let inertia = |key: &str| gearboxes.iter().find(|g| g.key == key).unwrap().inertia;
     for (key, expected) in [

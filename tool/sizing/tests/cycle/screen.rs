@@ -56,12 +56,13 @@ fn plainly(
 fn doubt(drive: &Drive, found: &Outcome) -> i32 {
     let amplifier = drive.amplifier;
     let stranger = amplifier.is_some_and(|a| a.maker != drive.motor.maker);
+    let lacks = drive.motor.lacks_amplifier || found.not_checked.has(Rule::BrakeTorque);
     if found.voltage_unknown {
-        3
+        5
     } else if stranger && !drive.motor.amplifiers_listed {
-        2
+        4
     } else {
-        i32::from(!drive.from_makers())
+        2 * i32::from(lacks) + i32::from(!drive.from_makers())
     }
 }
 

@@ -49,6 +49,9 @@ const BRAKE: Brake = Brake {
     closing_time: Some(0.04),
     work: Some(400.0),
     stops_per_hour: Some(20.0),
+    opening_time: None,
+    power: None,
+    mass: None,
 };
 
 /// The lift in explicit steps: mass m with the rotor's share, falling under its weight until the brake closes, then braked; work of the brake (J),

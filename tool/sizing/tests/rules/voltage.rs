@@ -310,8 +310,8 @@ fn what_is_in_doubt_ranks_last() {
     assert_eq!(
         classes,
         [
-            (Certainty::Makers, 1, 1, "sure"),
-            (Certainty::Others, 1, 2, "other"),
+            (Certainty::MakersIncomplete, 1, 1, "sure"),
+            (Certainty::OthersIncomplete, 1, 2, "other"),
             (Certainty::Voltage, 2, 3, "unknown-other")
         ]
     );

@@ -274,7 +274,7 @@ fn what_the_catalogue_lacks_is_named() {
         .fit
         .len();
     for resistor in &mut catalogue.resistors {
-        resistor.peak_power = None;
+        resistor.rated_power = 1e-3;
     }
     let selection = Selection::new(&catalogue, &motors, &cycle, &file.site, &file.rules);
     assert!(with > 0 && selection.fit.is_empty());
@@ -294,7 +294,7 @@ fn what_the_catalogue_lacks_is_named() {
         .unwrap();
     for words in [
         "requires a brake resistor of 100 to ",
-        "none of the 3 brake resistors of the catalogue fits: 2 with too small a resistance, 3 with no data for the peak power",
+        "none of the 3 brake resistors of the catalogue fits: 2 with too small a resistance, 3 with too little continuous power",
     ] {
         assert!(
             note(check).contains(words),

@@ -139,6 +139,7 @@ fn the_nearest_of_what_a_filter_leaves() {
     let mut catalogue = catalogue();
     let pattern = catalogue.motors[0].clone();
     catalogue.gearboxes.clear();
+    catalogue.amplifiers.clear();
     catalogue.motors = (0..200)
         .map(|k| {
             let torque = 0.01 + 1e-4 * f64::from((k * 37) % 200);

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use jred_file::number::rounding::short;
+use jred_file::number::rounding::{down, short, up};
 use jred_file::number::words::counted;
 use jred_sizing::bus::analysis::BusAnalysis;
 use jred_sizing::bus::conflict::Conflict;
@@ -103,7 +103,7 @@ pub fn no_search(bus: &BusAnalysis) -> String {
     }
 }
 
-/// What to change.
+/// The change.
 pub fn cure(cure: &Cure) -> String {
     let changes: Vec<String> = cure.changes.iter().map(change).collect();
     let mut words = changes.join(", ");
@@ -133,7 +133,7 @@ pub fn cure(cure: &Cure) -> String {
             }
         }
         CureKind::Regenerative { peak, mean } => {
-            let [peak, mean] = [peak, mean].map(|power| short(rounded(power, f64::ceil)));
+            let [peak, mean] = [peak, mean].map(|power| short(up(power)));
             let _ = write!(
                 words,
                 "regenerative = true without a brake resistor: a supply that feeds back {peak} W peak, at most {mean} W mean"
@@ -146,26 +146,10 @@ pub fn cure(cure: &Cure) -> String {
 fn change(change: &Change) -> String {
     // Rounded to the safe side.
     let (word, value) = match change.bound {
-        Bound::AtLeast(value) => ("at least", rounded(value, f64::ceil)),
-        Bound::AtMost(value) => ("at most", rounded(value, f64::floor)),
+        Bound::AtLeast(value) => ("at least", up(value)),
+        Bound::AtMost(value) => ("at most", down(value)),
     };
     format!("{} {word} {} {}", change.key, short(value), change.unit)
-}
-
-/// Four digits, to one side.
-fn rounded(value: f64, towards: fn(f64) -> f64) -> f64 {
-    if value == 0.0 || !value.is_finite() {
-        return value;
-    }
-    let exponent = value.abs().log10().floor() as i32 - 3;
-    // Whole powers of ten are exact, their inverses are not.
-    if exponent > 0 {
-        let unit = 10f64.powi(exponent);
-        towards(value / unit) * unit
-    } else {
-        let unit = 10f64.powi(-exponent);
-        towards(value * unit) / unit
-    }
 }
 
 /// The brake resistor that is needed.
@@ -190,10 +174,10 @@ pub fn resistor(need: &Need) -> String {
 /// Why no resistor of the catalogue fits.
 pub fn misses(misses: &Misses) -> String {
     let reasons = [
+        (misses.other_amplifier, "another amplifier"),
         (misses.small_resistance, "too small a resistance"),
         (misses.large_resistance, "too large a resistance"),
         (misses.power, "too little continuous power"),
-        (misses.no_peak_power, "no data for the peak power"),
         (misses.peak_power, "too little peak power"),
         (misses.pulse_energy, "too little pulse energy"),
     ];

@@ -7,8 +7,8 @@ use jred_file::model::machine::MachineFile;
 use jred_file::number::rounding::{percent, short, shown, told_apart};
 use jred_motion::fastest::cycle::{Cost, FastestMove, MORE};
 use jred_motion::fastest::{Binding, Phase};
+use jred_sizing::cell::Cell;
 use jred_sizing::select::fit::input_kind;
-use jred_sizing::study::cell::Cell;
 
 use super::FastestView;
 use crate::answer::Answer;

@@ -26,7 +26,7 @@ const STEP: f64 = 1.03;
 
 /// The parts of a drive, and whether it can be ordered.
 pub(super) fn drive(answer: &mut Answer, file: &MachineFile, judged: &Assessment) {
-    parts(answer, judged);
+    parts(answer, file, judged);
     let missing = missing(file, judged);
     let order = if !judged.holds() {
         "no: it violates the limits below".to_owned()
@@ -39,7 +39,7 @@ pub(super) fn drive(answer: &mut Answer, file: &MachineFile, judged: &Assessment
 }
 
 /// Motor, gearbox, amplifier, brake and resistor.
-fn parts(answer: &mut Answer, judged: &Assessment) {
+fn parts(answer: &mut Answer, file: &MachineFile, judged: &Assessment) {
     let drive = &judged.drive;
     let named = |maker: &str, model: &str, key: &str, figures: &[String]| {
         let named = format!("{} {model}", maker.trim());
@@ -96,6 +96,9 @@ fn parts(answer: &mut Answer, judged: &Assessment) {
         of(Rule::BusVoltage),
     ) {
         (Some(r), ..) => named(&r.maker, &r.model, &marks::key(&r.key, r.from_maker), &[]),
+        (None, Some(_), _) if file.site.supply.brake_resistor.is_none() => {
+            "internal, of the amplifier".to_owned()
+        }
         (None, Some(_), _) => "that of the machine file".to_owned(),
         (None, None, Some(bus)) if bus.verdict == RuleVerdict::NotChecked => {
             let energy = judged.duty.regenerative_energy;

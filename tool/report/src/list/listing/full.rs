@@ -14,10 +14,10 @@ use jred_file::number::figures::Figures;
 use jred_file::number::rounding::{cleared, rounded, short, significant};
 use jred_file::number::words::counted;
 use jred_sizing::catalogue::Drive;
+use jred_sizing::cell::Cell;
 use jred_sizing::judge::check::Check;
 use jred_sizing::judge::{Assessment, cure};
 use jred_sizing::select::size::{Candidate, Certainty, Selection};
-use jred_sizing::study::cell::Cell;
 
 /// The supply for which motors and amplifiers are judged.
 pub(super) fn supply(site: &Site) -> String {
@@ -350,6 +350,12 @@ const fn certainty(certainty: Certainty) -> &'static str {
     match certainty {
         Certainty::Makers => "with the makers' own figures, of known voltage",
         Certainty::Others => "with figures that are not all the makers' own (*), of known voltage",
+        Certainty::MakersIncomplete => {
+            "with the makers' own figures, but without an amplifier or a brake in the catalogue"
+        }
+        Certainty::OthersIncomplete => {
+            "with figures that are not all the makers' own (*), without an amplifier or a brake in the catalogue"
+        }
         Certainty::Pairing => {
             "whose amplifier no source pairs with the motor (†), of known voltage"
         }
@@ -363,6 +369,9 @@ pub(super) const fn doubt(certainty: Certainty) -> &'static str {
         Certainty::Makers => "it is larger",
         Certainty::Others => {
             "its figures are not all the makers' own; check them against the data sheets"
+        }
+        Certainty::MakersIncomplete | Certainty::OthersIncomplete => {
+            "the catalogue has no amplifier or no brake for it"
         }
         Certainty::Pairing => "no source pairs this amplifier with this motor; ask the makers",
         Certainty::Voltage => "the catalogue does not give its voltage class; ask the makers",

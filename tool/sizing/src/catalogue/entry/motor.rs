@@ -101,6 +101,7 @@ pub(super) fn motor(row: &mut CatalogueRow) -> RowResult<(Motor, Option<String>)
         standstill_torque: row.optional(own.standstill),
         peak_torque: row.optional(own.peak),
         max_speed: row.optional(Column::MaxSpeed),
+        stated_power: row.optional(Column::RatedPower),
         max_power: row.optional(Column::MaxPower),
         rotor_inertia: row.positive(own.inertia),
         corner_speed: row.optional(Column::CornerSpeed),
@@ -122,10 +123,14 @@ pub(super) fn motor(row: &mut CatalogueRow) -> RowResult<(Motor, Option<String>)
         },
         derating: derating(row),
         brake: brake(row, &own),
+        brake_is_optional: row.yes_or_no(Column::BrakeOption).unwrap_or(false),
+        flange: row.optional(Column::Flange),
+        shaft_diameter: row.optional(Column::Shaft),
         bus_voltage: row.optional(Column::BusVoltage),
         mains_voltage: mains_voltage(row),
         max_bus_voltage: row.optional(Column::MaxBusVoltage),
         amplifiers_listed: false,
+        lacks_amplifier: false,
         mass: row.optional(Column::Mass),
         price: row.optional(Column::Price),
         from_maker: from_maker(row),
@@ -225,16 +230,29 @@ fn winding(row: &CatalogueRow) -> Winding {
 fn brake(row: &CatalogueRow, own: &Efforts) -> Option<Brake> {
     let inertia = row.not_negative(own.brake_inertia);
     let dynamic_torque = row.optional(own.brake_dynamic);
-    let [closing_time, work, stops_per_hour] = [
+    let columns = [
         Column::BrakeClosingTime,
         Column::BrakeWork,
         Column::BrakeStops,
-    ]
-    .map(|column| row.optional(column));
-    let data = [inertia, dynamic_torque, closing_time, work, stops_per_hour];
-    if data.iter().any(Option::is_some) && row.words(own.brake).is_none() {
+        Column::BrakeOpeningTime,
+        Column::BrakePower,
+        Column::MassWithBrake,
+    ];
+    let figures = columns.map(|column| row.optional(column));
+    let [
+        closing_time,
+        work,
+        stops_per_hour,
+        opening_time,
+        power,
+        whole,
+    ] = figures;
+    let mut given = [inertia, dynamic_torque].into_iter().chain(figures);
+    if given.any(|figure| figure.is_some()) && row.words(own.brake).is_none() {
         row.missing(own.brake, &[]);
     }
+    let mass = row.optional(Column::Mass);
+    row.at_least((Column::MassWithBrake, whole), (Column::Mass, mass));
     Some(Brake {
         torque: row.optional(own.brake)?,
         inertia: inertia.unwrap_or(0.0),
@@ -242,5 +260,8 @@ fn brake(row: &CatalogueRow, own: &Efforts) -> Option<Brake> {
         closing_time,
         work,
         stops_per_hour,
+        opening_time,
+        power,
+        mass: whole.zip(mass).map(|(whole, mass)| whole - mass),
     })
 }

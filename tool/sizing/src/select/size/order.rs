@@ -5,6 +5,7 @@ use std::cmp::Ordering;
 use super::Candidate;
 use crate::catalogue::{Drive, DriveId};
 use crate::judge::Outcome;
+use jred_file::model::rule::Rule;
 
 jred_file::words! {
     /// How certain it is that a drive that violates no rule can be bought as it is. The more certain drives come first in any ranking.
@@ -14,6 +15,10 @@ jred_file::words! {
         Makers = "makers-figures",
         /// The voltage is stated, but not all figures are from the makers' own documents.
         Others = "other-figures",
+        /// The makers' own figures, but the catalogue gives no amplifier for this motor, only for others, or no holding brake that the machine needs.
+        MakersIncomplete = "makers-figures-incomplete",
+        /// The same with figures that are not all from the makers' own documents.
+        OthersIncomplete = "other-figures-incomplete",
         /// Nobody states that the amplifier runs the motor, which is of another maker.
         Pairing = "pairing-unknown",
         /// Nobody states what voltage the motor or the amplifier is made for.
@@ -23,18 +28,29 @@ jred_file::words! {
 
 impl Certainty {
     /// All, the most certain first.
-    pub const ALL: [Self; 4] = [Self::Makers, Self::Others, Self::Pairing, Self::Voltage];
+    pub const ALL: [Self; 6] = [
+        Self::Makers,
+        Self::Others,
+        Self::MakersIncomplete,
+        Self::OthersIncomplete,
+        Self::Pairing,
+        Self::Voltage,
+    ];
 
     /// The certainty of a drive with this outcome.
     pub fn of(drive: &Drive, outcome: &Outcome) -> Self {
+        let incomplete = drive.motor.lacks_amplifier || outcome.not_checked.has(Rule::BrakeTorque);
         if outcome.voltage_unknown {
-            Self::Voltage
-        } else if !drive.is_paired() {
-            Self::Pairing
-        } else if drive.from_makers() {
-            Self::Makers
-        } else {
-            Self::Others
+            return Self::Voltage;
+        }
+        if !drive.is_paired() {
+            return Self::Pairing;
+        }
+        match (drive.from_makers(), incomplete) {
+            (true, false) => Self::Makers,
+            (false, false) => Self::Others,
+            (true, true) => Self::MakersIncomplete,
+            (false, true) => Self::OthersIncomplete,
         }
     }
 }

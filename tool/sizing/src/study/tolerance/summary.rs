@@ -1,7 +1,7 @@
 //! Summary of a Monte Carlo study.
 
 use super::ToleranceVerdict;
-use crate::study::cell::Cell;
+use crate::cell::Cell;
 use jred_file::number::words::Word as _;
 
 /// Two-sided 95 % of the normal distribution.

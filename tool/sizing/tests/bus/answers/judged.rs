@@ -250,7 +250,6 @@ fn the_smallest_resistor_that_is_enough_is_proposed() {
         &|r| r.resistance = 1.001 * need.largest_resistance,
         &|r| r.rated_power *= 0.999,
         &|r| r.peak_power = Some(0.999 * need.peak),
-        &|r| r.peak_power = None,
         &|r| r.pulse_energy = Some(0.999 * need.pulse),
     ]
     .iter()
@@ -258,8 +257,14 @@ fn the_smallest_resistor_that_is_enough_is_proposed() {
     {
         assert!(!need.is_met(&other("", change)), "{k}");
     }
-    // A missing figure of the pulse does not exclude it.
+    // A missing figure does not exclude it; one with a peak power comes first.
     assert!(need.is_met(&other("", &|r| r.pulse_energy = None)));
+    let unknown = other("unknown", &|r| r.peak_power = None);
+    assert!(need.is_met(&unknown));
+    let pair = [unknown, other("larger", &|r| r.rated_power *= 2.0)];
+    let first = |list: &[Resistor]| need.proposal(list, None).map(|r| r.key.clone());
+    assert_eq!(first(&pair).as_deref(), Some("larger"));
+    assert_eq!(first(&pair[..1]).as_deref(), Some("unknown"));
     let list = [
         other("small but third-party", &|r| r.from_maker = false),
         other("larger", &|r| r.rated_power *= 2.0),
@@ -267,7 +272,7 @@ fn the_smallest_resistor_that_is_enough_is_proposed() {
         other("cheap", &|r| r.price = Some(80.0)),
         other("weak", &|r| r.rated_power *= 0.5),
     ];
-    let proposed = |list: &[Resistor]| need.proposal(list).map(|r| r.key.clone());
+    let proposed = |list: &[Resistor]| need.proposal(list, None).map(|r| r.key.clone());
     assert_eq!(proposed(&list).as_deref(), Some("cheap"));
     assert_eq!(proposed(&list[..2]).as_deref(), Some("larger"));
     assert_eq!(
