@@ -39,7 +39,7 @@ fn refuses(motors: &str, place: Option<(usize, usize)>, words: &[&str]) {
 fn nothing_in_the_file() {
     refuses("", None, &["is empty", "motors", "docs/catalogue.md"]);
     refuses("\n\n", None, &["is empty", "motors"]);
-    refuses(HEADER, None, &["is empty", "motors", "at least one row"]);
+    refuses(HEADER, None, &["is empty", "motors", "add a row"]);
     refuses(&format!("{HEADER}\n# nothing yet\n"), None, &["is empty"]);
 }
 

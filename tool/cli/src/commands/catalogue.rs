@@ -5,14 +5,13 @@ use std::fs;
 use miette::{Result, miette};
 
 use crate::commands::{Completion, print_answer};
-use crate::options::catalogue::CatalogueFiles;
 use crate::options::parts::{self, Table};
 use crate::output;
 use crate::terminal;
 use jred_file::plain;
 use jred_file::units::closest;
 use jred_report::list::catalogue::{checked, empty, list, part};
-use jred_sizing::catalogue::{Catalogue, Parts};
+use jred_sizing::catalogue::{Catalogue, Parts, Sources};
 use jred_sizing::select::filter::matches;
 
 /// Runs `jred catalogue`.
@@ -42,11 +41,12 @@ pub(super) fn run(options: &parts::Catalogue) -> Result<Completion> {
             print_answer(&answer, options.format.into())
         }
         parts::Catalogue::Check(options) => {
-            let files = CatalogueFiles {
-                catalogue: options.catalogue.clone(),
-                ..CatalogueFiles::default()
-            };
-            let catalogue = files.open()?;
+            // Its warnings are part of the answer.
+            let catalogue = Catalogue::open(&Sources {
+                catalogues: options.catalogue.clone(),
+                skip_broken_rows: options.skip_broken_rows,
+                ..Sources::default()
+            })?;
             print_answer(&checked(&catalogue), options.format.into())?;
             Ok(if catalogue.warnings.is_empty() {
                 Completion::Holds

@@ -9,20 +9,17 @@ use crate::commands::{Completion, print_answer, read_warned};
 use crate::options::require::Require;
 use crate::output;
 use jred_analysis::duty::Duty;
+use jred_file::model::variator;
 use jred_file::plain;
 use jred_file::read;
 use jred_file::units::RPM;
-use jred_report::list::require::RequirementView;
+use jred_report::list::require::{RequirementView, USUAL_SPEED};
 use jred_report::page;
 use jred_sizing::catalogue::MotorKind;
 use jred_sizing::cycle::Cycle;
 use jred_sizing::select::fit::input_kind;
 use jred_sizing::select::ratio::Gear;
 use jred_sizing::select::requirement::{Inquiry, Requirement};
-use jred_sizing::study::common::sizeable;
-
-/// Largest speed of a motor for the usual ratios if none is given (rad/s).
-const MAX_SPEED: f64 = 6000.0 * RPM;
 
 /// Runs `jred require`.
 ///
@@ -33,7 +30,7 @@ pub(super) fn run(options: &Require) -> Result<Completion> {
     if let Some(set) = &options.rules {
         file.rules = read::rules_based_on(&file.rules, read::rule_set(set, Path::new(""))?)?;
     }
-    sizeable(&file)?;
+    variator::refuse(&file, "require")?;
     output::check([("--report", &options.report)])?;
     let motion = file.required_motion()?;
     let duty =
@@ -47,6 +44,12 @@ pub(super) fn run(options: &Require) -> Result<Completion> {
         },
         allowance: options.allowance,
     };
+    if inquiry.derating() <= 0.0 {
+        return Err(miette!(
+            help = "correct [surroundings]",
+            "no motor has any S1 torque left in the surroundings of this machine"
+        ));
+    }
     let ratios = ratios(options, &inquiry)?;
     let requirements: Vec<Requirement> = ratios
         .into_iter()
@@ -65,7 +68,7 @@ pub(super) fn run(options: &Require) -> Result<Completion> {
         ));
     }
     print_answer(&answer, options.format)?;
-    Ok(if requirements.iter().any(Requirement::is_possible) {
+    Ok(if requirements.iter().any(|found| found.possible) {
         Completion::Holds
     } else {
         Completion::Violated
@@ -84,8 +87,8 @@ fn ratios(options: &Require, inquiry: &Inquiry) -> Result<Vec<Option<f64>>> {
         }
         return Ok(list.0.clone());
     }
-    let most = options.max_speed.unwrap_or(MAX_SPEED);
-    let mut ratios = inquiry.usual_ratios(most, options.within);
+    let most = options.max_speed.unwrap_or(USUAL_SPEED);
+    let ratios = inquiry.usual_ratios(most, options.within);
     if ratios.is_empty() {
         let [from, to] = options.within.unwrap_or([1.0, 100.0]);
         return Err(miette!(
@@ -95,6 +98,5 @@ fn ratios(options: &Require, inquiry: &Inquiry) -> Result<Vec<Option<f64>>> {
             inquiry.cycle.peak_speed() / RPM
         ));
     }
-    ratios.dedup();
     Ok(ratios)
 }

@@ -81,6 +81,9 @@ pub struct Check {
     /// Folders or files; "built-in" is the built-in catalogue.
     #[arg(required = true, value_name = "DIR|FILE")]
     pub catalogue: Vec<PathBuf>,
+    /// Skip rows that cannot be used, and report their number.
+    #[arg(long)]
+    pub skip_broken_rows: bool,
     /// Output format.
     #[arg(long, value_parser = word::<AnswerFormat>(), default_value_t)]
     pub format: AnswerFormat,

@@ -19,7 +19,7 @@ pub struct Require {
     /// Machine file, with a `[motion]`.
     pub file: PathBuf,
     /// Gear ratios, e.g. "7, 10, 25"; 1 is direct coupling. If not given: the usual ratios of planetary gearboxes in the range of --within.
-    #[arg(long, value_name = "RATIOS", value_parser = ratios)]
+    #[arg(long, value_name = "RATIOS", allow_hyphen_values = true, value_parser = ratios)]
     pub ratios: Option<RatioList>,
     /// Only the usual ratios in this range, e.g. "3..10"; a direct drive has 1.
     #[arg(long, value_name = "FROM..TO", value_parser = ratio, conflicts_with = "ratios")]
@@ -76,7 +76,13 @@ fn ratios(text: &str) -> Result<RatioList, String> {
             _ => Ok(Some(ratio)),
         }
     };
-    let list = text.split(',').map(one).collect::<Result<Vec<_>, _>>()?;
+    let mut list: Vec<Option<f64>> = Vec::new();
+    for ratio in text.split(',').map(one) {
+        let ratio = ratio?;
+        if !list.contains(&ratio) {
+            list.push(ratio);
+        }
+    }
     if list.len() > MOST {
         return Err(format!("{} ratios; at most {MOST} are listed", list.len()));
     }
@@ -92,9 +98,12 @@ fn allowance(text: &str) -> Result<f64, String> {
         .parse()
         .map_err(|_| "write a share or a percentage, such as 0.2 or 20%")?;
     let share = share * scale;
-    if (0.0..=10.0).contains(&share) {
+    if (0.01..=10.0).contains(&share) {
         Ok(share)
     } else {
-        Err("it must be between 0 and 1000 %".to_owned())
+        let percent = 100.0 * share;
+        Err(format!(
+            "that is {percent} %; it must be between 1 and 1000 %: write 20% or 0.2"
+        ))
     }
 }

@@ -121,6 +121,7 @@ pub fn list(
         ..Reading::default()
     };
     let shown = match rows.len() {
+        0 => format!("no {} of {all} match", parts.name()),
         n if n == all => format!("{n} {}", parts.name()),
         n => format!("{n} of {all} {}", parts.name()),
     };
@@ -163,10 +164,15 @@ pub fn part(catalogue: &Catalogue, key: &str) -> Option<Answer<'static>> {
     for parts in Parts::ALL {
         for linear in [false, true] {
             let rows = parts.rows(catalogue, linear);
+            let is_it = |cell: Option<&Cell>| {
+                let text = cell.and_then(Cell::text);
+                text.is_some_and(|text| text.eq_ignore_ascii_case(key))
+            };
             let found = rows
                 .into_iter()
-                .find(|row| row.first().and_then(Cell::text) == Some(key));
+                .find(|row| is_it(row.first()) || is_it(row.get(2)));
             if let Some(row) = found {
+                let key = row.first().and_then(Cell::text).unwrap_or(key);
                 return Some(of_part(catalogue, parts, linear, key, &row));
             }
         }
@@ -260,8 +266,10 @@ impl Data for CheckedData {
 
 /// The judgement of a catalogue that could be read: probable errors and gaps.
 pub fn checked(catalogue: &Catalogue) -> Answer<'static> {
-    let motors = catalogue.motors.iter();
-    let motors = motors.filter(|motor| !motor.key.ends_with("-brake") || motor.brake.is_none());
+    let motors = catalogue
+        .motors
+        .iter()
+        .filter(|motor| !motor.brake_is_optional);
     let linear = catalogue
         .motors
         .iter()
@@ -295,7 +303,10 @@ pub fn checked(catalogue: &Catalogue) -> Answer<'static> {
             counted(data.motors, "motor", "motors")
         ),
     );
-    answer.fact("drives", format!("{} combinations", data.drives));
+    answer.fact(
+        "drives",
+        counted(data.drives, "combination", "combinations"),
+    );
     for warning in &catalogue.warnings {
         answer.warning(warning.clone());
     }

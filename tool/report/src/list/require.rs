@@ -18,6 +18,9 @@ use jred_sizing::select::requirement::{GearboxRequirement, Inquiry, Requirement,
 /// One minute of arc (rad).
 const ARCMIN: f64 = std::f64::consts::PI / (180.0 * 60.0);
 
+/// Largest speed of usual motors (rad/s).
+pub const USUAL_SPEED: f64 = 6000.0 * RPM;
+
 /// Rotors of the boundary of a ratio, in equal ratios.
 const ROTORS: u32 = 9;
 
@@ -65,9 +68,11 @@ impl RequirementView<'_> {
         input_kind(self.inquiry.file).vocabulary()
     }
 
-    /// The ratio with the smallest motor: the least S1 torque among those that are possible.
+    /// The ratio with the smallest motor: the least S1 torque among those that are possible with a usual speed.
     pub(crate) fn described(&self) -> Option<&Requirement> {
-        let possible = self.requirements.iter().filter(|r| r.is_possible());
+        let slow = |r: &&Requirement| r.max_speed <= USUAL_SPEED * (1.0 + 1e-9);
+        let any_slow = self.requirements.iter().any(|r| slow(&r) && r.possible);
+        let possible = (self.requirements.iter()).filter(|r| r.possible && (slow(r) || !any_slow));
         let best = possible.min_by(|a, b| a.s1_torque.total_cmp(&b.s1_torque));
         best.or(self.requirements.first())
     }
@@ -83,7 +88,7 @@ impl RequirementView<'_> {
             .unwrap_or_default()
     }
 
-    /// The least torques over the rotor: from half the window's start to twice its end.
+    /// The least torques over the rotor: from the window's start to twice its end.
     pub(crate) fn boundary(&self, found: &Requirement) -> Vec<TorqueNeed> {
         let [from, to] = found.rotor;
         let (low, high) = match (from > 0.0, to.is_finite()) {
@@ -92,6 +97,9 @@ impl RequirementView<'_> {
             (false, true) => (0.05 * to, 2.0 * to),
             (false, false) => return Vec::new(),
         };
+        if !(low > 0.0 && high > low) {
+            return Vec::new();
+        }
         let step = |k: u32| low * (high / low).powf(f64::from(k) / f64::from(ROTORS - 1));
         let mut rotors: Vec<f64> = (0..ROTORS).map(step).collect();
         rotors.extend(
@@ -141,6 +149,12 @@ impl RequirementView<'_> {
         if let Some(found) = described {
             answer.heading(format!("{}, in full", name(found.ratio)));
             self.motor(&mut answer, found);
+            if !found.possible {
+                answer.warning(
+                    "shafts and drive train alone are too soft for the natural frequency, or have more backlash than the tool may have: \
+                     no motor or gearbox helps; change [stiffness] or the play of the tool",
+                );
+            }
             self.gearbox(&mut answer, found);
             self.electric(&mut answer, found);
         }
@@ -169,8 +183,8 @@ impl RequirementView<'_> {
                     .ratio
                     .map_or_else(|| "direct".to_owned(), short)
                     .into(),
-                significant(found.max_speed / speed.scale, 4).into(),
-                significant(found.mean_speed / speed.scale, 4).into(),
+                short(up(found.max_speed / speed.scale)).into(),
+                short(up(found.mean_speed / speed.scale)).into(),
                 window(found.rotor.map(|end| end / inertia.scale)).into(),
                 short(up(found.s1_torque)).into(),
                 short(up(found.peak_torque)).into(),
@@ -201,7 +215,10 @@ impl RequirementView<'_> {
         let words = self.words();
         let (torque, inertia) = (&words.torque, &words.inertia);
         let effort = |x: f64| format!("{} {}", short(up(x)), torque.unit);
-        let turns = |x: f64| words.speed(x);
+        let turns = |x: f64| {
+            let unit = words.speed.unit;
+            format!("{} {unit}", short(up(x / words.speed.scale)))
+        };
         answer.fact(
             "motor",
             format!(
@@ -224,10 +241,15 @@ impl RequirementView<'_> {
             format!("{} ({})", points.join(", "), torque.unit),
         );
         answer.fact("maximum speed", turns(found.max_speed));
+        let brake = if found.brake_torque.is_some() {
+            " with brake"
+        } else {
+            ""
+        };
         answer.fact(
             words.rotor,
             format!(
-                "{} {} with brake",
+                "{} {}{brake}",
                 window(found.rotor.map(|end| end / inertia.scale)),
                 inertia.unit
             ),
@@ -259,12 +281,17 @@ impl RequirementView<'_> {
             backlash,
         } = *gearbox;
         let efficiency = percent(self.inquiry.gear.efficiency);
+        let cycles = if cycles > 0.0 {
+            format!(" at {} cycles per hour", short(cycles))
+        } else {
+            String::new()
+        };
         answer.fact(
             "gearbox",
             format!(
-                "T2B {} N m at {} cycles per hour, T2N {} N m, n1N {} rpm, at most {} rpm; computed with {efficiency} efficiency and {} kg cm^2",
+                "T2B at least {} N m{cycles}, T2N at least {} N m, rated input speed n1N at least {} rpm, maximum input speed at least {} rpm; \
+                 computed with {efficiency} efficiency and {} kg cm^2",
                 short(up(peak_torque)),
-                short(cycles),
                 short(up(rated_torque)),
                 short(up(rated_speed / RPM)),
                 short(up(max_speed / RPM)),
@@ -272,30 +299,30 @@ impl RequirementView<'_> {
             ),
         );
         if let Some(torque) = emergency_torque {
-            answer.fact(
-                "emergency torque",
+            answer.fact("emergency torque", {
+                // That of the rounded peak torque.
+                let most = up(found.peak_torque);
+                let torque = torque * most / found.peak_torque;
                 format!(
-                    "{} N m, if the motor brakes with {} N m; more with a stronger motor",
+                    "at least {} N m, if the motor brakes with {} N m; more with a stronger motor",
                     short(up(torque)),
-                    short(up(found.peak_torque))
-                ),
-            );
+                    short(most)
+                )
+            });
         }
         match stiffness {
             Some(stiffness) if stiffness.is_finite() => answer.fact(
                 "stiffness",
                 format!("at least {} N m/arcmin", short(up(stiffness * ARCMIN))),
             ),
-            Some(_) => answer.warning(
-                "the shafts of the drive train alone are too soft for the natural frequency: no gearbox helps; change [stiffness]",
-            ),
-            None => {}
+            Some(_) | None => {}
         }
         match backlash {
-            Some(play) if play < 0.0 => answer.warning(
-                "the drive train alone has more backlash than the tool may have: no gearbox helps; change [stiffness] or the tool's play",
+            Some(play) if play < 0.0 => {}
+            Some(play) => answer.fact(
+                "backlash",
+                format!("at most {} arcmin", short(down(play / ARCMIN))),
             ),
-            Some(play) => answer.fact("backlash", format!("at most {} arcmin", short(down(play / ARCMIN)))),
             None => {}
         }
     }
@@ -335,24 +362,32 @@ impl RequirementView<'_> {
         let Inquiry {
             file, allowance, ..
         } = *self.inquiry;
+        for rule in self.inquiry.beyond_site() {
+            answer.warning(format!(
+                "{} of the site: beyond the general derating; ask for motors whose makers state their torque there",
+                rule.name()
+            ));
+        }
         answer.sentence(format!(
             "A motor with these figures and a {rotor} in the window satisfies every rule of the set \"{}\" that needs no data of its winding. \
              The window belongs to an S1 {torque} {} above the least possible; figures are rounded to the safe side.",
             file.rules.name,
             percent(allowance)
         ));
+        let symbol = if words.slides() { "m" } else { "J" };
         let square = |found: &Requirement| -> String {
             let [constant, linear, square] = found.mean_square;
+            let sign = if linear < 0.0 { '−' } else { '+' };
             format!(
-                "RMS {torque}² = {} + {}·J + {}·J²",
+                "RMS {torque}² = {} {sign} {}·{symbol} + {}·{symbol}²",
                 significant(constant, 5),
-                significant(linear, 5),
+                significant(linear.abs(), 5),
                 significant(square, 5)
             )
         };
         if let Some(found) = self.described() {
             answer.sentence(format!(
-                "Any other {rotor}: {} ({torque} in {}, J its {inertia} in {}).",
+                "Any other {rotor}: {} ({torque} in {}, {symbol} its {inertia} in {}).",
                 square(found),
                 torque.unit,
                 if words.slides() { "kg" } else { "kg m²" }
@@ -433,6 +468,7 @@ fn resistor(need: &Need) -> String {
 /// A range, its start rounded up and its end down.
 fn window([from, to]: [f64; 2]) -> String {
     match (from > 0.0, to.is_finite()) {
+        (true, true) if up(from) >= down(to) => format!("about {}", short(from)),
         (true, true) => format!("{} to {}", short(up(from)), short(down(to))),
         (true, false) => format!("at least {}", short(up(from))),
         (false, true) => format!("at most {}", short(down(to))),

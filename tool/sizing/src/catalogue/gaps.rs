@@ -274,7 +274,10 @@ impl Catalogue {
     /// The figures that entries lack, table by table.
     pub fn gaps(&self) -> Vec<Gap> {
         let mut found = Vec::new();
-        gaps("motors", &self.motors, MOTORS, &mut found);
+        // Of a motor with an optional brake, that with the brake.
+        let motors = self.motors.iter().filter(|motor| !motor.brake_is_optional);
+        let motors: Vec<Motor> = motors.cloned().collect();
+        gaps("motors", &motors, MOTORS, &mut found);
         gaps("gearboxes", &self.gearboxes, GEARBOXES, &mut found);
         gaps("amplifiers", &self.amplifiers, AMPLIFIERS, &mut found);
         gaps("resistors", &self.resistors, RESISTORS, &mut found);

@@ -129,7 +129,10 @@ impl Loader {
             let Some(known) = pairing.motors.get_mut(motor as usize) else {
                 continue;
             };
-            for list in &mut all {
+            // Rows of other catalogues' lists add up, too.
+            let earlier = [&known.gearboxes, &known.amplifiers];
+            for (list, earlier) in all.iter_mut().zip(earlier) {
+                list.extend(earlier.iter().flat_map(|known| known.iter().copied()));
                 list.sort_unstable();
                 list.dedup();
             }

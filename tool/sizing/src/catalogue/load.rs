@@ -114,7 +114,7 @@ impl Loader {
                 let (what, cure) = match format {
                     FileFormat::Csv(kind) | FileFormat::Database(kind) => (
                         kind.plural(),
-                        "add at least one row below the header; docs/catalogue.md shows the columns",
+                        "add a row, or delete the file; docs/catalogue.md shows the columns",
                     ),
                     FileFormat::Toml => (
                         "tables",
@@ -236,6 +236,17 @@ impl Loader {
         };
         if entry.has_price() {
             self.price(row, text);
+        }
+        if let Entry::Motor(motor, _) = &entry
+            && motor.brake_is_optional
+            && motor.brake.is_some()
+        {
+            // The key of the order with brake.
+            let key = format!("{}-brake", motor.key);
+            let clash = self.claim(row.kind, &key, index, row.place(Column::Key));
+            if let Some(clash) = clash {
+                return Err(vec![clash]);
+            }
         }
         if let Entry::Motor(_, Some(gearbox)) = &entry {
             let motor = self.catalogue.motors.len() as u32;

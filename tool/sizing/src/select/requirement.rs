@@ -18,7 +18,7 @@ mod regeneration;
 
 use serde::Serialize;
 
-use crate::catalogue::{Brake, Drive, Gearbox, Motor, MotorKind};
+use crate::catalogue::{Amplifier, Brake, Drive, Gearbox, Motor, MotorKind};
 use crate::cycle::Cycle;
 use crate::cycle::form::{Coefficients, MotorDuty};
 use crate::judge::{Context, Findings};
@@ -27,6 +27,7 @@ use crate::select::fit::input_kind;
 use crate::select::ratio::Gear;
 use jred_file::model::machine::MachineFile;
 use jred_file::model::rule::Rule;
+use jred_file::model::rules::RuleVerdict;
 
 pub use gearbox::GearboxRequirement;
 pub use regeneration::Regeneration;
@@ -68,9 +69,12 @@ pub struct Requirement {
     /// S1 torque at the mean speed, in the surroundings of the data sheet.
     #[serde(rename = "S1 torque [N m]")]
     pub s1_torque: f64,
-    /// S1 torque at standstill, for the loads that last.
+    /// S1 torque at standstill: for the loads that last, and not below that at the mean speed.
     #[serde(rename = "standstill torque [N m]")]
     pub standstill_torque: f64,
+    /// The part of it for the loads that last at rest.
+    #[serde(rename = "lasting torque at rest [N m]")]
+    pub held_torque: f64,
     /// Mean speed, at which the S1 torque is required.
     #[serde(rename = "mean speed [rad/s]")]
     pub mean_speed: f64,
@@ -86,11 +90,14 @@ pub struct Requirement {
     /// Torque of the holding brake; `None`: the machine stays where it is without current.
     #[serde(rename = "brake torque [N m]")]
     pub brake_torque: Option<f64>,
-    /// Continuous and peak current of the amplifier, times the torque constant of the motor.
+    /// Continuous and peak current of the amplifier, times the torque constant of the motor, as its data sheet
+    /// states them.
     #[serde(rename = "continuous and peak current times torque constant [N m]")]
     pub currents: [f64; 2],
     /// Energy that flows back.
     pub regeneration: Regeneration,
+    /// Whether shafts and drive train alone satisfy the rules of natural frequency and backlash, so that a gearbox can.
+    pub possible: bool,
     /// The gearbox; `None`: coupled directly.
     pub gearbox: Option<GearboxRequirement>,
     /// Mean square of the motor torque as a polynomial of the rotor's inertia: constant, linear, square.
@@ -213,10 +220,14 @@ impl Inquiry<'_> {
         [load * load, linear, square]
     }
 
-    /// Share of the RMS torque that a data sheet's S1 torque must have: the limit of the rule, and the factor of the site.
+    /// Factor of the S1 torque at the site, of a motor without derating data of its maker.
+    pub fn derating(&self) -> f64 {
+        self.motor(1.0).derated(&self.file.site.surroundings).factor
+    }
+
+    /// Share of a data sheet's S1 torque that the RMS torque may be: the limit of the rule, and the factor of the site.
     fn s1_share(&self) -> f64 {
-        let factor = self.motor(1.0).derated(&self.file.site.surroundings).factor;
-        self.share(Rule::RmsTorque) * factor
+        self.share(Rule::RmsTorque) * self.derating()
     }
 
     /// The required torques of a motor with a rotor at a ratio.
@@ -264,48 +275,93 @@ impl Inquiry<'_> {
         } else {
             [smallest, f64::INFINITY]
         };
-        let held = self.findings(ratio, &self.motor(1.0));
-        let factor = self.s1_share() / self.share(Rule::RmsTorque);
-        let standstill_torque = self
-            .required(&held, Rule::HoldingTorque)
-            .max(self.required(&held, Rule::ConstantTorque))
-            / factor;
         let s1_torque = allowed / self.s1_share();
+        let held = self.findings(ratio, &self.motor(1.0));
+        let factor = self.derating();
+        let lasting = [Rule::HoldingTorque, Rule::ConstantTorque].map(|rule| {
+            let is_set = self.file.rules.limit(rule).is_set();
+            if is_set {
+                self.required(&held, rule)
+            } else {
+                0.0
+            }
+        });
+        let held_torque = lasting[0].max(lasting[1]) / factor;
+        // The winding is judged by the S1 torque at standstill, and no motor has less there than at speed.
+        let standstill_torque = held_torque.max(s1_torque);
         let ends = rotor.map(|end| if end.is_finite() { end } else { rotor[0] });
         let duties = ends.map(|end| self.duty(ratio, end));
         let drawn = duties
             .map(|duty| duty.torque.peak())
             .into_iter()
             .fold(0.0, f64::max);
-        // A motor is not asked for more S1 torque than peak torque.
-        let peak_torque = (drawn / self.share(Rule::PeakTorque)).max(s1_torque * factor);
+        // No motor has less peak torque than S1 torque.
+        let peak_torque = (drawn / self.share(Rule::PeakTorque)).max(standstill_torque);
         let [mean_speed, max_speed] = [self.cycle.mean_speed(), self.cycle.peak_speed()]
             .map(|speed| speed * ratio.unwrap_or(1.0));
         let max_speed = max_speed / self.share(Rule::Speed);
         let brake_torque =
             (held.get(Rule::BrakeTorque)).map(|found| found.value / self.share(Rule::BrakeTorque));
+        let site = &self.file.site.surroundings;
+        let derated = Amplifier::default().derated(site).factor;
         let mut found = Requirement {
             ratio,
             rotor,
             smallest_rotor: smallest,
             s1_torque,
             standstill_torque,
+            held_torque,
             mean_speed,
             max_speed,
             peak_torque,
             envelope: Vec::new(),
             brake_torque,
             currents: [
-                allowed / self.share(Rule::RmsCurrent),
-                drawn / self.share(Rule::PeakCurrent),
+                allowed / self.share(Rule::RmsCurrent) / derated,
+                drawn / self.share(Rule::PeakCurrent) / derated,
             ],
             regeneration: self.regeneration(ratio, ends),
+            possible: true,
             gearbox: None,
             mean_square: squares,
         };
         found.envelope = self.envelope(&found, ends);
         found.gearbox = ratio.map(|ratio| self.gearbox_requirement(ratio, &found, ends));
+        found.possible = self.is_possible(&found, &held);
         found
+    }
+
+    /// Whether shafts and drive train leave room for a gearbox, or, coupled directly, satisfy the rules themselves.
+    fn is_possible(&self, found: &Requirement, measured: &Findings) -> bool {
+        let rules = &self.file.rules;
+        let fails = |rule| rules.limit(rule).fail.is_some();
+        match &found.gearbox {
+            Some(gearbox) => {
+                let soft = gearbox.stiffness.is_some_and(f64::is_infinite);
+                let loose = gearbox.backlash.is_some_and(|play| play < 0.0);
+                !(soft && fails(Rule::NaturalFrequency) || loose && fails(Rule::Backlash))
+            }
+            None => [Rule::NaturalFrequency, Rule::Backlash]
+                .into_iter()
+                .all(|rule| {
+                    let found = measured.get(rule);
+                    found.is_none_or(|found| rules.verdict(rule, found) != RuleVerdict::Fail)
+                }),
+        }
+    }
+
+    /// The rules of the site that a motor without derating data of its maker violates.
+    pub fn beyond_site(&self) -> Vec<Rule> {
+        let measured = self.findings(None, &self.motor(1.0));
+        let rules = &self.file.rules;
+        let fails = |rule: &Rule| {
+            let found = measured.get(*rule);
+            found.is_some_and(|found| rules.verdict(*rule, found) == RuleVerdict::Fail)
+        };
+        [Rule::AmbientTemperature, Rule::Altitude]
+            .into_iter()
+            .filter(fails)
+            .collect()
     }
 
     /// Magnitudes of speed and torque over the cycle with the largest rotor of the window (rad/s, N·m).
@@ -353,10 +409,5 @@ impl Requirement {
             }),
             ..Motor::default()
         }
-    }
-
-    /// Whether a gearbox can be built to satisfy its rules.
-    pub fn is_possible(&self) -> bool {
-        self.gearbox.is_none_or(|gearbox| gearbox.is_possible())
     }
 }

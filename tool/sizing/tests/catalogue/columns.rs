@@ -135,7 +135,7 @@ fn an_optional_brake_is_an_order_of_its_own() {
     let text = "key,maker,model,rated_torque [N m],rated_speed [rpm],peak_torque [N m],rotor_inertia [kg cm^2],mass [kg],mass_with_brake [kg],\
                 brake_option,brake_torque [N m],brake_inertia [kg cm^2],brake_opening_time [ms],brake_power [W],source\n\
                 m,A,M1,2,3000,6,1.5,3,3.6,yes,2.5,0.2,60,8,page 1\n\
-                n,A,N1,2,3000,6,1.5,3.6,,,2.5,0.2,,,page 2\n";
+                n,A,N1,2,3000,6,1.5,3,3.6,,2.5,0.2,,,page 2\n";
     let found = Catalogue::of_texts([("motors.csv", text)], false).unwrap();
     let keys: Vec<&str> = found
         .motors
@@ -154,4 +154,8 @@ fn an_optional_brake_is_an_order_of_its_own() {
     );
     assert!((with.mass.unwrap() - 3.6).abs() < 1e-12 && with.model == "M1 with brake");
     assert!(fixed.brake.is_some() && !fixed.brake_is_optional);
+    assert!((fixed.mass.unwrap() - 3.6).abs() < 1e-12);
+    // Its key is taken.
+    let clash = text.replace("\nn,A,N1,", "\nm-brake,A,N1,");
+    assert!(Catalogue::of_texts([("motors.csv", clash)], false).is_err());
 }

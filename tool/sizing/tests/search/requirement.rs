@@ -131,7 +131,7 @@ fn a_motor_just_inside_passes_and_just_outside_fails() {
                     standstill_torque: large.standstill_torque.map(|t| t * less),
                     ..large.clone()
                 };
-                if found.s1_torque >= found.standstill_torque {
+                if found.s1_torque >= found.held_torque {
                     assert_eq!(
                         violated(&case, &weak, gearbox),
                         [Rule::RmsTorque],
@@ -175,8 +175,7 @@ fn a_motor_just_inside_passes_and_just_outside_fails() {
                 );
                 moved += 1;
             }
-            let drawn =
-                found.peak_torque > found.s1_torque.max(found.standstill_torque) * (1.0 + STEP);
+            let drawn = found.peak_torque > found.standstill_torque * (1.0 + STEP);
             if drawn {
                 let fails = ends(&found).into_iter().any(|rotor| {
                     let motor = found.smallest_motor(kind, rotor);
@@ -274,7 +273,7 @@ fn the_boundary_decides_as_the_rules_do() {
                     ..found.smallest_motor(kind, rotor)
                 };
                 let expected = rotor >= found.smallest_rotor
-                    && s1.min(peak) >= need.s1_torque.max(found.standstill_torque)
+                    && s1.min(peak) >= need.s1_torque.max(found.held_torque)
                     && peak >= need.peak_torque
                     && speed >= found.max_speed;
                 let broken = violated(&case, &motor, gearbox.as_ref());

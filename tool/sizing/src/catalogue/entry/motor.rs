@@ -91,6 +91,9 @@ pub(super) fn motor(row: &mut CatalogueRow) -> RowResult<(Motor, Option<String>)
         ));
     }
     row.checked()?;
+    let brake_is_optional = row.yes_or_no(Column::BrakeOption).unwrap_or(false);
+    let whole = row.optional(Column::MassWithBrake);
+    let mass = row.optional(Column::Mass);
     let motor = Motor {
         key: row.text(Column::Key),
         maker: row.text(Column::Maker),
@@ -123,7 +126,7 @@ pub(super) fn motor(row: &mut CatalogueRow) -> RowResult<(Motor, Option<String>)
         },
         derating: derating(row),
         brake: brake(row, &own),
-        brake_is_optional: row.yes_or_no(Column::BrakeOption).unwrap_or(false),
+        brake_is_optional,
         flange: row.optional(Column::Flange),
         shaft_diameter: row.optional(Column::Shaft),
         bus_voltage: row.optional(Column::BusVoltage),
@@ -131,7 +134,8 @@ pub(super) fn motor(row: &mut CatalogueRow) -> RowResult<(Motor, Option<String>)
         max_bus_voltage: row.optional(Column::MaxBusVoltage),
         amplifiers_listed: false,
         lacks_amplifier: false,
-        mass: row.optional(Column::Mass),
+        // A brake that is no option is always there.
+        mass: whole.filter(|_| !brake_is_optional).or(mass),
         price: row.optional(Column::Price),
         from_maker: from_maker(row),
         source: row.text(Column::Source),

@@ -20,9 +20,11 @@ impl Inquiry<'_> {
     pub(super) fn envelope(&self, found: &Requirement, rotors: [f64; 2]) -> Vec<[f64; 2]> {
         let ratio = found.ratio.unwrap_or(1.0);
         let share = self.share(Rule::PeakTorque);
-        let factor = self.s1_share() / self.share(Rule::RmsTorque);
         // At the mean speed the S1 torque is required, and no motor has less peak torque.
-        let mut points = vec![[found.mean_speed, found.s1_torque * factor]];
+        let mut points = vec![
+            [found.mean_speed, found.s1_torque],
+            [0.0, found.standstill_torque],
+        ];
         for rotor in rotors {
             let coefficients = self.coefficients(found.ratio, rotor);
             points.extend(self.cycle.samples().iter().map(|sample| {
@@ -42,10 +44,14 @@ impl Inquiry<'_> {
         });
         let used = used.into_iter().fold(0.0, f64::max) / share;
         let mean = envelope.peak_torque(1.0, found.mean_speed);
-        let scale = used.max(found.s1_torque * factor / mean) * (1.0 + RESERVE);
+        let scale = used.max(found.s1_torque / mean) * (1.0 + RESERVE);
         if scale.is_finite() {
             for point in &mut limit {
-                point[1] *= scale;
+                // The constant peak torque is sufficient everywhere.
+                point[1] = (point[1] * scale).min(found.peak_torque);
+                if point[1] < 1e-9 * found.peak_torque {
+                    point[1] = 0.0;
+                }
             }
         }
         limit
@@ -58,6 +64,7 @@ fn hull(mut points: Vec<[f64; 2]>, end: f64) -> Vec<[f64; 2]> {
         let largest = points.iter().max_by(|a, b| a[by].total_cmp(&b[by]));
         largest.map_or(0.0, |point| point[1])
     };
+    let end = points.iter().map(|p| p[0]).fold(end, f64::max);
     let (highest, last) = (top(&points, 1), top(&points, 0));
     points.push([0.0, highest]);
     points.push([end, last]);

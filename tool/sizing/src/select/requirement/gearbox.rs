@@ -36,13 +36,6 @@ pub struct GearboxRequirement {
     pub backlash: Option<f64>,
 }
 
-impl GearboxRequirement {
-    /// Whether a gearbox can satisfy it.
-    pub fn is_possible(&self) -> bool {
-        self.stiffness.is_none_or(f64::is_finite) && self.backlash.is_none_or(|play| play >= 0.0)
-    }
-}
-
 impl Inquiry<'_> {
     pub(super) fn gearbox_requirement(
         &self,
