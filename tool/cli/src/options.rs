@@ -325,16 +325,19 @@ pub struct Steady {
     pub format: Format,
 }
 
-/// A coefficient of speed fluctuation.
-fn fluctuation(text: &str) -> Result<f64, String> {
+/// A share, or a percentage.
+fn share(text: &str) -> Option<f64> {
     let (number, scale) = match text.trim().strip_suffix('%') {
         Some(percent) => (percent.trim_end(), 0.01),
         None => (text, 1.0),
     };
-    let delta: f64 = number
-        .parse()
-        .map_err(|_| "write a number or a percentage, such as 0.02 or 2%")?;
-    let delta = delta * scale;
+    let number: f64 = number.parse().ok()?;
+    Some(number * scale)
+}
+
+/// A coefficient of speed fluctuation.
+fn fluctuation(text: &str) -> Result<f64, String> {
+    let delta = share(text).ok_or("write a number or a percentage, such as 0.02 or 2%")?;
     if (1e-6..=1.0).contains(&delta) {
         Ok(delta)
     } else {

@@ -13,13 +13,13 @@ use jred_file::model::variator;
 use jred_file::plain;
 use jred_file::read;
 use jred_file::units::RPM;
-use jred_report::list::require::{RequirementView, USUAL_SPEED};
+use jred_report::list::require::RequirementView;
 use jred_report::page;
 use jred_sizing::catalogue::MotorKind;
 use jred_sizing::cycle::Cycle;
 use jred_sizing::select::fit::input_kind;
 use jred_sizing::select::ratio::Gear;
-use jred_sizing::select::requirement::{Inquiry, Requirement};
+use jred_sizing::select::requirement::{Inquiry, Requirement, USUAL_SPEED};
 
 /// Runs `jred require`.
 ///

@@ -6,6 +6,7 @@ use clap::Args;
 
 use super::sampling::{Accuracy, Steps};
 use super::search::{efficiency, ratio};
+use super::share;
 use super::word::word;
 use jred_report::table::output::Format;
 
@@ -90,14 +91,7 @@ fn ratios(text: &str) -> Result<RatioList, String> {
 }
 
 fn allowance(text: &str) -> Result<f64, String> {
-    let (number, scale) = match text.trim().strip_suffix('%') {
-        Some(percent) => (percent.trim_end(), 0.01),
-        None => (text, 1.0),
-    };
-    let share: f64 = number
-        .parse()
-        .map_err(|_| "write a share or a percentage, such as 0.2 or 20%")?;
-    let share = share * scale;
+    let share = share(text).ok_or("write a share or a percentage, such as 0.2 or 20%")?;
     if (0.01..=10.0).contains(&share) {
         Ok(share)
     } else {

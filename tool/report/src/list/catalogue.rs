@@ -159,7 +159,7 @@ impl Data for PartData {
     const FORM: &'static str = "jred-catalogue-part/1";
 }
 
-/// Every figure of the part with this key, its partners and its gaps; `None` if there is none.
+/// Every figure of the part with this key, its partners and its gaps; `None`: no such part.
 pub fn part(catalogue: &Catalogue, key: &str) -> Option<Answer<'static>> {
     for parts in Parts::ALL {
         for linear in [false, true] {

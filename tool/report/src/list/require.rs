@@ -9,17 +9,13 @@ use crate::table::reading::{ColumnKind, Reading};
 use crate::table::rows::csv_line;
 use jred_file::model::rule::Rule;
 use jred_file::number::rounding::{down, percent, short, significant, up};
-use jred_file::units::{RPM, Vocabulary};
+use jred_file::units::{ARCMIN, RPM, Vocabulary};
 use jred_sizing::bus::Need;
 use jred_sizing::cell::Cell;
 use jred_sizing::select::fit::input_kind;
-use jred_sizing::select::requirement::{GearboxRequirement, Inquiry, Requirement, TorqueNeed};
-
-/// One minute of arc (rad).
-const ARCMIN: f64 = std::f64::consts::PI / (180.0 * 60.0);
-
-/// Largest speed of usual motors (rad/s).
-pub const USUAL_SPEED: f64 = 6000.0 * RPM;
+use jred_sizing::select::requirement::{
+    GearboxRequirement, Inquiry, Requirement, TorqueNeed, USUAL_SPEED,
+};
 
 /// Rotors of the boundary of a ratio, in equal ratios.
 const ROTORS: u32 = 9;
@@ -68,24 +64,27 @@ impl RequirementView<'_> {
         input_kind(self.inquiry.file).vocabulary()
     }
 
-    /// The ratio with the smallest motor: the least S1 torque among those that are possible with a usual speed.
+    /// Index of the ratio with the smallest motor: the least S1 torque among those that are possible with a usual speed.
+    fn described_index(&self) -> usize {
+        let usual = |r: &Requirement| r.possible && r.max_speed <= USUAL_SPEED * (1.0 + 1e-9);
+        let any_usual = self.requirements.iter().any(usual);
+        let each = self.requirements.iter().enumerate();
+        let open = each.filter(|(_, r)| r.possible && (usual(r) || !any_usual));
+        let best = open.min_by(|a, b| a.1.s1_torque.total_cmp(&b.1.s1_torque));
+        best.map_or(0, |(index, _)| index)
+    }
+
+    /// That ratio.
     pub(crate) fn described(&self) -> Option<&Requirement> {
-        let slow = |r: &&Requirement| r.max_speed <= USUAL_SPEED * (1.0 + 1e-9);
-        let any_slow = self.requirements.iter().any(|r| slow(&r) && r.possible);
-        let possible = (self.requirements.iter()).filter(|r| r.possible && (slow(r) || !any_slow));
-        let best = possible.min_by(|a, b| a.s1_torque.total_cmp(&b.s1_torque));
-        best.or(self.requirements.first())
+        self.requirements.get(self.described_index())
     }
 
     /// That ratio with its neighbours.
     pub(crate) fn near_described(&self) -> &[Requirement] {
-        let is_described =
-            |found: &Requirement| self.described().is_some_and(|d| std::ptr::eq(d, found));
-        let at = self.requirements.iter().position(is_described).unwrap_or(0);
+        let at = self.described_index();
         let last = self.requirements.len().min(at + 2);
-        self.requirements
-            .get(at.saturating_sub(1)..last)
-            .unwrap_or_default()
+        let near = self.requirements.get(at.saturating_sub(1)..last);
+        near.unwrap_or_default()
     }
 
     /// The least torques over the rotor: from the window's start to twice its end.
@@ -123,19 +122,12 @@ impl RequirementView<'_> {
             allowance,
             ..
         } = *self.inquiry;
-        let described = self.described();
         let data = RequireData {
             linear: self.words().slides(),
             efficiency: gear.efficiency,
             gearbox_inertia: gear.inertia,
             allowance,
-            described: described
-                .and_then(|found| {
-                    self.requirements
-                        .iter()
-                        .position(|r| std::ptr::eq(r, found))
-                })
-                .unwrap_or(0),
+            described: self.described_index(),
             ratios: (self.requirements.iter())
                 .map(|requirement| RatioData {
                     requirement,
@@ -146,7 +138,7 @@ impl RequirementView<'_> {
         let title = format!("{}: requirements of the drive, for any maker", file.title);
         let mut answer = Answer::new(file.title.clone(), &data).titled(title);
         self.ratios(&mut answer);
-        if let Some(found) = described {
+        if let Some(found) = self.described() {
             answer.heading(format!("{}, in full", name(found.ratio)));
             self.motor(&mut answer, found);
             if !found.possible {
@@ -168,14 +160,19 @@ impl RequirementView<'_> {
         let words = self.words();
         let (torque, speed, inertia) = (&words.torque, &words.speed, &words.inertia);
         let columns = [
-            "ratio".to_owned(),
-            format!("max [{}]", speed.unit),
-            format!("mean [{}]", speed.unit),
-            format!("{} [{}]", words.rotor, inertia.unit),
-            format!("S1 [{}]", torque.unit),
-            format!("peak [{}]", torque.unit),
-            "S1 power [kW]".to_owned(),
+            ("ratio".to_owned(), ColumnKind::Quantity),
+            (format!("max [{}]", speed.unit), ColumnKind::Quantity),
+            (format!("mean [{}]", speed.unit), ColumnKind::Quantity),
+            (
+                format!("{} [{}]", words.rotor, inertia.unit),
+                ColumnKind::Words,
+            ),
+            (format!("S1 [{}]", torque.unit), ColumnKind::Quantity),
+            (format!("peak [{}]", torque.unit), ColumnKind::Quantity),
+            ("S1 power [kW]".to_owned(), ColumnKind::Quantity),
         ];
+        let whole = columns.len();
+        let (columns, kinds) = columns.into_iter().unzip();
         let rows = self.requirements.iter().map(|found| -> Vec<Cell> {
             let power = found.power() / 1000.0;
             vec![
@@ -192,21 +189,10 @@ impl RequirementView<'_> {
             ]
         });
         answer.table(Reading {
-            columns: columns.to_vec(),
+            columns,
             rows: rows.collect(),
-            kinds: [
-                [ColumnKind::Quantity; 3],
-                [
-                    ColumnKind::Words,
-                    ColumnKind::Quantity,
-                    ColumnKind::Quantity,
-                ],
-            ]
-            .concat()
-            .into_iter()
-            .chain([ColumnKind::Quantity])
-            .collect(),
-            whole: 7,
+            kinds,
+            whole,
             ..Reading::default()
         });
     }
@@ -310,20 +296,13 @@ impl RequirementView<'_> {
                 )
             });
         }
-        match stiffness {
-            Some(stiffness) if stiffness.is_finite() => answer.fact(
-                "stiffness",
-                format!("at least {} N m/arcmin", short(up(stiffness * ARCMIN))),
-            ),
-            Some(_) | None => {}
+        if let Some(stiffness) = stiffness.filter(|stiffness| stiffness.is_finite()) {
+            let least = short(up(stiffness * ARCMIN));
+            answer.fact("stiffness", format!("at least {least} N m/arcmin"));
         }
-        match backlash {
-            Some(play) if play < 0.0 => {}
-            Some(play) => answer.fact(
-                "backlash",
-                format!("at most {} arcmin", short(down(play / ARCMIN))),
-            ),
-            None => {}
+        if let Some(play) = backlash.filter(|play| *play >= 0.0) {
+            let most = short(down(play / ARCMIN));
+            answer.fact("backlash", format!("at most {most} arcmin"));
         }
     }
 

@@ -228,59 +228,54 @@ const RESISTORS: &[Figure<Resistor>] = &[
     ),
 ];
 
-fn gaps<T>(table: &'static str, entries: &[T], figures: &[Figure<T>], found: &mut Vec<Gap>) {
-    for (columns, has, rules, costs) in figures {
-        let missing = entries.iter().filter(|entry| !has(entry)).count();
-        if missing > 0 {
-            found.push(Gap {
-                table,
-                columns,
-                missing,
-                of: entries.len(),
-                rules: rules.to_vec(),
-                costs,
-            });
-        }
-    }
+fn gaps<'e, T: 'e>(
+    parts: Parts,
+    entries: &(impl Iterator<Item = &'e T> + Clone),
+    figures: &[Figure<T>],
+) -> Vec<Gap> {
+    let gap = |(columns, has, rules, costs): &Figure<T>| Gap {
+        table: parts.name(),
+        columns,
+        missing: entries.clone().filter(|entry| !has(entry)).count(),
+        of: entries.clone().count(),
+        rules: rules.to_vec(),
+        costs,
+    };
+    let gaps = figures.iter().map(gap);
+    gaps.filter(|gap| gap.missing > 0).collect()
 }
 
 impl Catalogue {
-    /// The figures that a single part lacks.
-    pub fn gaps_of(&self, parts: Parts, key: &str) -> Vec<Gap> {
-        fn one<T: Clone>(
-            parts: Parts,
-            entries: &[T],
-            is_it: impl Fn(&T) -> bool,
-            figures: &[Figure<T>],
-        ) -> Vec<Gap> {
-            let found: Vec<T> = entries
-                .iter()
-                .find(|entry| is_it(entry))
-                .cloned()
-                .into_iter()
-                .collect();
-            let mut all = Vec::new();
-            gaps(parts.name(), &found, figures, &mut all);
-            all
-        }
-        match parts {
-            Parts::Motors => one(parts, &self.motors, |m| m.key == key, MOTORS),
-            Parts::Gearboxes => one(parts, &self.gearboxes, |g| g.key == key, GEARBOXES),
-            Parts::Amplifiers => one(parts, &self.amplifiers, |a| a.key == key, AMPLIFIERS),
-            Parts::Resistors => one(parts, &self.resistors, |r| r.key == key, RESISTORS),
-        }
-    }
-
     /// The figures that entries lack, table by table.
     pub fn gaps(&self) -> Vec<Gap> {
-        let mut found = Vec::new();
         // Of a motor with an optional brake, that with the brake.
         let motors = self.motors.iter().filter(|motor| !motor.brake_is_optional);
-        let motors: Vec<Motor> = motors.cloned().collect();
-        gaps("motors", &motors, MOTORS, &mut found);
-        gaps("gearboxes", &self.gearboxes, GEARBOXES, &mut found);
-        gaps("amplifiers", &self.amplifiers, AMPLIFIERS, &mut found);
-        gaps("resistors", &self.resistors, RESISTORS, &mut found);
+        let mut found = gaps(Parts::Motors, &motors, MOTORS);
+        found.extend(gaps(Parts::Gearboxes, &self.gearboxes.iter(), GEARBOXES));
+        found.extend(gaps(Parts::Amplifiers, &self.amplifiers.iter(), AMPLIFIERS));
+        found.extend(gaps(Parts::Resistors, &self.resistors.iter(), RESISTORS));
         found
+    }
+
+    /// The figures that the part with this key lacks.
+    pub fn gaps_of(&self, parts: Parts, key: &str) -> Vec<Gap> {
+        match parts {
+            Parts::Motors => {
+                let own = self.motors.iter().filter(|m| m.key == key);
+                gaps(parts, &own, MOTORS)
+            }
+            Parts::Gearboxes => {
+                let own = self.gearboxes.iter().filter(|g| g.key == key);
+                gaps(parts, &own, GEARBOXES)
+            }
+            Parts::Amplifiers => {
+                let own = self.amplifiers.iter().filter(|a| a.key == key);
+                gaps(parts, &own, AMPLIFIERS)
+            }
+            Parts::Resistors => {
+                let own = self.resistors.iter().filter(|r| r.key == key);
+                gaps(parts, &own, RESISTORS)
+            }
+        }
     }
 }

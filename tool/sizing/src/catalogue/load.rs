@@ -238,15 +238,10 @@ impl Loader {
             self.price(row, text);
         }
         if let Entry::Motor(motor, _) = &entry
-            && motor.brake_is_optional
-            && motor.brake.is_some()
+            && let Some(key) = motor.key_with_brake()
+            && let Some(clash) = self.claim(row.kind, &key, index, row.place(Column::Key))
         {
-            // The key of the order with brake.
-            let key = format!("{}-brake", motor.key);
-            let clash = self.claim(row.kind, &key, index, row.place(Column::Key));
-            if let Some(clash) = clash {
-                return Err(vec![clash]);
-            }
+            return Err(vec![clash]);
         }
         if let Entry::Motor(_, Some(gearbox)) = &entry {
             let motor = self.catalogue.motors.len() as u32;

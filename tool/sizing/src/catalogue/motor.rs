@@ -179,13 +179,19 @@ impl Motor {
         self.brake.map_or(0.0, |brake| brake.inertia)
     }
 
+    /// The key under which it is offered with its brake, if that is an option.
+    pub(super) fn key_with_brake(&self) -> Option<String> {
+        let has_option = self.brake_is_optional && self.brake.is_some();
+        has_option.then(|| format!("{}-brake", self.key))
+    }
+
     /// The motor without and with a brake that is an option; otherwise the motor as it is.
     pub(super) fn variants(self) -> Vec<Self> {
-        let Some(brake) = self.brake.filter(|_| self.brake_is_optional) else {
+        let Some((brake, key)) = self.brake.zip(self.key_with_brake()) else {
             return vec![self];
         };
         let with = Self {
-            key: format!("{}-brake", self.key),
+            key,
             model: format!("{} with brake", self.model),
             mass: self.mass.zip(brake.mass).map(|(mass, brake)| mass + brake),
             price: None,

@@ -249,10 +249,8 @@ impl Catalogue {
 
     /// Adds every motor whose brake is an option once more, with its brake and the same partners.
     pub(super) fn offer_brakes(&mut self) {
-        let partners = std::mem::take(&mut self.pairing.motors).into_iter();
-        let mut partners = partners.map(Some).chain(std::iter::repeat_with(|| None));
-        for motor in std::mem::take(&mut self.motors) {
-            let own = partners.next().flatten().unwrap_or_default();
+        let partners = std::mem::take(&mut self.pairing.motors);
+        for (motor, own) in std::mem::take(&mut self.motors).into_iter().zip(partners) {
             for variant in motor.variants() {
                 self.motors.push(variant);
                 self.pairing.motors.push(own.clone());

@@ -20,7 +20,7 @@ use serde::Serialize;
 
 use crate::catalogue::{Amplifier, Brake, Drive, Gearbox, Motor, MotorKind};
 use crate::cycle::Cycle;
-use crate::cycle::form::{Coefficients, MotorDuty};
+use crate::cycle::form::Coefficients;
 use crate::judge::{Context, Findings};
 use crate::motor::envelope::MotorLimits;
 use crate::select::fit::input_kind;
@@ -28,6 +28,7 @@ use crate::select::ratio::Gear;
 use jred_file::model::machine::MachineFile;
 use jred_file::model::rule::Rule;
 use jred_file::model::rules::RuleVerdict;
+use jred_file::units::RPM;
 
 pub use gearbox::GearboxRequirement;
 pub use regeneration::Regeneration;
@@ -37,6 +38,9 @@ const USUAL_RATIOS: [f64; 20] = [
     3.0, 4.0, 5.0, 7.0, 8.0, 10.0, 12.0, 15.0, 16.0, 20.0, 25.0, 28.0, 32.0, 35.0, 40.0, 50.0,
     64.0, 70.0, 80.0, 100.0,
 ];
+
+/// Largest speed of usual motors (rad/s).
+pub const USUAL_SPEED: f64 = 6000.0 * RPM;
 
 /// Most ratios that are listed if none are asked for.
 const MOST_RATIOS: usize = 10;
@@ -240,24 +244,22 @@ impl Inquiry<'_> {
         }
     }
 
-    /// The smallest rotor (with brake) that the rule of the inertia ratio allows; zero without a limit.
-    fn smallest_rotor(&self, ratio: Option<f64>) -> f64 {
-        let probe = 1.0;
-        let found = self
-            .findings(ratio, &self.motor(probe))
-            .get(Rule::InertiaRatio);
+    /// The smallest rotor (with brake) that the rule of the inertia ratio allows, from the findings with a rotor of 1 kg·m²; zero without a limit.
+    fn smallest_rotor(&self, measured: &Findings) -> f64 {
         let limited = self.file.rules.limit(Rule::InertiaRatio).is_set();
+        let found = measured.get(Rule::InertiaRatio);
         // λ is proportional to one over the rotor's inertia.
-        let rotor = found.filter(|found| limited && found.is_known());
-        rotor.map_or(0.0, |found| {
-            probe * found.value / (found.rating * self.share(Rule::InertiaRatio))
+        let found = found.filter(|found| limited && found.is_known());
+        found.map_or(0.0, |found| {
+            found.value / (found.rating * self.share(Rule::InertiaRatio))
         })
     }
 
     /// The requirement at a ratio; `None`: coupled directly.
     pub fn requirement(&self, ratio: Option<f64>) -> Requirement {
         let squares @ [constant, linear, square] = self.mean_square(ratio);
-        let smallest = self.smallest_rotor(ratio);
+        let measured = self.findings(ratio, &self.motor(1.0));
+        let smallest = self.smallest_rotor(&measured);
         let best = if square > 0.0 {
             smallest.max(-0.5 * linear / square)
         } else {
@@ -276,12 +278,11 @@ impl Inquiry<'_> {
             [smallest, f64::INFINITY]
         };
         let s1_torque = allowed / self.s1_share();
-        let held = self.findings(ratio, &self.motor(1.0));
         let factor = self.derating();
         let lasting = [Rule::HoldingTorque, Rule::ConstantTorque].map(|rule| {
             let is_set = self.file.rules.limit(rule).is_set();
             if is_set {
-                self.required(&held, rule)
+                self.required(&measured, rule)
             } else {
                 0.0
             }
@@ -290,18 +291,18 @@ impl Inquiry<'_> {
         // The winding is judged by the S1 torque at standstill, and no motor has less there than at speed.
         let standstill_torque = held_torque.max(s1_torque);
         let ends = rotor.map(|end| if end.is_finite() { end } else { rotor[0] });
-        let duties = ends.map(|end| self.duty(ratio, end));
-        let drawn = duties
-            .map(|duty| duty.torque.peak())
-            .into_iter()
-            .fold(0.0, f64::max);
+        let [first, last] = ends.map(|end| {
+            let coefficients = self.coefficients(ratio, end);
+            self.cycle.peak_torque(&coefficients)
+        });
+        let drawn = first.max(last);
         // No motor has less peak torque than S1 torque.
         let peak_torque = (drawn / self.share(Rule::PeakTorque)).max(standstill_torque);
         let [mean_speed, max_speed] = [self.cycle.mean_speed(), self.cycle.peak_speed()]
             .map(|speed| speed * ratio.unwrap_or(1.0));
         let max_speed = max_speed / self.share(Rule::Speed);
-        let brake_torque =
-            (held.get(Rule::BrakeTorque)).map(|found| found.value / self.share(Rule::BrakeTorque));
+        let brake_torque = (measured.get(Rule::BrakeTorque))
+            .map(|found| found.value / self.share(Rule::BrakeTorque));
         let site = &self.file.site.surroundings;
         let derated = Amplifier::default().derated(site).factor;
         let mut found = Requirement {
@@ -327,7 +328,7 @@ impl Inquiry<'_> {
         };
         found.envelope = self.envelope(&found, ends);
         found.gearbox = ratio.map(|ratio| self.gearbox_requirement(ratio, &found, ends));
-        found.possible = self.is_possible(&found, &held);
+        found.possible = self.is_possible(&found, &measured);
         found
     }
 
@@ -367,20 +368,17 @@ impl Inquiry<'_> {
     /// Magnitudes of speed and torque over the cycle with the largest rotor of the window (rad/s, N·m).
     pub fn duty_points(&self, found: &Requirement) -> Vec<[f64; 2]> {
         let [from, to] = found.rotor;
-        let coefficients = self.coefficients(found.ratio, if to.is_finite() { to } else { from });
-        let ratio = found.ratio.unwrap_or(1.0);
-        let samples = self.cycle.samples().iter();
-        let point = samples.map(|sample| {
-            let torque = coefficients.torque(&sample.loads());
-            [(sample.speed() * ratio).abs(), torque.abs()]
-        });
-        point.collect()
+        let rotor = if to.is_finite() { to } else { from };
+        self.points(found.ratio, rotor).collect()
     }
 
-    /// The duty of a motor with a rotor.
-    pub fn duty(&self, ratio: Option<f64>, rotor: f64) -> MotorDuty {
-        self.with(ratio, &self.motor(rotor), |drive| {
-            self.cycle.motor_duty(&drive)
+    /// Magnitudes of speed and torque over the cycle with a rotor (rad/s, N·m).
+    fn points(&self, ratio: Option<f64>, rotor: f64) -> impl Iterator<Item = [f64; 2]> {
+        let coefficients = self.coefficients(ratio, rotor);
+        let ratio = ratio.unwrap_or(1.0);
+        self.cycle.samples().iter().map(move |sample| {
+            let torque = coefficients.torque(&sample.loads());
+            [(sample.speed() * ratio).abs(), torque.abs()]
         })
     }
 }
@@ -393,7 +391,7 @@ impl Requirement {
 
     /// The smallest motor of the requirement, with a rotor: an entry of a catalogue.
     pub fn smallest_motor(&self, kind: MotorKind, rotor: f64) -> Motor {
-        let s1 = self.s1_torque.max(self.standstill_torque);
+        let s1 = self.standstill_torque;
         Motor {
             kind,
             rotor_inertia: rotor,
@@ -402,7 +400,7 @@ impl Requirement {
             rated_speed: Some(self.max_speed),
             max_speed: Some(self.max_speed),
             corner_speed: Some(self.max_speed),
-            peak_torque: Some(self.peak_torque.max(s1)),
+            peak_torque: Some(self.peak_torque),
             brake: self.brake_torque.map(|torque| Brake {
                 torque,
                 ..Brake::default()

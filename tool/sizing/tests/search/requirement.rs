@@ -367,9 +367,16 @@ fn figures_by_plain_sums() {
         let inquiry = inquiry(&case);
         for ratio in ratios {
             let found = inquiry.requirement(ratio);
+            let gearbox = gearbox(&found);
             let [constant, linear, square] = found.mean_square;
             for rotor in ends(&found) {
-                let duty = inquiry.duty(ratio, rotor);
+                let motor = found.smallest_motor(input_kind(&case.file), rotor);
+                let drive = Drive {
+                    motor: &motor,
+                    gearbox: gearbox.as_ref(),
+                    amplifier: None,
+                };
+                let duty = case.cycle.motor_duty(&drive);
                 let rms = (constant + linear * rotor + square * rotor * rotor).sqrt();
                 assert!((rms / duty.torque.rms - 1.0).abs() < 1e-7, "{rms} {duty:?}");
                 assert!(found.regeneration.energy >= duty.regenerative_energy * (1.0 - 1e-12));

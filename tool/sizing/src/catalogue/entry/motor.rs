@@ -125,7 +125,7 @@ pub(super) fn motor(row: &mut CatalogueRow) -> RowResult<(Motor, Option<String>)
             max_temperature: row.optional(Column::MaxTemperature),
         },
         derating: derating(row),
-        brake: brake(row, &own),
+        brake: brake(row, &own, [mass, whole]),
         brake_is_optional,
         flange: row.optional(Column::Flange),
         shaft_diameter: row.optional(Column::Shaft),
@@ -231,7 +231,9 @@ fn winding(row: &CatalogueRow) -> Winding {
     }
 }
 
-fn brake(row: &CatalogueRow, own: &Efforts) -> Option<Brake> {
+/// `masses`: of the motor without and with the brake.
+fn brake(row: &CatalogueRow, own: &Efforts, masses: [Option<f64>; 2]) -> Option<Brake> {
+    let [mass, whole] = masses;
     let inertia = row.not_negative(own.brake_inertia);
     let dynamic_torque = row.optional(own.brake_dynamic);
     let columns = [
@@ -240,22 +242,13 @@ fn brake(row: &CatalogueRow, own: &Efforts) -> Option<Brake> {
         Column::BrakeStops,
         Column::BrakeOpeningTime,
         Column::BrakePower,
-        Column::MassWithBrake,
     ];
     let figures = columns.map(|column| row.optional(column));
-    let [
-        closing_time,
-        work,
-        stops_per_hour,
-        opening_time,
-        power,
-        whole,
-    ] = figures;
-    let mut given = [inertia, dynamic_torque].into_iter().chain(figures);
+    let [closing_time, work, stops_per_hour, opening_time, power] = figures;
+    let mut given = [inertia, dynamic_torque, whole].into_iter().chain(figures);
     if given.any(|figure| figure.is_some()) && row.words(own.brake).is_none() {
         row.missing(own.brake, &[]);
     }
-    let mass = row.optional(Column::Mass);
     row.at_least((Column::MassWithBrake, whole), (Column::Mass, mass));
     Some(Brake {
         torque: row.optional(own.brake)?,

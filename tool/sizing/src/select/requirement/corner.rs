@@ -26,11 +26,8 @@ impl Inquiry<'_> {
             [0.0, found.standstill_torque],
         ];
         for rotor in rotors {
-            let coefficients = self.coefficients(found.ratio, rotor);
-            points.extend(self.cycle.samples().iter().map(|sample| {
-                let torque = coefficients.torque(&sample.loads()).abs() / share;
-                [sample.speed().abs() * ratio, torque]
-            }));
+            let drawn = self.points(found.ratio, rotor);
+            points.extend(drawn.map(|[speed, torque]| [speed, torque / share]));
         }
         let mut limit = simplified(hull(points, found.max_speed));
         let motor = Motor {
