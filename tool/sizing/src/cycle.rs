@@ -15,7 +15,7 @@ use std::sync::OnceLock;
 
 use crate::catalogue::Drive;
 use crate::cycle::form::{Coefficients, LOADS, MotorDuty, loads_of};
-use crate::motor::envelope::Envelope;
+use crate::motor::envelope::{Envelope, MotorLimits};
 use jred_analysis::duty::mechanics::Mechanics;
 use jred_analysis::duty::{Duty, Panel, PanelPolynomial, Smooth};
 use jred_file::number::figures::Figures;
@@ -312,6 +312,19 @@ impl Cycle {
     /// Largest magnitude of the motor torque (N·m).
     pub fn peak_torque(&self, coefficients: &Coefficients) -> f64 {
         self.distinct().largest_magnitude(coefficients)
+    }
+
+    /// Largest current of the motor (A) among the samples, with field weakening; NaN if the current of a torque is unknown.
+    pub fn peak_current(
+        &self,
+        coefficients: &Coefficients,
+        ratio: f64,
+        motor: &MotorLimits,
+    ) -> f64 {
+        let current =
+            |torque, speed| (motor.current(torque, speed)).map_or(f64::INFINITY, |i| i.abs());
+        let most = (self.distinct()).largest_current(coefficients, ratio, current);
+        if most.is_finite() { most } else { f64::NAN }
     }
 
     /// Energy supplied by the motor over a cycle and energy that flows back to it (J), both not negative.

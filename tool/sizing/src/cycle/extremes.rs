@@ -104,42 +104,71 @@ impl Stretches<'_> {
     }
 
     fn largest_value(self, c: &Coefficients) -> f64 {
-        type Best = (u32, f64);
+        let slack = self.slack(c);
+        let reach = |node: &Node| node.reach_of(c) - slack;
+        let bound = |node: &Node, ends: f64| ends + reach(node);
+        let torque = |k: u32| c.torque(&self.samples[k as usize].loads());
+        let (at, most) = self.largest(&bound, &torque);
+        let between = self.between(at as usize, c, 1.0, |torque, _| torque);
+        between.map_or(most, |peak| peak.torque)
+    }
+
+    /// Largest value of a function that rises with the magnitudes of torque and speed, among the samples.
+    ///
+    /// `current` is a current (A) of a torque (N·m) at a speed of the motor (rad/s); infinite: unknown.
+    pub(super) fn largest_current(
+        self,
+        c: &Coefficients,
+        ratio: f64,
+        current: impl Fn(f64, f64) -> f64,
+    ) -> f64 {
+        let bound = |node: &Node, _: f64| {
+            let [a, b] = self.ends(node, c).map(f64::abs);
+            current(a.max(b) + node.reach_of(c), node.speed[1] * ratio)
+        };
+        let value = |k: u32| {
+            let sample = &self.samples[k as usize];
+            current(c.torque(&sample.loads()), sample.speed() * ratio)
+        };
+        self.largest(&bound, &value).1.max(0.0)
+    }
+
+    /// The sample with the largest value, and that value. `bound`: an upper bound of the value on a stretch, given the larger value at its ends.
+    fn largest(
+        self,
+        bound: &impl Fn(&Node, f64) -> f64,
+        value: &impl Fn(u32) -> f64,
+    ) -> (u32, f64) {
         fn visit(
-            stretches: Stretches,
-            c: &Coefficients,
-            slack: f64,
+            nodes: &[Node],
             index: usize,
-            best: &mut Best,
+            bound: &impl Fn(&Node, f64) -> f64,
+            value: &impl Fn(u32) -> f64,
+            best: &mut (u32, f64),
         ) {
-            let node = &stretches.tree.nodes[index];
-            let ends = stretches.ends(node, c);
-            let weigh = |best: &mut Best, k: u32, torque: f64| {
-                if torque > best.1 {
-                    *best = (k, torque);
+            let node = &nodes[index];
+            let ends = [node.first, node.last].map(|k| (k, value(k)));
+            let weigh = |best: &mut (u32, f64), (k, value): (u32, f64)| {
+                if value > best.1 {
+                    *best = (k, value);
                 }
             };
-            weigh(best, node.first, ends[0]);
-            weigh(best, node.last, ends[1]);
-            if ends[0].max(ends[1]) + node.reach_of(c) - slack <= best.1 {
+            ends.into_iter().for_each(|end| weigh(best, end));
+            if bound(node, ends[0].1.max(ends[1].1)) <= best.1 {
                 return;
             }
             if node.second == 0 {
-                for k in node.first..=node.last {
-                    weigh(best, k, c.torque(&stretches.samples[k as usize].loads()));
-                }
+                (node.first..=node.last).for_each(|k| weigh(best, (k, value(k))));
             } else {
-                visit(stretches, c, slack, index + 1, best);
-                visit(stretches, c, slack, node.second as usize, best);
+                visit(nodes, index + 1, bound, value, best);
+                visit(nodes, node.second as usize, bound, value, best);
             }
         }
         let mut best = (0, f64::NEG_INFINITY);
-        if self.tree.nodes.is_empty() {
-            return best.1;
+        if !self.tree.nodes.is_empty() {
+            visit(&self.tree.nodes, 0, bound, value, &mut best);
         }
-        visit(self, c, self.slack(c), 0, &mut best);
-        let between = self.between(best.0 as usize, c, 1.0, |torque, _| torque);
-        between.map_or(best.1, |peak| peak.torque)
+        best
     }
 
     /// The peak between the samples next to the sample `k`, where `used` of the motor's torque and speed is largest; `None` if the sample itself is

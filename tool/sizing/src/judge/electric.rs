@@ -51,18 +51,7 @@ fn peak_current(context: &Context) -> f64 {
     if !motor.circuit.as_ref().is_some_and(|c| c.weakens) {
         return curve.current(cycle.peak_torque(coefficients));
     }
-    let currents = cycle.samples().iter().map(|sample| {
-        let torque = coefficients.torque(&sample.loads());
-        let current = motor.current(torque, sample.speed() * ratio);
-        current.unwrap_or(f64::NAN)
-    });
-    currents.fold(0.0, |most: f64, current| {
-        if most.is_nan() || current <= most {
-            most
-        } else {
-            current
-        }
-    })
+    cycle.peak_current(coefficients, *ratio, motor)
 }
 
 /// Overload, bus and brake resistor; [`measure`] provides the largest current (A).

@@ -5,7 +5,7 @@ use jred_file::model::site::Site;
 use jred_file::model::surroundings::Surroundings;
 use jred_sizing::catalogue::Commutation;
 use jred_sizing::catalogue::{Motor, Winding};
-use jred_sizing::cycle::Cycle;
+use jred_sizing::cycle::{Cycle, LoadSample};
 use jred_sizing::cycle::form::Coefficients;
 use jred_sizing::motor::envelope::MotorLimits;
 use jred_sizing::thermal::mean::rms_current;
@@ -252,6 +252,46 @@ fn an_instant_without_weight_adds_no_current() {
         Ok(())
     };
     runner(100).run(&(duty(), coefficients()), check).unwrap();
+}
+
+/// The search for the largest current with field weakening finds what a look at every sample finds.
+#[test]
+fn the_largest_weakened_current_is_that_of_every_sample() {
+    let check = |((duty, c), ratio): ((Duty, Coefficients), f64)| {
+        let cycle = Cycle::new(&duty);
+        let loads = cycle.samples().iter();
+        let [torque, speed] = loads.fold([1e-3_f64; 2], |[torque, speed], sample| {
+            let one = c.torque(&sample.loads()).abs();
+            [torque.max(one), speed.max(ratio * sample.speed().abs())]
+        });
+        // The induced voltage passes 48 V at half the largest speed.
+        let flux = 48.0 / speed;
+        let motor = Motor {
+            rated_torque: Some(0.5 * torque),
+            max_speed: Some(2.0 * speed),
+            bus_voltage: Some(48.0),
+            winding: Winding {
+                torque_constant: Some(flux),
+                resistance: Some(0.05 * 48.0 * flux / torque),
+                inductance: Some(0.1 * 48.0 * flux / torque / speed),
+                pole_pairs: Some(2.0),
+                peak_current: Some(2.0 * torque / flux),
+                ..Winding::default()
+            },
+            ..Motor::default()
+        };
+        let prepared = MotorLimits::new(&motor, None, &Site::default());
+        prop_assert!(prepared.circuit.as_ref().is_some_and(|c| c.weakens));
+        let current = |sample: &LoadSample| {
+            (prepared.current(c.torque(&sample.loads()), sample.speed() * ratio)).unwrap()
+        };
+        let most = cycle.samples().iter().map(current).fold(0.0, f64::max);
+        let found = cycle.peak_current(&c, ratio, &prepared);
+        prop_assert!((found - most).abs() <= 1e-12 * most, "{found} {most}");
+        Ok(())
+    };
+    let inputs = ((duty(), coefficients()), 0.1..100.0);
+    runner(1000).run(&inputs, check).unwrap();
 }
 
 /// An S1 curve of one point at rest is constant over the speed.
