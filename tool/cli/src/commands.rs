@@ -8,6 +8,7 @@ mod export;
 pub mod fastest;
 pub mod gentlest;
 mod plan;
+mod project;
 pub mod ratio;
 mod reduce;
 mod require;
@@ -81,6 +82,7 @@ fn dispatch(command: &options::Command) -> Result<Completion> {
         options::Command::Tolerance(options) => tolerance::tolerance(options),
         options::Command::Merge(options) => vary::run_merge(options),
         options::Command::Bus(options) => bus::run(options),
+        options::Command::Project(options) => project::run(options),
         options::Command::Simulate(options) => simulate::run(options),
         options::Command::Steady(options) => steady::steady(options),
         options::Command::Fastest(options) => fastest::fastest(options),
@@ -112,6 +114,7 @@ const fn doing(command: &options::Command) -> &'static str {
         Command::Sensitivity(_) => "changing each quantity",
         Command::Merge(_) => "merging rows",
         Command::Bus(_) => "following the DC bus",
+        Command::Project(_) => "choosing the drives",
         Command::Simulate(_) => "following the motion",
         Command::Steady(_) => "searching for the steady cycle",
         Command::Fastest(_) => "computing the fastest motion",

@@ -8,6 +8,7 @@ pub mod fastest;
 pub mod gentlest;
 pub mod parts;
 pub mod plan;
+pub mod project;
 pub mod require;
 pub mod sampling;
 pub mod search;
@@ -104,6 +105,8 @@ pub enum Command {
     Merge(search::Merge),
     /// Check the DC bus of one or more axes: power, voltage, brake resistor, and the worst phases between axes.
     Bus(bus::Bus),
+    /// Choose the drives of all axes of a machine, their supply and brake resistor, and write one document.
+    Project(project::Project),
     /// Simulate the motion under the motor, the loads, the brake and the controller in `[simulation]`; several machines on one shaft.
     Simulate(simulate::Simulate),
     /// Find the steady cycle under the motor in `[simulation]`, its fluctuation of speed, and the flywheel that smooths it.
@@ -190,6 +193,32 @@ pub struct Check {
 }
 
 jred_file::words! {
+    /// Form of an answer about drives.
+    pub enum SizeFormat default Table {
+        /// For reading.
+        Table = "table",
+        /// Comma-separated values.
+        Csv = "csv",
+        /// JSON, every digit.
+        Json = "json",
+        /// The chosen drive as submodel of the asset administration shell: IDTA 02021-1-0, Sizing of Power Drive Trains.
+        Aas = "aas",
+    }
+}
+
+impl SizeFormat {
+    /// The form of the answer; `None`: the submodel replaces it.
+    pub const fn of_answer(self) -> Option<Format> {
+        match self {
+            Self::Table => Some(Format::Table),
+            Self::Csv => Some(Format::Csv),
+            Self::Json => Some(Format::Json),
+            Self::Aas => None,
+        }
+    }
+}
+
+jred_file::words! {
     /// Which motion drives are judged with.
     pub enum MotionChoice default Own {
         /// The motion of the machine file.
@@ -268,8 +297,8 @@ pub struct Size {
     #[arg(long, value_name = "HTML", value_parser = output_file())]
     pub report: Option<PathBuf>,
     /// Output format.
-    #[arg(long, value_parser = word::<Format>(), default_value_t)]
-    pub format: Format,
+    #[arg(long, value_parser = word::<SizeFormat>(), default_value_t)]
+    pub format: SizeFormat,
 }
 
 /// `jred rules`

@@ -11,6 +11,8 @@ use std::path::{Path, PathBuf};
 use std::sync::mpsc;
 use std::time::Duration;
 
+use jiff::tz::TimeZone;
+use jiff::{Timestamp, ZonedDateTime};
 use jred_file::plain;
 use jred_file::text::disk;
 use miette::{Report, Result, miette};
@@ -376,4 +378,14 @@ fn beside(place: &Path) -> IoResult<(File, PathBuf)> {
             }
         }
     }
+}
+
+/// The day of the run: that of `SOURCE_DATE_EPOCH` (seconds), else today.
+pub(crate) fn today() -> String {
+    let epoch = std::env::var("SOURCE_DATE_EPOCH").ok();
+    let fixed = epoch.and_then(|seconds| Timestamp::from_second(seconds.parse().ok()?).ok());
+    let now = fixed.map_or_else(ZonedDateTime::now, |fixed| {
+        fixed.to_zoned_datetime(TimeZone::UTC)
+    });
+    now.date().to_string()
 }

@@ -90,7 +90,7 @@ fn one_when_no_drive_holds() {
             "None of",
             "satisfies every rule; this is the closest one. Violated:\n",
             "  peak torque ",
-            "  no: it violates the limits below",
+            "  no: it violates limits",
             "FAIL",
             "--refused",
         ],

@@ -1,9 +1,10 @@
 //! The test program of the command.
 #![allow(clippy::disallowed_methods, reason = "tests show paths that they made")]
 
+mod aas;
 mod bus {
     //! `jred bus`.
-    mod command;
+    pub(crate) mod command;
     mod conflict;
     mod cures;
     mod several;
@@ -26,6 +27,7 @@ mod outputs;
 mod pages;
 mod points;
 mod press;
+mod project;
 mod reactions;
 mod report;
 mod rules;

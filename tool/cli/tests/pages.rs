@@ -63,11 +63,13 @@ fn is_output(shown: &[&str], output: &[&str]) -> bool {
 fn check(page: &Path) -> usize {
     let folder = Folder::new();
     let machines = folder.path("machines");
-    std::fs::create_dir(&machines).unwrap();
-    for entry in std::fs::read_dir(root().join("machines")).unwrap() {
-        let path = entry.unwrap().path();
-        if path.is_file() {
-            std::fs::copy(&path, machines.join(path.file_name().unwrap())).unwrap();
+    for inner in ["", "packing-line"] {
+        std::fs::create_dir(machines.join(inner)).unwrap();
+        for entry in std::fs::read_dir(root().join("machines").join(inner)).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_file() {
+                std::fs::copy(&path, machines.join(inner).join(path.file_name().unwrap())).unwrap();
+            }
         }
     }
     let text = std::fs::read_to_string(page).unwrap();

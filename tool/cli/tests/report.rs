@@ -2,6 +2,7 @@
 // Copied figures, counts and zeros are exact.
 #![allow(clippy::float_cmp)]
 
+mod document;
 mod motions;
 mod words;
 
@@ -186,7 +187,7 @@ fn the_report_of_the_press() {
     check_self_contained(&page);
     check_nesting(&page);
     // Operating points, torque, speed, power, effects, ratios, drawing, inertia, reduced torque, λ.
-    check_plots(&page, 10);
+    check_plots(&page, 17);
     check_charts(&page, 9);
     let text = plain(&page);
     let answer = jred([&"size", &press_file(), &"--refused", &"--format", &"json"]).json();
@@ -325,7 +326,7 @@ fn a_report_where_no_drive_holds() {
     let page = size(&folder, &file, 1);
     check_self_contained(&page);
     check_nesting(&page);
-    check_plots(&page, 10);
+    check_plots(&page, 17);
     let text = plain(&page);
     for word in [
         "What would have to change",
@@ -413,5 +414,5 @@ speed = "60 rpm"
     let (_, rest) = rest.split_once("# Toothed belt").unwrap();
     let file = folder.file("no load.toml", format!("{machine}#{rest}"));
     let page = size(&folder, &file, 0);
-    check_plots(&page, 10);
+    check_plots(&page, 15);
 }

@@ -99,6 +99,7 @@ fn every_answer_follows_its_schema() {
             ],
         ),
         (&["belt-axis"], &["sensitivity --change 5"]),
+        (&["packing-line/project"], &["project"]),
         (
             &[""],
             &[

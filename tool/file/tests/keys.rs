@@ -10,7 +10,7 @@ mod validated;
 
 use std::path::{Path, PathBuf};
 
-use jred_file::keys::{MACHINE, RULE_SET};
+use jred_file::keys::{MACHINE, PROJECT, RULE_SET};
 use jred_file::text::key::{Key, KeyTable, Need, ValueForm};
 use serde_json::Value;
 
@@ -52,6 +52,7 @@ fn named() -> Vec<&'static KeyTable> {
     let mut found = Vec::new();
     walk(&MACHINE, &mut found);
     walk(&RULE_SET, &mut found);
+    walk(&PROJECT, &mut found);
     found
 }
 

@@ -9,6 +9,7 @@ mod machine_file;
 mod mechanisms;
 mod motion;
 mod names;
+mod project;
 mod reader;
 #[path = "../../support/reading.rs"]
 mod reading;

@@ -4,15 +4,18 @@
 //! of lines; fixed parts are hatched. Behind them are the paths of the named points over the whole range and faint copies of the links at other
 //! positions.
 
+use std::f64::consts::TAU;
 use std::fmt::Write as _;
 
 use jred::error::Error;
-use jred::machine::Mechanism as _;
+use jred::machine::{Machine, Mechanism as _};
 
 use crate::plot::PALETTE;
 use crate::plot::svg::{Anchor, Ink, Svg};
 use jred_file::model::coordinate::positions;
+use jred_file::model::machine::MachineFile;
 use jred_file::model::mechanism::AnyMechanism;
+use jred_file::model::motion::Motion;
 
 mod glyphs;
 mod sketch;
@@ -44,25 +47,54 @@ pub struct Animation {
     pub track: String,
 }
 
-/// The mechanism at one position.
+/// Most positions of a motion that are marked.
+const MARKED: usize = 12;
+
+/// The machine as it stands, its weight down the page, at the start of its motion, with the positions between the motion's parts marked by numbers;
+/// without a motion at one position.
 ///
 /// # Errors
 /// The mechanism cannot be placed.
-pub fn still(mechanism: &AnyMechanism) -> Result<String, Error> {
-    let phi = mechanism.domain().position(SHOWN);
-    let sketch = Sketch::new(mechanism)?;
+pub fn still(file: &MachineFile) -> Result<String, Error> {
+    let mechanism = file.machine.mechanism();
+    let sketch = Sketch::new(&file.machine)?;
+    let marked = marked(file);
+    let shown = mechanism.domain().position(SHOWN);
+    let phi = marked.first().copied().unwrap_or(shown);
     let pose = sketch.pose(mechanism, phi)?;
+    let poses = marked.iter().map(|phi| sketch.pose(mechanism, *phi));
+    let poses = poses.collect::<Result<Vec<Pose>, Error>>()?;
     let place = mechanism.coordinate().place(phi);
-    Ok(draw(mechanism, &sketch, &pose, &place))
+    Ok(draw(mechanism, &sketch, &pose, &poses, &place))
+}
+
+/// The positions of the drive link between the parts of the motion, each once.
+fn marked(file: &MachineFile) -> Vec<f64> {
+    let mut places: Vec<f64> = Vec::new();
+    let coordinate = file.machine.mechanism().coordinate();
+    for (start, _) in file.motion.iter().flat_map(Motion::stretches) {
+        let phi = file
+            .motion
+            .as_ref()
+            .map_or(0.0, |motion| motion.at(start).phi);
+        // The same place of another turn is drawn once.
+        let shown = |phi: f64| coordinate.pick(phi.rem_euclid(TAU), phi);
+        let near = |other: &f64| (shown(phi) - shown(*other)).abs() < 1e-6;
+        if !places.iter().any(near) && places.len() < MARKED {
+            places.push(phi);
+        }
+    }
+    places
 }
 
 /// The mechanism at one position, with the data for a script to move it.
 ///
 /// # Errors
 /// The mechanism cannot be placed.
-pub fn moving(mechanism: &AnyMechanism) -> Result<Animation, Error> {
+pub fn moving(machine: &Machine<AnyMechanism>) -> Result<Animation, Error> {
+    let mechanism = machine.mechanism();
     let coordinate = mechanism.coordinate();
-    let sketch = Sketch::new(mechanism)?;
+    let sketch = Sketch::new(machine)?;
     let view = View::of(&sketch);
     let places: Vec<f64> = positions(mechanism.domain(), PICTURES).collect();
     let poses = places
@@ -70,7 +102,7 @@ pub fn moving(mechanism: &AnyMechanism) -> Result<Animation, Error> {
         .map(|&phi| sketch.pose(mechanism, phi))
         .collect::<Result<Vec<Pose>, Error>>()?;
     let first = (SHOWN * PICTURES as f64) as usize;
-    let svg = draw(mechanism, &sketch, &poses[first], "");
+    let svg = draw(mechanism, &sketch, &poses[first], &[], "");
     let shown: Vec<f64> = places
         .iter()
         .map(|&phi| (coordinate.shown(phi) * 1e3).round() / 1e3)
@@ -101,7 +133,13 @@ pub fn moving(mechanism: &AnyMechanism) -> Result<Animation, Error> {
     Ok(Animation { svg, track })
 }
 
-fn draw(mechanism: &AnyMechanism, sketch: &Sketch, pose: &Pose, place: &str) -> String {
+fn draw(
+    mechanism: &AnyMechanism,
+    sketch: &Sketch,
+    pose: &Pose,
+    marked: &[Pose],
+    place: &str,
+) -> String {
     let view = View::of(sketch);
     let mut svg = Svg::new(view.width, view.height);
     let mut pen = Pen {
@@ -174,6 +212,21 @@ fn draw(mechanism: &AnyMechanism, sketch: &Sketch, pose: &Pose, place: &str) -> 
         );
         pen.svg.close();
     }
+    // The last point does the machine's work.
+    if let Some(tool) = sketch.points.last().filter(|_| marked.len() > 1) {
+        for (k, pose) in marked.iter().enumerate() {
+            let [x, y] = view.page(pose.point(tool.link, tool.at));
+            svg.circle([x, y], 3.5, &Ink::line("#1d2733", 1.2));
+            let number = (k + 1).to_string();
+            svg.text(
+                [x, y + 20.0],
+                Anchor::Middle,
+                &lettering("#1d2733"),
+                &number,
+            );
+        }
+    }
+    view.axes(&mut svg, sketch.turn);
     view.legend(&mut svg, sketch.schematic, place);
     svg.finish()
 }

@@ -5,9 +5,10 @@
 
 use jred::error::Error;
 
-use crate::answer::Answer;
+use crate::answer::{Answer, Block};
 use crate::list;
 use crate::list::listing::{self, Explanation, List, Listing};
+use crate::list::source::Source;
 use jred_file::model::coordinate::Coordinate;
 use jred_file::model::machine::MachineFile;
 use jred_file::number::rounding::short;
@@ -16,21 +17,25 @@ use jred_sizing::catalogue::MotorKind;
 use jred_sizing::explain::{Breakdown, Contributions, Lever, Remedies};
 
 mod chart;
+mod document;
 mod drive;
 mod extract;
 mod figures;
 mod mechanism;
 mod motion;
 mod notes;
+mod project;
 mod require;
 mod section;
 mod thinned;
+mod tool;
 
 use drive::{Subject, TOP};
 use section::{Figure, Page, Section};
 
 pub use mechanism::mechanism_page;
 pub use motion::{fastest_page, gentlest_page, steady_page};
+pub use project::project_page;
 pub use require::require_page;
 
 /// Number of motors on the page, each with its first gearbox and amplifier.
@@ -46,17 +51,54 @@ const CHANGED: usize = 3;
 ///
 /// # Errors
 /// Those of the machine; `None` if the catalogue was empty.
-pub fn page(name: &str, shown: Listing) -> Result<Option<String>, Error> {
+pub fn page(source: &Source, shown: Listing) -> Result<Option<String>, Error> {
+    let file = shown.file;
+    let Some(drive) = drive_pages(source, shown, CHANGED)? else {
+        return Ok(None);
+    };
+    let mut answer = Answer::words("");
+    document::title(&mut answer, source, file);
+    answer.blocks.extend(drive.first);
+    let page = Page {
+        class: class(drive.holds),
+        file: source.name,
+        ..Page::new(file, "drive sizing", &answer, drive.sections)
+    };
+    let about = format!(
+        "Drive sizing with the reduced {} over the whole cycle",
+        drive.words.inertia
+    );
+    Ok(Some(page.html(about)))
+}
+
+/// Class of the first blocks.
+const fn class(holds: bool) -> &'static str {
+    if holds { "answer" } else { "answer none" }
+}
+
+/// Everything about the drive of a machine.
+struct DrivePages {
+    /// The drive, its limits, the next choices.
+    first: Vec<Block>,
+    /// The rest.
+    sections: Vec<Section>,
+    /// Whether a drive satisfies every rule.
+    holds: bool,
+    words: &'static Vocabulary,
+}
+
+/// Everything about the best or requested drive of a machine; `changed`: number of refused drives with their required changes.
+fn drive_pages(
+    source: &Source,
+    shown: Listing,
+    changed: usize,
+) -> Result<Option<DrivePages>, Error> {
     let list = List {
         top: LISTED,
         nearest: REFUSED,
         ..List::default()
     };
-    let shown = Listing {
-        list,
-        asked: None,
-        ..shown
-    };
+    let shown = Listing { list, ..shown };
     let Some(candidate) = shown.shown() else {
         return Ok(None);
     };
@@ -80,6 +122,11 @@ pub fn page(name: &str, shown: Listing) -> Result<Option<String>, Error> {
     shown.others(&mut answer, usize::MAX);
     shown.certainties(&mut answer);
     let mut sections = vec![
+        Section::read("Bill of materials", |answer| listing::bill(answer, judged)),
+        drawn(file)?,
+    ];
+    sections.extend(tool::tool(file, duty)?);
+    sections.extend([
         Section::read(format!("Rules, for {}", judged.drive.name()), |answer| {
             listing::rules(answer, judged);
         }),
@@ -88,8 +135,8 @@ pub fn page(name: &str, shown: Listing) -> Result<Option<String>, Error> {
             vec![plane(&subject)],
         ),
         Section::new("Over the cycle", over_time(&subject, words)),
-    ];
-    let explanation = Explanation::new(file, duty, selection, &candidate, CHANGED)?;
+    ]);
+    let explanation = Explanation::new(file, duty, selection, &candidate, changed)?;
     let contributions = Contributions::new(file, duty, &judged.drive)?;
     sections.push(shares(&subject, &contributions));
     sections.extend(changes(&subject, &explanation));
@@ -120,6 +167,7 @@ pub fn page(name: &str, shown: Listing) -> Result<Option<String>, Error> {
         folded: format!("{refused} drives, closest first{listed}"),
         ..Section::read("Refused drives and reasons", |answer| shown.refused(answer))
     });
+    sections.push(document::inputs(source));
     sections.push(Section::read("Rules and their sources", |answer| {
         let rules = selection.rules;
         answer.sentence(format!(
@@ -137,16 +185,12 @@ pub fn page(name: &str, shown: Listing) -> Result<Option<String>, Error> {
             answer.sentence("Charts: drag to zoom, double-click to reset, click a name in the legend to hide its curve. Print the page for the report on paper or as PDF.");
         },
     ));
-    let page = Page {
-        class: if found { "answer" } else { "answer none" },
-        file: name,
-        ..Page::new(file, "drive sizing", &answer, sections)
-    };
-    let about = format!(
-        "Drive sizing with the reduced {} over the whole cycle",
-        words.inertia
-    );
-    Ok(Some(page.html(about)))
+    Ok(Some(DrivePages {
+        first: answer.blocks,
+        sections,
+        holds: judged.holds(),
+        words,
+    }))
 }
 
 /// The torque-speed plane.
@@ -244,7 +288,19 @@ fn over_time(subject: &Subject, words: &Vocabulary) -> Vec<Figure> {
     figures
 }
 
-/// The mechanism, and its reduced inertia and torque.
+/// The machine as it stands.
+fn drawn(file: &MachineFile) -> Result<Section, Error> {
+    let figure = Figure::new(
+        crate::drawing::still(file)?,
+        format!(
+            "The machine as it stands, at the start of its motion, with the paths of its named points and, in grey, its links at other positions. Numbers: where the parts of the motion begin. `jred reduce {} --report` animates it.",
+            file.name
+        ),
+    );
+    Ok(Section::new("The machine", vec![figure]))
+}
+
+/// Its reduced inertia and torque.
 fn machine(subject: &Subject, file: &MachineFile) -> Result<Section, Error> {
     let duty = subject.duty;
     let mean_speed = duty.integral(|i| i.omega.abs()) / duty.duration;
@@ -263,13 +319,6 @@ fn machine(subject: &Subject, file: &MachineFile) -> Result<Section, Error> {
     let reduced =
         format!("{what} with flywheel and drive train, and its derivative. Where {term}.");
     let figures = vec![
-        Figure::new(
-            crate::drawing::still(file.machine.mechanism())?,
-            format!(
-                "The mechanism in one position, with the paths of its named points and, in grey, its links at other positions. `jred reduce {} --report` animates it.",
-                file.name
-            ),
-        ),
         Figure::live(&figures::reduced_inertia(file)?, reduced),
         Figure::live(
             &figures::reduced_torque(file, mean_speed)?,
@@ -287,7 +336,7 @@ fn machine(subject: &Subject, file: &MachineFile) -> Result<Section, Error> {
             ),
         ),
     ];
-    Ok(Section::new("The machine", figures))
+    Ok(Section::new("The machine, reduced", figures))
 }
 
 /// Every rule over the gear ratio; the axis contains the range that satisfies all.

@@ -15,6 +15,7 @@ use jred_file::model::site::Site;
 use jred_file::units::Vocabulary;
 
 mod assessment;
+pub mod bill;
 mod bits;
 mod brake;
 pub mod check;

@@ -4,6 +4,7 @@
 
 mod backlash;
 mod bigger;
+mod bill;
 mod brake;
 mod emergency;
 mod gearbox;

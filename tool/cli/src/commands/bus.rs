@@ -10,6 +10,7 @@ use crate::busy;
 use crate::commands::core_error::duty_report;
 use crate::commands::{Completion, print_answer, read_warned};
 use crate::options::bus::Bus as Options;
+use crate::options::sampling::SamplingOptions;
 use jred_analysis::duty::{Duty, Sampling};
 use jred_file::model::machine::MachineFile;
 use jred_file::model::site::Site;
@@ -17,16 +18,15 @@ use jred_file::model::supply::Supply;
 use jred_file::model::variator;
 use jred_file::plain;
 use jred_report::list::{self, listing};
+use jred_sizing::bus::Watch;
 use jred_sizing::bus::analysis::{BusAnalysis, BusAxis};
-use jred_sizing::bus::supply::BusData;
-use jred_sizing::bus::{Watch, power};
 use jred_sizing::catalogue::Catalogue;
 use jred_sizing::cycle::Cycle;
 use jred_sizing::select::fit::fit_input;
 use jred_sizing::select::size::Selection;
 
 /// Shows the progress of a search.
-struct Bar<'a>(&'a ProgressBar);
+pub(super) struct Bar<'a>(pub(super) &'a ProgressBar);
 
 impl Watch for Bar<'_> {
     fn planned(&self, count: u64) {
@@ -43,11 +43,12 @@ impl Watch for Bar<'_> {
 /// # Errors
 /// Bad input.
 pub fn run(options: &Options) -> Result<Completion> {
-    bounded(options)?;
+    bounded(options.files.len(), &options.sampling)?;
     let catalogue = options.catalogue.open()?;
     let files = options.files.iter().map(|path| read_warned(path));
     let mut files = files.collect::<Result<Vec<MachineFile>>>()?;
-    let [own, common] = supply(options, &files)?;
+    let sites = (files.iter()).map(|file| (&file.site, file.name.clone()));
+    let [own, shared] = common(sites)?;
     let named = named(options)?;
     let mut axes = Vec::new();
     for (k, (path, file)) in options.files.iter().zip(&mut files).enumerate() {
@@ -57,7 +58,7 @@ pub fn run(options: &Options) -> Result<Completion> {
             .map(|(_, n)| n.as_str());
         file.site.bus_voltage = own.bus_voltage;
         file.site.mains_voltage = own.mains_voltage;
-        file.site.supply = common.supply;
+        file.site.supply = shared.supply;
         axes.push(axis(
             path,
             file,
@@ -84,8 +85,8 @@ pub fn run(options: &Options) -> Result<Completion> {
 const MOST_STEPS: usize = 2_000_000;
 
 /// Refuses axes and steps that need too much memory.
-fn bounded(options: &Options) -> Result<()> {
-    let (axes, steps) = (options.files.len(), options.sampling.sampling().steps);
+pub(super) fn bounded(axes: usize, sampling: &SamplingOptions) -> Result<()> {
+    let steps = sampling.sampling().steps;
     if axes * steps <= MOST_STEPS {
         return Ok(());
     }
@@ -96,33 +97,23 @@ fn bounded(options: &Options) -> Result<()> {
     ))
 }
 
-/// The supply of the bus, and the site for each axis. One file describes the common bus; the others have no supply or the
-/// same one. Regenerated energy is checked on the common bus, not for each axis alone.
-fn supply(options: &Options, files: &[MachineFile]) -> Result<[Site; 2]> {
-    let stated = |file: &MachineFile| {
-        let Site {
-            supply,
-            bus_voltage,
-            mains_voltage,
-            ..
-        } = file.site;
-        (supply, bus_voltage, mains_voltage)
-    };
-    let mut given = (options.files.iter().zip(files))
-        .filter(|(_, file)| file.site.supply.given)
-        .map(|(path, file)| (path, stated(file)));
+/// The supply of the bus, and the site for each axis, from the sites of files and their names. One describes the common bus; the others have no supply
+/// or the same one. Regenerated energy is checked on the common bus, not for each axis alone.
+pub(super) fn common<'f>(sites: impl Iterator<Item = (&'f Site, String)>) -> Result<[Site; 2]> {
+    let stated = |site: &Site| (site.supply, site.bus_voltage, site.mains_voltage);
+    let mut given = sites.filter(|(site, _)| site.supply.given);
     let first = given.next();
-    if let Some((path, stated)) = &first
-        && let Some((other, _)) = given.find(|(_, other)| other != stated)
+    if let Some((site, name)) = &first
+        && let Some((_, other)) = given.find(|(other, _)| stated(other) != stated(site))
     {
         return Err(miette!(
-            help = "all axes on a bus share one supply: remove [supply] from one file or make both identical",
-            "[supply] in {} differs from that in {}",
-            plain::path(other),
-            plain::path(path)
+            help =
+                "all axes share one supply: remove [supply] from one file or make both identical",
+            "[supply] in {other} differs from that in {name}"
         ));
     }
-    let (supply, bus_voltage, mains_voltage) = first.map(|(_, stated)| stated).unwrap_or_default();
+    let (supply, bus_voltage, mains_voltage) =
+        first.map(|(site, _)| stated(site)).unwrap_or_default();
     let site = |supply| Site {
         bus_voltage,
         mains_voltage,
@@ -191,20 +182,7 @@ fn axis(
             plain::path(path)
         )
     })?;
-    let drive = &candidate.drive;
-    let curve = power(
-        &cycle,
-        &drive.coefficients(),
-        drive.ratio(),
-        drive.motor,
-        candidate.motor.on(drive.amplifier),
-        drive.amplifier,
-    );
-    Ok(BusAxis {
-        title: file.title.clone(),
-        drive: drive.name(),
-        curve,
-        data: BusData::new(&bus.supply, bus.bus_voltage, drive.amplifier, drive.motor),
-        holds: selection.judged(&candidate).holds(),
-    })
+    let holds = selection.judged(&candidate).holds();
+    let (drive, limits) = (&candidate.drive, candidate.motor);
+    Ok(BusAxis::new(&file.title, drive, limits, &cycle, bus, holds))
 }

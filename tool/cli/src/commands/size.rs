@@ -7,8 +7,8 @@ use miette::{Report, Result, miette};
 use crate::commands::core_error::{core_report, duty_report};
 use crate::commands::gentlest::report;
 use crate::commands::vary::catalogue;
-use crate::commands::{Completion, print_answer};
-use crate::options::{MotionChoice, Size};
+use crate::commands::{Completion, print, print_answer};
+use crate::options::{MotionChoice, Size, SizeFormat};
 use crate::output;
 use crate::terminal;
 use jred_analysis::checked;
@@ -22,10 +22,12 @@ use jred_file::plain;
 use jred_file::read;
 use jred_motion::co_design::CoDesignInput;
 use jred_report::list;
+use jred_report::list::aas::{SizedAxis, environment};
 use jred_report::list::listing;
 use jred_report::list::rule_words::assumptions;
+use jred_report::list::source::Source;
 use jred_report::page;
-use jred_report::table::output::Format;
+use jred_sizing::catalogue::Catalogue;
 use jred_sizing::cycle::Cycle;
 use jred_sizing::meter::MeterLimits;
 use jred_sizing::select::fit::fit_input;
@@ -111,11 +113,24 @@ pub fn size(options: &Size) -> Result<Completion> {
         list: extent(options, explanation.is_some()),
     };
     if let Some(path) = &options.report {
-        let page = page::page(&plain::path(&options.file), shown).map_err(core_report)?;
+        let source = Source {
+            name: &plain::path(&options.file),
+            text: &read::text(&options.file)?,
+            date: &output::today(),
+            parts: &catalogue,
+        };
+        let unasked = listing::Listing {
+            asked: None,
+            ..shown
+        };
+        let page = page::page(&source, unasked).map_err(core_report)?;
         let page = page.ok_or_else(|| none_left(options, catalogue.count(), &[]))?;
         output::write(path, page.as_bytes())?;
     }
-    let mut answer = shown.answer(options.format);
+    let Some(format) = options.format.of_answer() else {
+        return aas(options, shown, &catalogue);
+    };
+    let mut answer = shown.answer(format);
     if let Some(path) = &options.report {
         answer.sentence(format!("report written to {}", plain::path(path)));
     }
@@ -123,11 +138,38 @@ pub fn size(options: &Size) -> Result<Completion> {
         let path = plain::path(path);
         answer.sentence(format!("limits for the duty meter written to {path}"));
     }
-    print_answer(&answer, options.format)?;
+    print_answer(&answer, format)?;
     Ok(if selection.fit.is_empty() {
         Completion::Violated
     } else {
         Completion::Holds
+    })
+}
+
+/// Prints the chosen drive as submodel of the asset administration shell.
+fn aas(options: &Size, shown: listing::Listing, parts: &Catalogue) -> Result<Completion> {
+    let Some(candidate) = shown.shown() else {
+        return Ok(Completion::Violated);
+    };
+    let source = Source {
+        name: &plain::path(&options.file),
+        text: &read::text(&options.file)?,
+        date: &output::today(),
+        parts,
+    };
+    let judged = shown.selection.judged(&candidate);
+    let axis = SizedAxis {
+        source: &source,
+        file: shown.file,
+        axis: None,
+        duration: shown.duty.duration,
+        judged: &judged,
+    };
+    print(&environment([axis]))?;
+    Ok(if judged.holds() {
+        Completion::Holds
+    } else {
+        Completion::Violated
     })
 }
 
@@ -157,7 +199,7 @@ fn suited(
         .best()
         .map_err(|obstacle| report(&options.file, None, judging.file, &obstacle))?;
     let choice = list::suited::MotionChoice::new(judging.file, &suited);
-    if options.format != Format::Table {
+    if options.format != SizeFormat::Table {
         terminal::say(&choice.words());
     }
     Ok((suited.motion().cloned(), choice))
@@ -178,7 +220,13 @@ fn pareto(
         "{}: Pareto front of the drives that violate no rule",
         file.title
     );
-    print_answer(&list::front::answer(&front, &title), options.format)?;
+    let format = options.format.of_answer().ok_or_else(|| {
+        miette!(
+            help = "leave out --pareto, or use another --format",
+            "--format aas describes one drive, not a Pareto front"
+        )
+    })?;
+    print_answer(&list::front::answer(&front, &title), format)?;
     Ok(if front.points.is_empty() {
         Completion::Violated
     } else {

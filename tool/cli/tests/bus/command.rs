@@ -16,7 +16,7 @@ max_voltage = "820 V"
 brake_resistor = { resistance = "47 Ohm", power = "200 W", peak_power = "13 kW", pulse_energy = "4 kW s" }
 "#;
 
-pub(super) fn figure(answer: &Value, path: &[&str]) -> f64 {
+pub(crate) fn figure(answer: &Value, path: &[&str]) -> f64 {
     let value = path.iter().fold(answer, |value, key| &value[*key]);
     value
         .as_f64()

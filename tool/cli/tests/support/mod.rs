@@ -14,7 +14,7 @@ use serde_json::Value;
 pub(crate) use shared::*;
 
 /// All commands.
-pub(crate) const COMMANDS: [&str; 19] = [
+pub(crate) const COMMANDS: [&str; 20] = [
     "catalogue",
     "require",
     "reduce",
@@ -26,6 +26,7 @@ pub(crate) const COMMANDS: [&str; 19] = [
     "tolerance",
     "merge",
     "bus",
+    "project",
     "simulate",
     "steady",
     "fastest",
@@ -74,6 +75,8 @@ pub(crate) fn jred_in(folder: &Path, arguments: &[impl AsRef<std::ffi::OsStr>]) 
         .env("NO_COLOR", "1")
         // Progress lines are not part of the messages.
         .env("JRED_PROGRESS", "never")
+        // The date of documents: 2026-12-01.
+        .env("SOURCE_DATE_EPOCH", "1796083200")
         .env_remove("CLICOLOR_FORCE")
         .env_remove("FORCE_COLOR");
     command.args(arguments);

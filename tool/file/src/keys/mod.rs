@@ -19,12 +19,15 @@ pub(crate) mod motion;
 #[rustfmt::skip]
 mod parts;
 #[rustfmt::skip]
+mod project;
+#[rustfmt::skip]
 pub(crate) mod simulation;
 #[rustfmt::skip]
 pub(crate) mod site;
 #[rustfmt::skip]
 mod top;
 
+pub use project::PROJECT;
 pub use site::RULE_SET;
 pub use top::MACHINE;
 

@@ -12,6 +12,14 @@ const GRAVITY: &[ValueForm] = &[
     ]),
 ];
 
+pub(super) static DOCUMENT: KeyTable = KeyTable::of("document", &[&[
+    may("project", ValueForm::Text, "project or order").such_as("\"Line 7\""),
+    may("customer", ValueForm::Text, "").such_as("\"Cardboard Ltd\""),
+    may("author", ValueForm::Text, "").such_as("\"A. Miller\""),
+    may("revision", ValueForm::Text, "").such_as("\"B\""),
+    may("date", ValueForm::Text, "(the day of the run)").such_as("\"2026-11-27\""),
+]]);
+
 /// All keys of a machine file.
 pub static MACHINE: KeyTable = KeyTable::of("machine", &[&[
     may("title", ValueForm::Text, "title of reports (name of the file)").such_as("\"Servo press\""),
@@ -29,5 +37,6 @@ pub static MACHINE: KeyTable = KeyTable::of("machine", &[&[
     may("surroundings", ValueForm::Table(&site::SURROUNDINGS), "[temperatures and altitude](#surroundings)"),
     may("duty", ValueForm::Table(&site::DUTY), "[how the motion is run](#duty)"),
     may("rules", ValueForm::Table(&site::RULES), "[limits](#rules) of the sizing rules"),
+    may("document", ValueForm::Table(&DOCUMENT), "[title block](#document) of reports"),
     may("tolerance", site::TOLERANCE, "[scatter](#tolerance) of quantities, by their paths"),
 ]]);

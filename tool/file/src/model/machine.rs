@@ -9,6 +9,7 @@ use jred::machine::{Element, Load, Machine, Mechanism, Reducible as _, Reduction
 
 use crate::model::axis::Axis;
 use crate::model::coordinate::positions;
+use crate::model::document::Document;
 use crate::model::drive_train::DriveTrain;
 use crate::model::mechanism::{AnyMechanism, NamedElement, NamedLoad};
 use crate::model::motion::{Motion, Steady};
@@ -30,6 +31,8 @@ pub struct MachineFile {
     pub name: String,
     /// Title for reports.
     pub title: String,
+    /// Title block of reports.
+    pub document: Document,
     /// The mechanism with gravity, loads and flywheel, *without* the drive train and without the [`schedule`](Self::schedule).
     pub machine: Machine<AnyMechanism>,
     /// Loads that act only in a part of the motion, payloads and carriages.

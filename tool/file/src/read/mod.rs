@@ -4,6 +4,7 @@
 
 mod carriage;
 mod curve_file;
+mod document;
 mod drive_link;
 mod drive_train;
 mod duty_type;
@@ -17,6 +18,7 @@ mod mechanism;
 mod motion;
 mod names;
 mod profile;
+mod project;
 mod rules;
 mod schedule;
 mod simulation;
@@ -30,6 +32,7 @@ mod variator;
 mod window;
 
 pub use mechanism::mechanism_types;
+pub use project::project;
 
 use std::ops::Range;
 use std::path::Path;
@@ -254,11 +257,13 @@ fn machine(name: &str, text: &str, files: &dyn Files) -> Result<UncheckedFile> {
     supply::read(&root, &mut site)?;
     surroundings::read(&root, &mut site)?;
     duty_type::read(&root, &mut site)?;
+    let document = document::read(&root)?;
     root.finish()?;
 
     let file = MachineFile {
         name: name.to_owned(),
         title,
+        document,
         machine,
         schedule,
         flywheel,

@@ -4,6 +4,7 @@ pub mod columns;
 pub mod csv;
 #[cfg(feature = "fs")]
 pub mod disk;
+pub mod entries;
 pub mod file;
 pub mod item;
 pub mod key;

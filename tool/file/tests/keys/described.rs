@@ -117,7 +117,7 @@ fn all_keys() -> Vec<String> {
     }
     let mut found = Vec::new();
     // The keys of every mechanism are asked for with those of its type.
-    let others = ["rule-set", "mechanism"];
+    let others = ["rule-set", "project", "axis", "mechanism"];
     for table in named()
         .into_iter()
         .filter(|table| !others.contains(&table.name))

@@ -243,7 +243,7 @@ fn markdown(table: &'static KeyTable, shown: Shown, deep: bool) -> String {
 }
 
 fn pages() -> Vec<PathBuf> {
-    let folders = ["docs", "docs/mechanisms"].map(|folder| root().join(folder));
+    let folders = ["docs", "docs/commands", "docs/mechanisms"].map(|folder| root().join(folder));
     let entries = folders
         .iter()
         .flat_map(|folder| fs::read_dir(folder).unwrap());

@@ -1,7 +1,11 @@
 //! Content of a drawing, in metres: parts of links in their own frames, parts of the ground, paths, poses.
 
+use std::f64::consts::FRAC_PI_2;
+
 use jred::error::Error;
-use jred::machine::{Body, Frames, Joint, Jointed as _, Joints, Marker, Mechanism as _, PoseError};
+use jred::machine::{
+    Body, Frames, Joint, Jointed as _, Joints, Machine, Marker, Mechanism as _, PoseError,
+};
 
 use jred_file::model::coordinate::whole_range;
 use jred_file::model::mechanism::{AnyMechanism, NamedPoint};
@@ -33,10 +37,26 @@ impl BodyPart {
         matches!(self, Self::Pin(_))
     }
 
+    /// The pins, blocks and slots of the ground, turned about the origin.
+    fn turned(self, by: f64) -> Self {
+        match self {
+            Self::Pin(at) => Self::Pin(turned(at, by)),
+            Self::Slot(ends) => Self::Slot(ends.map(|at| turned(at, by))),
+            Self::Block(at, angle) => Self::Block(turned(at, by), angle + by),
+            other => other,
+        }
+    }
+
     /// Whether copies at other positions are useful; wheels and outlines look the same in every position.
     pub(super) const fn leaves_ghosts(&self) -> bool {
         matches!(self, Self::Bar(_) | Self::Plate(_) | Self::Block(..))
     }
+}
+
+/// A point turned about the origin by an angle (rad).
+fn turned([x, y]: [f64; 2], by: f64) -> [f64; 2] {
+    let (sin, cos) = by.sin_cos();
+    [cos * x - sin * y, sin * x + cos * y]
 }
 
 /// Pose of every link: x, y (m) and angle (rad).
@@ -67,10 +87,14 @@ pub(super) struct Sketch {
     pub(super) schematic: bool,
     /// Offset of each link in the drawing from its position in the mechanism (m).
     apart: Vec<[f64; 2]>,
+    /// Angle (rad) by which the mechanism is turned so that its weight points down the page.
+    pub(super) turn: f64,
 }
 
 impl Sketch {
-    pub(super) fn new(mechanism: &AnyMechanism) -> Result<Self, Error> {
+    pub(super) fn new(machine: &Machine<AnyMechanism>) -> Result<Self, Error> {
+        let mechanism = machine.mechanism();
+        let [x, y] = machine.gravity();
         let links = mechanism.links().len();
         let mut sketch = Self {
             links: vec![Vec::new(); links],
@@ -80,6 +104,11 @@ impl Sketch {
             poses: Vec::new(),
             schematic: false,
             apart: vec![[0.0; 2]; links],
+            // Without gravity it lies flat.
+            turn: match [x, y] {
+                [0.0, 0.0] => 0.0,
+                _ => -FRAC_PI_2 - y.atan2(x),
+            },
         };
         let places: Vec<f64> = whole_range(mechanism.domain(), POSES).collect();
         let frames = places
@@ -93,6 +122,7 @@ impl Sketch {
             .collect::<Result<Vec<_>, PoseError>>()?;
         let first = &joints[0];
         if is_at_one_point(first, &frames[0], mechanism) {
+            sketch.turn = 0.0;
             sketch.row_of_wheels(first);
         } else {
             let real = |body: Body| body.link().is_none_or(|link| link < mechanism.own_links());
@@ -124,7 +154,10 @@ impl Sketch {
 
     fn placed(&self, frames: &Frames) -> Pose {
         let links = frames.iter().zip(&self.apart);
-        let links = links.map(|(f, [x, y])| [f.x.value + x, f.y.value + y, f.psi.value]);
+        let links = links.map(|(f, [x, y])| {
+            let [x, y] = turned([f.x.value + x, f.y.value + y], self.turn);
+            [x, y, f.psi.value + self.turn]
+        });
         Pose {
             links: links.collect(),
         }
@@ -132,7 +165,7 @@ impl Sketch {
 
     fn add(&mut self, body: Body, part: BodyPart) {
         match body {
-            Body::Ground => self.ground.push(part),
+            Body::Ground => self.ground.push(part.turned(self.turn)),
             Body::Link(k) => {
                 if let Some(parts) = self.links.get_mut(k) {
                     parts.push(part);

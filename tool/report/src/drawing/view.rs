@@ -1,5 +1,7 @@
 //! From metres to pixels.
 
+use std::f64::consts::FRAC_PI_2;
+
 use super::sketch::{BodyPart, Sketch};
 use crate::plot::WIDTH;
 use crate::plot::svg::{Anchor, Ink, Svg};
@@ -81,6 +83,33 @@ impl View {
             0.5 * self.width + (x - self.middle[0]) * self.scale,
             0.5 * self.height - (y - self.middle[1]) * self.scale,
         ]
+    }
+
+    /// The axes of the machine file, if they are turned on the page.
+    pub(super) fn axes(&self, svg: &mut Svg, turn: f64) {
+        let middle = [self.width - 60.0, 60.0];
+        for (name, angle) in [("x", turn), ("y", turn + FRAC_PI_2)] {
+            if turn == 0.0 {
+                continue;
+            }
+            let (sin, cos) = angle.sin_cos();
+            let on = |along: f64, across: f64| {
+                [
+                    middle[0] + along * cos - across * sin,
+                    middle[1] - along * sin - across * cos,
+                ]
+            };
+            let ink = Ink::line(super::QUIET, 1.5);
+            svg.path(&[middle, on(30.0, 0.0)], false, &ink);
+            svg.path(&[on(23.0, 4.0), on(30.0, 0.0), on(23.0, -4.0)], false, &ink);
+            let [x, y] = on(42.0, 0.0);
+            svg.text(
+                [x, y + 4.0],
+                Anchor::Middle,
+                &super::lettering(super::QUIET),
+                name,
+            );
+        }
     }
 
     /// Scale bar and position.

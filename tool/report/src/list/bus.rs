@@ -20,7 +20,7 @@ use jred_sizing::bus::curve::PowerCurve;
 use jred_sizing::bus::store::BusFigures;
 use jred_sizing::bus::verdict::{BusQuantity, Open};
 
-pub(crate) use data::BusData;
+pub(crate) use data::{BusData, data};
 
 /// The verdict of every check, the cures, and the powers and voltages behind them.
 ///
@@ -28,9 +28,18 @@ pub(crate) use data::BusData;
 /// CSV of cycles without a common period that is searched.
 pub fn answer(bus: &BusAnalysis, format: Format) -> Result<Answer<'static>> {
     let count = counted(bus.axes.len(), "axis", "axes");
-    let mut answer = Answer::new(format!("DC bus of {count}"), &data::data(bus));
-    verdicts(bus, &mut answer);
-    resistor(bus, &mut answer);
+    let mut answer = Answer::new(format!("DC bus of {count}"), &data(bus));
+    blocks(bus, &mut answer);
+    if format == Format::Csv {
+        answer.course(Cow::Owned(course(bus)?));
+    }
+    Ok(answer)
+}
+
+/// The blocks for reading.
+pub(super) fn blocks(bus: &BusAnalysis, answer: &mut Answer) {
+    verdicts(bus, answer);
+    resistor(bus, answer);
     if bus.data.capacitance.is_none() && bus.data.resistor.is_some() {
         answer.sentence(
             "DC bus capacitance not given (capacitance in [supply]): all regenerated energy goes into the brake resistor",
@@ -42,14 +51,10 @@ pub fn answer(bus: &BusAnalysis, format: Format) -> Result<Answer<'static>> {
     for cure in &bus.cures {
         answer.sentence(format!("- {}", words::cure(cure)));
     }
-    in_step(bus, &mut answer);
-    worst(bus, &mut answer);
-    bounds(bus, &mut answer);
-    axes(bus, &mut answer);
-    if format == Format::Csv {
-        answer.course(Cow::Owned(course(bus)?));
-    }
-    Ok(answer)
+    in_step(bus, answer);
+    worst(bus, answer);
+    bounds(bus, answer);
+    axes(bus, answer);
 }
 
 fn in_step(bus: &BusAnalysis, answer: &mut Answer) {

@@ -1,6 +1,7 @@
 //! The answer of `jred size`: a selection of drives.
 
 mod asked;
+mod bill;
 mod brief;
 mod choice;
 mod comma;
@@ -21,6 +22,8 @@ use crate::table::reading::{ColumnKind, Reading};
 use jred_sizing::cell::Cell;
 
 pub use asked::Asked;
+pub(crate) use bill::bill;
+pub(crate) use brief::order;
 pub use choice::{List, explained};
 pub use explanation::Explanation;
 pub(crate) use explanation::{changes, contributions};
@@ -72,7 +75,7 @@ impl<'a> Listing<'a> {
     }
 
     /// The requested drive, the best one, or the closest one if none is suitable.
-    pub(crate) fn shown(&self) -> Option<Candidate<'a>> {
+    pub fn shown(&self) -> Option<Candidate<'a>> {
         let first = self
             .selection
             .fit
@@ -101,6 +104,8 @@ impl<'a> Listing<'a> {
         }
         if list.full {
             answer.heading(full::supply(&self.file.site));
+            answer.heading("Bill of materials");
+            bill(answer, judged);
             self.duty(answer, judged);
             answer.heading("Rules");
             rules(answer, judged);
@@ -142,7 +147,7 @@ impl<'a> Listing<'a> {
 }
 
 /// A table of texts; all columns but the last `wrapped` ones are not wrapped.
-fn table<const N: usize>(
+pub(crate) fn table<const N: usize>(
     header: [(&str, ColumnKind); N],
     rows: impl Iterator<Item = [String; N]>,
     wrapped: usize,

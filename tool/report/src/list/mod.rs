@@ -1,5 +1,6 @@
 //! The answers of the commands, for reading, as CSV and as JSON.
 
+pub mod aas;
 pub mod balance;
 pub mod bus;
 pub mod catalogue;
@@ -14,6 +15,7 @@ pub mod kept;
 pub mod listing;
 mod marks;
 pub mod plan;
+pub mod project;
 pub mod ratio;
 pub mod reduction;
 pub mod require;
@@ -21,6 +23,7 @@ pub mod rule_list;
 pub mod rule_words;
 pub mod sensitivity;
 pub mod simulation;
+pub mod source;
 pub mod split;
 pub mod steady;
 pub mod suited;

@@ -90,7 +90,7 @@ pub fn mechanism_page(
         over,
         state,
     };
-    let moving = drawing::moving(mechanism)?;
+    let moving = drawing::moving(&file.machine)?;
     let findings = Findings::of(file)?;
     let check = inspection::answer(&findings);
     let mut sections = sections(&source)?;

@@ -9,12 +9,15 @@ use super::curve::PowerCurve;
 use super::need::Misses;
 use super::store::BusFigures;
 use super::supply::BusData;
-use super::{Need, Watch};
-use crate::catalogue::Catalogue;
+use super::{Need, Watch, power};
+use crate::catalogue::{Catalogue, Drive};
+use crate::cycle::Cycle;
+use crate::motor::envelope::MotorLimits;
+use jred_file::model::site::Site;
 use jred_file::model::supply::Supply;
 
 /// One axis: its drive and its power.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct BusAxis {
     /// Title of its machine file.
     pub title: String,
@@ -26,6 +29,34 @@ pub struct BusAxis {
     pub data: BusData,
     /// Whether its drive violates no rule.
     pub holds: bool,
+}
+
+impl BusAxis {
+    /// The axis of a drive, on a bus of this supply.
+    pub fn new(
+        title: &str,
+        drive: &Drive,
+        limits: &MotorLimits,
+        cycle: &Cycle,
+        supply: &Site,
+        holds: bool,
+    ) -> Self {
+        let (motor, amplifier) = (drive.motor, drive.amplifier);
+        Self {
+            title: title.to_owned(),
+            drive: drive.name(),
+            curve: power(
+                cycle,
+                &drive.coefficients(),
+                drive.ratio(),
+                motor,
+                limits.on(amplifier),
+                amplifier,
+            ),
+            data: BusData::new(&supply.supply, supply.bus_voltage, amplifier, motor),
+            holds,
+        }
+    }
 }
 
 /// The result for the axes on their bus.

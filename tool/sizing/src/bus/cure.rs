@@ -296,11 +296,10 @@ impl Cure {
             need.peak,
             "W",
         ));
-        changes.push(Change::at_least(
-            "brake_resistor.pulse_energy",
-            need.pulse,
-            "W s",
-        ));
+        if !need.pulse.is_nan() {
+            let energy = "brake_resistor.pulse_energy";
+            changes.push(Change::at_least(energy, need.pulse, "W s"));
+        }
         Self::of(changes)
     }
 }

@@ -36,8 +36,9 @@ pub struct Need {
     /// Largest power (W).
     #[serde(rename = "peak [W]")]
     pub peak: f64,
-    /// Largest energy without a pause (J).
+    /// Largest energy without a pause (J); NaN: not known.
     #[serde(rename = "pulse [J]")]
+    #[schemars(with = "Option<f64>")]
     pub pulse: f64,
     /// Largest resistance that takes that power at the chopper's voltage (Ω).
     #[serde(rename = "largest resistance [Ohm]")]
@@ -57,11 +58,14 @@ impl Need {
         Self::new(data, [mean, figures.burnt_peak, figures.pulse])
     }
 
-    /// Requirements of several axes at any phases: each figure at the phases where it is largest. `None` as for [`Need::of`], or if their common
-    /// period is not searched.
+    /// Requirements of several axes at any phases: each figure at the phases where it is largest, or, if their common period is not searched, the
+    /// bounds that are valid for any phases; the pulse has none. `None` as for [`Need::of`].
     pub fn over(data: &BusData, axes: &Axes, watch: &dyn Watch) -> Option<Self> {
         let axes = axes.on(Self::bus(data, axes.bounds().back)?);
-        let period = axes.power(&[])?.period();
+        let Some(period) = axes.power(&[]).map(|power| power.period()) else {
+            let bounds = axes.bounds();
+            return Self::new(data, [bounds.resistor, bounds.back, f64::NAN]);
+        };
         let of = |f: &super::store::BusFigures| [f.burnt, f.burnt_peak, f.pulse];
         let [mean, peak, pulse] = axes.largest(of, watch)?.map(|worst| of(&worst.figures));
         Self::new(data, [mean[0] / period, peak[1], pulse[2]])
@@ -110,9 +114,10 @@ impl Need {
         (least..=self.largest_resistance).contains(&resistor.resistance)
             && resistor.rated_power >= self.mean
             && resistor.peak_power.is_none_or(|peak| peak >= self.peak)
-            && resistor
+            // An unknown pulse is left to the check of the bus.
+            && !resistor
                 .pulse_energy
-                .is_none_or(|energy| energy >= self.pulse)
+                .is_some_and(|energy| energy < self.pulse)
     }
 
     /// The smallest suitable resistor of a catalogue (by rated power, then price), those with a peak power first, then those with the maker's own

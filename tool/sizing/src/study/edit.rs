@@ -17,7 +17,7 @@ use jred_file::units::literal;
 use jred_file::units::literal::Literal;
 
 /// Tables and keys whose texts are never quantities of the machine.
-const NOT_VARIED: [&str; 3] = ["title", "name", "tolerance"];
+const NOT_VARIED: [&str; 4] = ["title", "name", "tolerance", "document"];
 
 /// Notation of a quantity in the file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -145,6 +145,11 @@ impl ToolCoordinate {
         })
     }
 
+    /// The measured quantity.
+    pub const fn measure(&self) -> Measure {
+        self.measure
+    }
+
     /// Its name, for example "x of ram".
     pub fn name(&self) -> &str {
         &self.name

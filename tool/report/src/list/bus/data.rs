@@ -196,7 +196,7 @@ struct ChangeData {
     unit: &'static str,
 }
 
-pub(super) fn data(bus: &BusAnalysis) -> BusData<'_> {
+pub(crate) fn data(bus: &BusAnalysis) -> BusData<'_> {
     let open = bus.open();
     let mut lacks = MissingFigures::default();
     for (judged, by) in bus.lacks() {

@@ -167,7 +167,11 @@ pub fn resistor(need: &Need) -> String {
         }
         None => format!("at most {largest} Ω"),
     };
-    let [mean, peak, pulse] = [need.mean, need.peak, need.pulse].map(short);
+    let [mean, peak] = [need.mean, need.peak].map(short);
+    if need.pulse.is_nan() {
+        return format!("{range} for {mean} W mean and {peak} W peak");
+    }
+    let pulse = short(need.pulse);
     format!("{range} for {mean} W mean, {peak} W peak and {pulse} J a pulse")
 }
 

@@ -27,15 +27,19 @@ const STEP: f64 = 1.03;
 /// The parts of a drive, and whether it can be ordered.
 pub(super) fn drive(answer: &mut Answer, file: &MachineFile, judged: &Assessment) {
     parts(answer, file, judged);
+    answer.fact("order", order(file, judged));
+}
+
+/// Whether the drive can be ordered, and what is missing.
+pub(crate) fn order(file: &MachineFile, judged: &Assessment) -> String {
     let missing = missing(file, judged);
-    let order = if !judged.holds() {
-        "no: it violates the limits below".to_owned()
+    if !judged.holds() {
+        "no: it violates limits".to_owned()
     } else if missing.is_empty() {
         "as it is".to_owned()
     } else {
         format!("not yet: {}", missing.join("; "))
-    };
-    answer.fact("order", order);
+    }
 }
 
 /// Motor, gearbox, amplifier, brake and resistor.

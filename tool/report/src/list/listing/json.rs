@@ -6,6 +6,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::json;
 
+use super::bill::BillData;
 use super::{Explanation, Listing};
 use crate::answer::Answer;
 use crate::answer::schema::Data;
@@ -69,6 +70,9 @@ pub(crate) struct SizeData<'a> {
     /// The drive of `--why`.
     #[serde(skip_serializing_if = "Option::is_none")]
     asked: Option<RankedData<'a>>,
+    /// The parts of the first or requested drive as they are ordered.
+    #[serde(rename = "bill of materials")]
+    bill: Vec<BillData<'a>>,
     /// Contributions and changes, with `--explain` or `--why`.
     #[serde(skip_serializing_if = "Option::is_none")]
     explanation: Option<&'a Explanation>,
@@ -258,6 +262,9 @@ pub(super) fn answer(shown: Listing) -> Answer {
             speed,
         },
     };
+    let first = shown.shown().map(|first| selection.judged(&first));
+    let bill = first.iter().flat_map(Assessment::bill);
+    let bill = bill.map(|item| BillData::from(&item));
     let data = SizeData {
         version: env!("CARGO_PKG_VERSION"),
         cycle: duty.duration,
@@ -288,6 +295,7 @@ pub(super) fn answer(shown: Listing) -> Answer {
             drive: drive(selection, &asked.candidate),
             rank: asked.rank,
         }),
+        bill: bill.collect(),
         explanation: shown.explanation,
         motion: shown.motion.map(|motion| &motion.data),
     };

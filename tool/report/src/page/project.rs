@@ -1,0 +1,42 @@
+//! The document of a project: all axes, their parts and their bus, then each axis.
+
+use jred::error::Error;
+
+use super::section::{Page, Section};
+use super::{class, drive_pages};
+use crate::list::project::ProjectView;
+
+/// The document of a project.
+///
+/// # Errors
+/// Those of the machines.
+pub fn project_page(shown: &ProjectView) -> Result<String, Error> {
+    let mut sections = Vec::new();
+    for axis in &shown.axes {
+        let Some(drive) = drive_pages(&axis.source, axis.listing, 0)? else {
+            continue;
+        };
+        let name = &axis.axis.name;
+        sections.push(Section {
+            heading: format!("Axis {name}: {}", axis.listing.file.title),
+            blocks: drive.first,
+            ..Section::default()
+        });
+        sections.extend(drive.sections.into_iter().map(|section| Section {
+            heading: format!("{name}: {}", section.heading),
+            ..section
+        }));
+    }
+    let answer = shown.answer();
+    let page = Page {
+        title: &shown.project.title,
+        subject: "project",
+        about: String::new(),
+        version: env!("CARGO_PKG_VERSION"),
+        file: &shown.project.name,
+        class: class(shown.holds()),
+        blocks: &answer.blocks,
+        sections,
+    };
+    Ok(page.html("Drives of all axes, their parts and their supply"))
+}
