@@ -10,5 +10,6 @@ mod seek;
 pub use breakdown::{Breakdown, InertiaShare, Share};
 pub use contributions::{Contribution, Contributions, Effect};
 pub use course::ratio_course;
-pub use duty_model::{Alteration, DutyModel};
+pub use duty_model::DutyModel;
+pub use jred_analysis::duty::mechanics::Alteration;
 pub use remedy::{Edge, Lever, Remedies, Remedy, RuleViolation};

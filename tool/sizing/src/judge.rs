@@ -21,6 +21,7 @@ mod brake;
 pub mod check;
 mod cure;
 mod electric;
+mod elements;
 mod gearbox;
 mod grounds;
 mod motor;
@@ -36,6 +37,7 @@ pub(crate) use assessment::price;
 pub use assessment::{Assessment, Assumption};
 pub use bits::RuleBits;
 pub use cure::cure;
+pub(crate) use elements::OF_ELEMENTS;
 pub use grounds::{Grounds, SupplySource};
 pub use outcome::Outcome;
 pub(crate) use screen::Screen;
@@ -200,6 +202,7 @@ impl<'a> Context<'a> {
         site::measure(self, findings);
         gearbox::measure_alone(self, rules, findings);
         stiffness::measure(self, findings);
+        elements::measure(self, findings);
         motor::measure_speed(self.cycle, self.motor, self.ratio, findings);
         motor::measure_inertia(self, rules, findings);
         motor::measure_torques(self, findings);
@@ -249,12 +252,14 @@ impl<'a> Context<'a> {
 
     fn grounds(&self, rules: &RuleSet, rule: Rule, finding: Finding) -> Grounds {
         use Rule::{
-            Altitude, AmbientTemperature, AmplifierVoltage, Backlash, BrakeResistance, BrakeTorque,
-            BrakeWork, BusVoltage, CabinetTemperature, ConstantTorque, GearboxCubicMean,
-            GearboxCycles, GearboxEmergency, GearboxMeanSpeed, GearboxPeak, GearboxSpeed,
-            HoldingTorque, HousingTemperature, InertiaRatio, MotorVoltage, NaturalFrequency,
-            Overload, PeakCurrent, PeakTorque, ResistorPeak, ResistorPower, ResistorPulse,
-            RmsCurrent, RmsTorque, Speed, WindingTemperature,
+            Altitude, AmbientTemperature, AmplifierVoltage, Backlash, BeltForce, BeltPretension,
+            BeltTension, BrakeResistance, BrakeTorque, BrakeWork, BusVoltage, CabinetTemperature,
+            ConstantTorque, GearboxAxial, GearboxCubicMean, GearboxCycles, GearboxEmergency,
+            GearboxMeanSpeed, GearboxPeak, GearboxRadial, GearboxSpeed, HoldingTorque,
+            HousingTemperature, InertiaRatio, MotorVoltage, NaturalFrequency, Overload,
+            PeakCurrent, PeakTorque, PinionForce, ResistorPeak, ResistorPower, ResistorPulse,
+            RmsCurrent, RmsTorque, ScrewBuckling, ScrewForce, ScrewSpeed, Speed,
+            WindingTemperature,
         };
         match rule {
             RmsTorque | PeakTorque | Speed | HoldingTorque | ConstantTorque | InertiaRatio
@@ -266,6 +271,9 @@ impl<'a> Context<'a> {
             WindingTemperature | HousingTemperature => thermal::grounds(self),
             MotorVoltage => voltage::of_motor(self),
             AmplifierVoltage => voltage::of_amplifier(self),
+            GearboxRadial | GearboxAxial => elements::of_shaft(self),
+            BeltTension | BeltForce | BeltPretension | ScrewForce | ScrewBuckling | ScrewSpeed
+            | PinionForce => elements::grounds(self, rule),
             NaturalFrequency => stiffness::of_frequency(self),
             Backlash => stiffness::of_backlash(self),
             RmsCurrent | PeakCurrent | Overload | BusVoltage | BrakeResistance | ResistorPower

@@ -346,6 +346,52 @@ fn an_altered_duty_is_that_of_the_altered_file() {
     );
 }
 
+/// Belts and screws, too: with what the drive link needs for itself, and with a stage before it.
+#[test]
+fn an_altered_duty_loads_the_elements_as_the_altered_file() {
+    let text = "gravity = [\"-9.81 m/s^2\", \"0 m/s^2\"]\n[mechanism]\ntype = \"ball-screw\"\nlead = \"20 mm\"\n\
+        max_force = \"9 kN\"\nscrew = { inertia = \"6.4 kg cm^2\" }\nnut = { mass = \"140 kg\" }\n\
+        [[load]]\non = \"nut\"\nforce = [\"-800 N\", \"0 N\"]\n[[load]]\non = \"screw\"\nmoment = \"-2 N m\"\n\
+        [[load]]\non = \"screw\"\nopposing_moment = \"0.4 N m\"\n\
+        [[drive_train]]\ntype = \"belt\"\nmax_effective_force = \"900 N\"\nbelt_mass = \"0.3 kg\"\nefficiency = \"96 %\"\n\
+        driver = { radius = \"20 mm\", inertia = \"1 kg cm^2\" }\ndriven = { radius = \"40 mm\", inertia = \"7 kg cm^2\" }\n\
+        [motion]\ntype = \"cycle\"\n[[motion.segment]]\nlaw = \"polynomial-345\"\nmove = \"7200 deg\"\nduration = \"1.2 s\"\n\
+        [[motion.segment]]\nlaw = \"polynomial-345\"\nmove = \"-7200 deg\"\nduration = \"1.2 s\"\n";
+    let file = parse(text);
+    let duty = duty_of(&file);
+    let model = DutyModel::new(&file, &duty).unwrap();
+    let found = model.duty(Alteration {
+        time: 1.5,
+        mass: 0.8,
+        process: 0.6,
+    });
+    let mut text = text.to_owned();
+    for (from, to) in [
+        ("duration = \"1.2 s\"", "duration = \"1.8 s\""),
+        ("duration = \"1.2 s\"", "duration = \"1.8 s\""),
+        ("\"-800 N\"", "\"-480 N\""),
+        ("\"-2 N m\"", "\"-1.2 N m\""),
+        ("\"6.4 kg cm^2\"", "\"5.12 kg cm^2\""),
+        ("\"140 kg\"", "\"112 kg\""),
+    ] {
+        text = edited(&text, from, to);
+    }
+    let expected = duty_of(&parse(&text)).mechanics.elements;
+    let pairs = found.mechanics.elements.iter().zip(&expected);
+    assert_eq!(pairs.len(), 2);
+    for (a, b) in pairs {
+        near("force", a.force, b.force, budget::DEFAULT_PEAK);
+        near("speed", a.speed, b.speed, budget::DEFAULT_PEAK);
+    }
+    let nut = 112.0 * (9.81 + 5.773_502_691_896_258 * 0.4 / 3.24) + 480.0;
+    near(
+        "nut",
+        found.mechanics.elements[1].force,
+        nut,
+        budget::DEFAULT_PEAK,
+    );
+}
+
 /// The same for a lift whose payload comes and goes, with static friction and a load in a segment; also its holding torque.
 #[test]
 fn an_altered_lift_is_that_of_the_altered_file() {

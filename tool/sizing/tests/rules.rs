@@ -6,6 +6,7 @@ mod backlash;
 mod bigger;
 mod bill;
 mod brake;
+mod elements;
 mod emergency;
 mod gearbox;
 mod holding;
@@ -21,7 +22,7 @@ mod words;
 
 use std::path::Path;
 
-use crate::support::{Folder, budget, edited, near, press_text, within};
+use crate::support::{Folder, budget, edited, near, press_text, rows, within};
 use jred_analysis::checked;
 use jred_analysis::duty::Duty;
 use jred_file::model::machine::MachineFile;

@@ -8,11 +8,13 @@ use jred_file::model::coordinate::Coordinate;
 use jred_file::model::machine::MachineFile;
 use jred_file::model::site::ToolPlace;
 
+pub(super) mod elements;
 mod moves;
 mod rest;
 mod run_on;
 mod stop;
 
+pub use elements::{Alteration, ElementLoad};
 pub use rest::{HoldingTorques, Rest, constant_loads};
 pub use run_on::{BrakeStop, MotorBrake, RunOn};
 pub use stop::{Braking, Stop};
@@ -43,6 +45,8 @@ pub struct Mechanics {
     pub slides: bool,
     /// Drive ratio: speed at the input over that of the drive link, without sign.
     pub train_ratio: f64,
+    /// The belts, screws and pinions of the machine, with their loads.
+    pub elements: Vec<ElementLoad>,
     /// Largest |x′| of the tool over the motion, per rad (or m) of the drive link; `None` without a tool.
     pub tool_slope: Option<f64>,
 }
@@ -74,6 +78,7 @@ impl Mechanics {
             move_rate: f64::from(count) / duration,
             drive_frequency: turning.max(shortest),
             tool_slope: tool_slope(file, instants),
+            elements: ElementLoad::all(file, instants, Alteration::default()),
             slides: file.machine.mechanism().coordinate() == Coordinate::Length,
             ..Self::default()
         };
@@ -81,7 +86,7 @@ impl Mechanics {
     }
 
     /// The figures of the same motion in `time` times its time, under other loads, from `instants`, which may be only some of them. `rest`: the
-    /// torques at rest without losses.
+    /// torques at rest without losses. The elements keep their loads.
     #[must_use]
     pub fn with_loads(
         &self,
@@ -115,6 +120,7 @@ impl Mechanics {
             stop: Stop::of(instants, smooth, ratio),
             train_ratio: ratio,
             tool_slope: self.tool_slope,
+            elements: self.elements.clone(),
         }
     }
 }

@@ -2,6 +2,8 @@
 
 use jred::error::Error;
 
+use super::mechanics::Alteration;
+use super::mechanics::elements::force;
 use super::moving_machine::MovingMachine;
 use super::{Instant, Smooth};
 use jred_file::number::parabola;
@@ -53,18 +55,24 @@ pub(super) fn insert_extremes(
     instants: &mut Vec<Instant>,
     smooth: &mut Smooth,
 ) -> Result<(), Error> {
-    let quantities: [fn(&Instant) -> f64; 9] = [
-        |i| i.terms.total(),
-        |i| i.input_inertia,
-        |i| i.input_speed,
-        |i| i.input_alpha,
-        |i| i.input_torque,
-        |i| i.input_torque * i.input_speed,
-        |i| i.input_inertia * i.input_speed * i.input_speed,
-        |i| i.terms.potential + i.terms.process,
-        |i| i.terms.potential + i.terms.viscous + i.terms.coulomb,
+    type Quantity<'f> = &'f dyn Fn(&Instant) -> f64;
+    let file = moving.file;
+    let forces: Vec<_> = (file.drive_elements.iter())
+        .map(|element| move |i: &Instant| force(file, element, i, Alteration::default()))
+        .collect();
+    let quantities: [Quantity; 9] = [
+        &|i| i.terms.total(),
+        &|i| i.input_inertia,
+        &|i| i.input_speed,
+        &|i| i.input_alpha,
+        &|i| i.input_torque,
+        &|i| i.input_torque * i.input_speed,
+        &|i| i.input_inertia * i.input_speed * i.input_speed,
+        &|i| i.terms.potential + i.terms.process,
+        &|i| i.terms.potential + i.terms.viscous + i.terms.coulomb,
     ];
-    for quantity in quantities {
+    let forces = forces.iter().map(|force| force as Quantity);
+    for quantity in quantities.into_iter().chain(forces) {
         for sign in [-1.0, 1.0] {
             let value = |instant: &Instant| sign * quantity(instant);
             let most = instants.iter().map(value).max_by(f64::total_cmp);

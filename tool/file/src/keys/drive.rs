@@ -4,7 +4,7 @@ use jred::machine::MAX_STAGES;
 
 use super::inner;
 use crate::text::key::{ValueForm, KEEP_ONE, Key, ValueRange, KeyTable, key, may, quantity};
-use crate::units::kind::{ANGLE, INERTIA, LENGTH, MASS, SHARE, STIFFNESS as LINEAR, TIME, TORQUE, TORSION_STIFFNESS, VISCOUS_MOMENT};
+use crate::units::kind::{ANGLE, FORCE, INERTIA, LENGTH, MASS, SHARE, STIFFNESS as LINEAR, TIME, TORQUE, TORSION_STIFFNESS, VISCOUS_MOMENT};
 
 /// The cure of too many stages.
 pub(super) const COMBINE: &str = "combine stages: multiply their ratios and refer their inertias to one shaft";
@@ -37,6 +37,24 @@ pub(super) const BELT_KEYS: &[Key] = &[
     may("belt_mass", quantity(&MASS).not_negative(), "of the whole belt").or("0"),
 ];
 
+/// The limits of a belt, of a screw and of a pinion; [`crate::read`] knows their order.
+pub(crate) const BELT_LIMITS: &[Key] = &[
+    may("pretension", quantity(&FORCE).positive(), "static force of one strand"),
+    may("max_tension", quantity(&FORCE).positive(), "[allowed force](sizing-rules.md#belts-screws-pinions) of a strand; with the pretension"),
+    may("max_effective_force", quantity(&FORCE).positive(), "allowed peripheral force of the teeth in mesh"),
+];
+pub(crate) const SCREW_SHAFT: &[Key] = &[
+    may("root_diameter", quantity(&LENGTH).positive(), "of the thread, for [buckling and critical speed](sizing-rules.md#belts-screws-pinions)"),
+    may("free_length", quantity(&LENGTH).positive(), "largest length of the screw without a support"),
+    may("ends", ValueForm::Words(&["fixed-fixed", "fixed-supported", "supported-supported", "fixed-free"]), "supports of the free length"),
+];
+pub(super) const SCREW_FORCE: Key = may("max_force", quantity(&FORCE).positive(), "allowed axial force");
+pub(crate) const PINION_LIMITS: &[Key] = &[
+    SCREW_FORCE.meaning("allowed [tangential force](sizing-rules.md#belts-screws-pinions)"),
+    may("pressure_angle", quantity(&ANGLE).positive(), "of the teeth, in the normal section").or("20 deg"),
+    may("helix_angle", quantity(&ANGLE).not_negative(), "of the teeth").or("0"),
+];
+
 const BELT: &[&str] = &["belt"];
 const GEARS: &[&str] = &["gear-train"];
 const FRICTION: &[&str] = &["friction"];
@@ -54,6 +72,19 @@ const TURNING: &[Key] = &[
     may("slip", quantity(&SHARE).not_negative(), "ε, share of speed and power that is lost, < 100 %").or("0").only(FRICTION),
     key("input_inertia", quantity(&INERTIA).not_negative(), "of the two shafts").only(FRICTION),
     key("output_inertia", quantity(&INERTIA).not_negative(), "of the two shafts").only(FRICTION),
+];
+
+/// The limits of the stages.
+const LIMITS: &[Key] = &[
+    BELT_LIMITS[0].only(BELT),
+    BELT_LIMITS[1].only(BELT),
+    BELT_LIMITS[2].only(BELT),
+    SCREW_SHAFT[0].only(SCREW),
+    SCREW_SHAFT[1].only(SCREW),
+    SCREW_SHAFT[2].only(SCREW),
+    SCREW_FORCE.meaning("allowed axial force of the screw, [tangential](sizing-rules.md#belts-screws-pinions) of the pinion").only(LINEAR_STAGE),
+    PINION_LIMITS[1].only(RACK),
+    PINION_LIMITS[2].only(RACK),
 ];
 
 static BRANCH: KeyTable = KeyTable::of("branch", &[&[
@@ -76,6 +107,7 @@ pub(crate) static DRIVE_TRAIN: KeyTable = KeyTable::of("drive_train", &[&[
     key("inertia", quantity(&INERTIA).not_negative(), "of the screw, or of the pinion").only(LINEAR_STAGE),
     may("mass", quantity(&MASS).not_negative(), "of the nut, or of the rack").or("0").only(LINEAR_STAGE),
     EFFICIENCY.only(&["belt", "ball-screw", "rack"]),
+], LIMITS, &[
     may("branch", ValueForm::Tables(&BRANCH, [0, 8], "combine branches: refer their inertias and torques to one shaft"), "8 in all: shafts [beside the chain](#branch)"),
 ]]).by("type").elsewhere(&[("efficiency", "in a gear train each stage has its own efficiency")]);
 

@@ -98,14 +98,14 @@ pub(crate) static RACK_AND_PINION: KeyTable = KeyTable::of("rack-and-pinion", &[
     key("pinion", inner!(&[key("radius", quantity(&LENGTH).positive(), "r, pitch radius")], LINK), ""),
     key("rack", ON_GUIDE, ""),
     stroke("positions of the rack along x ([no ends](axes.md#stroke))"),
-]]);
+], super::drive::PINION_LIMITS]);
 
 pub(crate) static BALL_SCREW: KeyTable = KeyTable::of("ball-screw", &[&[
     key("lead", quantity(&LENGTH), "h, travel of the nut a turn; negative: −x"),
     key("screw", TURNING, ""),
     key("nut", ON_GUIDE, ""),
     stroke("positions of the nut along x ([no ends](axes.md#stroke))"),
-]]);
+], super::drive::SCREW_SHAFT, &[super::drive::SCREW_FORCE]]);
 
 const HANGING: ValueForm = ValueForm::Table(&KeyTable::of("", &[&[
     key("radius", quantity(&LENGTH).positive(), "R, of the drum to the rope's centre line"),
@@ -172,7 +172,7 @@ pub(crate) static GEAR_TRAIN: KeyTable = KeyTable::of("gear-train", &[&[
     SWING,
 ]]);
 
-pub(crate) static BELT: KeyTable = KeyTable::of("belt", &[super::drive::BELT_KEYS, &[SWING]]);
+pub(crate) static BELT: KeyTable = KeyTable::of("belt", &[super::drive::BELT_KEYS, super::drive::BELT_LIMITS, &[SWING]]);
 
 const FRICTION_STAGE: KeyTable = KeyTable::of("", &[&[
     key("ratio", ValueForm::Number([-1e3, 1e3]), "i, ±0.001 to ±1000, negative where the direction reverses").such_as("0.5, the speed of the second shaft over that of the first"),
@@ -217,9 +217,9 @@ pub(crate) static BELT_AXIS: KeyTable = KeyTable::of("belt-axis", &[&[
     BELT_MASS,
     key("carriage", ON_GUIDE, ""),
     stroke("positions of the carriage along x (no [ends](#stroke))"),
-]]);
+], super::drive::BELT_LIMITS]);
 
-pub(crate) static CONVEYOR: KeyTable = KeyTable::of("conveyor", &[&[key("drum", PULLEY, ""), IDLERS, BELT_MASS, key("goods", ON_GUIDE, ""), SWING]]);
+pub(crate) static CONVEYOR: KeyTable = KeyTable::of("conveyor", &[&[key("drum", PULLEY, ""), IDLERS, BELT_MASS, key("goods", ON_GUIDE, ""), SWING], super::drive::BELT_LIMITS]);
 
 pub(crate) static FEED_ROLL: KeyTable = KeyTable::of("feed-roll", &[&[key("roll", PULLEY, ""), IDLERS, key("strip", ON_GUIDE, ""), SWING]]);
 

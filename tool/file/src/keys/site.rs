@@ -35,10 +35,11 @@ pub(crate) static SURROUNDINGS: KeyTable = KeyTable::of("surroundings", &[&[
 ]]);
 
 pub(crate) static DUTY: KeyTable = KeyTable::of("duty", &[&[
-    key("type", ValueForm::Words(&["S1", "S2", "S3", "S4", "S5", "S6", "S7", "S8", "S9"]), "duty type of IEC 60034-1").such_as("\"S3\"; S1 to S9 of IEC 60034-1"),
+    may("type", ValueForm::Words(&["S1", "S2", "S3", "S4", "S5", "S6", "S7", "S8", "S9"]), "duty type of IEC 60034-1").or("S1").such_as("\"S3\"; S1 to S9 of IEC 60034-1"),
     may("operating_time", quantity(&TIME).positive(), "S2 to S5: how long the motion repeats; required of S2 and with `rest`"),
     may("rest", quantity(&TIME).positive(), "S3 to S5: how long the machine then rests (rests are in the motion)"),
     may("at_rest", ValueForm::Words(&["off", "holding"]), "in `rest`").or("off"),
+    may("emergency_stops", ValueForm::Number([0.001, 1000.0]), "[per hour](sizing-rules.md#the-holding-brake) by the brake alone, without supply (not judged)").such_as("2"),
 ]]);
 
 pub(crate) static TOOL: KeyTable = KeyTable::of("tool", &[&[

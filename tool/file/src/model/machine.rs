@@ -10,6 +10,7 @@ use jred::machine::{Element, Load, Machine, Mechanism, Reducible as _, Reduction
 use crate::model::axis::Axis;
 use crate::model::coordinate::positions;
 use crate::model::document::Document;
+use crate::model::drive_element::DriveElement;
 use crate::model::drive_train::DriveTrain;
 use crate::model::mechanism::{AnyMechanism, NamedElement, NamedLoad};
 use crate::model::motion::{Motion, Steady};
@@ -47,6 +48,8 @@ pub struct MachineFile {
     pub elements: Vec<NamedElement>,
     /// Fixed drive train between the motor's gearbox (or the motor) and the drive link; it can be empty.
     pub drive_train: DriveTrain,
+    /// Belts, screws and pinions of drive train and mechanism whose limits the file gives, in order from the motor.
+    pub drive_elements: Vec<DriveElement>,
     /// Friction variator between the motor and the drive train, if there is one.
     pub variator: Option<Variator>,
     /// The prescribed motion, if any.

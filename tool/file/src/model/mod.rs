@@ -6,6 +6,7 @@ pub mod carriage;
 pub mod characteristic;
 pub mod coordinate;
 pub mod document;
+pub mod drive_element;
 pub mod drive_train;
 pub mod machine;
 pub mod mechanism;

@@ -89,6 +89,24 @@ rules! {
     GearboxSpeed, "gearbox largest speed", "gearbox_speed";
     /// Cycles per hour of the gearbox.
     GearboxCycles, "gearbox cycles", "gearbox_cycles";
+    /// Radial load of the gearbox's output shaft.
+    GearboxRadial, "gearbox radial load", "gearbox_radial";
+    /// Axial load of the gearbox's output shaft.
+    GearboxAxial, "gearbox axial load", "gearbox_axial";
+    /// Force of a belt's tight strand: pretension and half of the effective force.
+    BeltTension, "belt tension", "belt_tension";
+    /// Effective force of a belt against that of its teeth in mesh.
+    BeltForce, "belt effective force", "belt_force";
+    /// Half of a belt's effective force against its pretension: above it one strand is slack.
+    BeltPretension, "belt pretension", "belt_pretension";
+    /// Axial force of a screw.
+    ScrewForce, "screw force", "screw_force";
+    /// Axial force of a screw against Euler's buckling force.
+    ScrewBuckling, "screw buckling", "screw_buckling";
+    /// Largest speed of a screw against its critical speed.
+    ScrewSpeed, "screw critical speed", "screw_speed";
+    /// Tangential force of a pinion.
+    PinionForce, "pinion force", "pinion_force";
     /// RMS current against the amplifier's rated current.
     RmsCurrent, "RMS current", "rms_current";
     /// Largest current against the amplifier's peak current.

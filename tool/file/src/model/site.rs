@@ -17,6 +17,8 @@ pub struct Site {
     pub surroundings: Surroundings,
     /// Operation: continuous, short-time or intermittent.
     pub duty: Duty,
+    /// Emergency stops per hour by the brake alone; `None`: not given.
+    pub emergency_stops: Option<f64>,
     /// Torsional stiffness of shafts and couplings, at the input of the drive train (N·m/rad); `None`: not given.
     pub shaft_stiffness: Option<f64>,
     /// Backlash of the drive train at the drive link (rad, or m of a sliding link); `None`: not given.

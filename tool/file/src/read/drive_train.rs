@@ -1,8 +1,10 @@
 //! `[[drive_train]]`: the fixed stages between the motor and the drive link.
 
+use super::drive_element;
 use super::drive_link::DriveLink;
 use super::names::Names;
 use super::stage::{self, Losses};
+use crate::model::drive_element::DriveElement;
 use crate::model::drive_train::{Branch, DriveTrain};
 use crate::text::item::Item;
 use crate::text::problem::{Problem, Result};
@@ -15,10 +17,11 @@ const FIRST_LINEAR: usize = 3;
 /// The most branches.
 const MAX_BRANCHES: usize = 8;
 
-/// One train of all tables, in order from the motor.
-pub(super) fn read(root: &Section, drive: DriveLink) -> Result<DriveTrain> {
+/// One train of all tables, in order from the motor, and its belts, screws and pinions whose limits the file gives.
+pub(super) fn read(root: &Section, drive: DriveLink) -> Result<(DriveTrain, Vec<DriveElement>)> {
     let mut stages = Vec::new();
     let (mut branches, mut names) = (Vec::new(), Names::of("branches"));
+    let mut elements = Vec::new();
     let mut linear: Option<(Item, &str)> = None;
     if let Some(item) = root.get("drive_train") {
         for section in root.tables("drive_train")? {
@@ -42,6 +45,7 @@ pub(super) fn read(root: &Section, drive: DriveLink) -> Result<DriveTrain> {
                 3 => stages.push(stage::screw(&section)?),
                 _ => stages.push(stage::rack(&section)?),
             }
+            elements.extend(drive_element::of_stage(&section, TYPES[kind], before)?);
             if let Some(item) = section.get("branch") {
                 for own in section.tables("branch")? {
                     names.add(&own)?;
@@ -70,7 +74,8 @@ pub(super) fn read(root: &Section, drive: DriveLink) -> Result<DriveTrain> {
         }
         fits(&item, linear.as_ref(), drive, stages.is_empty())?;
     }
-    DriveTrain::new(stage::train(stages)?, branches).map_err(Problem::of)
+    let train = DriveTrain::new(stage::train(stages)?, branches).map_err(Problem::of)?;
+    Ok((train, elements))
 }
 
 /// A shaft beside the chain, driven by the shaft before or after a stage.

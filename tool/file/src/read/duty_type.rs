@@ -1,4 +1,4 @@
-//! `[duty]`: the durations of operation and rest.
+//! `[duty]`: the durations of operation and rest, and emergency stops.
 
 use crate::model::operation::{Duty, Operation};
 use crate::model::site::Site;
@@ -12,7 +12,10 @@ pub(super) fn read(root: &Section, site: &mut Site) -> Result<()> {
     let Some(section) = root.maybe_table("duty")? else {
         return Ok(());
     };
+    let is_named = section.get("type").is_some();
     let number = section.word("type")? as u8 + 1;
+    let stops = section.get("emergency_stops");
+    site.emergency_stops = stops.map(|item| item.figure()).transpose()?;
     let (operating, rest) = (section.given("operating_time")?, section.given("rest")?);
     let at_rest = section.get("at_rest");
     let unused = |value: &Value, why: &str| {
@@ -69,7 +72,7 @@ pub(super) fn read(root: &Section, site: &mut Site) -> Result<()> {
     section.finish()?;
     site.duty = Duty {
         operation,
-        kind: Some(number),
+        kind: is_named.then_some(number),
     };
     Ok(())
 }

@@ -5,6 +5,7 @@
 mod carriage;
 mod curve_file;
 mod document;
+mod drive_element;
 mod drive_link;
 mod drive_train;
 mod duty_type;
@@ -42,6 +43,7 @@ use jred::machine::Machine;
 
 use crate::keys::MACHINE;
 use crate::model::axis::Axis;
+use crate::model::drive_element::DriveElement;
 use crate::model::machine::{MachineFile, ReductionCache};
 use crate::model::mechanism::{AnyMechanism, NamedElement, NamedLoad};
 use crate::model::rules::RuleSet;
@@ -214,7 +216,7 @@ fn machine(name: &str, text: &str, files: &dyn Files) -> Result<UncheckedFile> {
     };
     let gravity = gravity(&root)?;
     let section = root.table("mechanism")?;
-    let (mechanism, flywheel) = mechanism::read(&section, gravity, files)?;
+    let (mechanism, flywheel, element) = mechanism::read(&section, gravity, files)?;
     let drive_link =
         DriveLink::of(&mechanism).map_err(|error| section.error(error, "in this mechanism"))?;
     root.set_slides(drive_link.slides());
@@ -231,7 +233,11 @@ fn machine(name: &str, text: &str, files: &dyn Files) -> Result<UncheckedFile> {
         load_table::read(&root, mechanism, drive_link, gravity, files)?;
     let (mut loads, entries) = loads::read(&root, &mechanism, drive_link, &tables)?;
     let elements = elements::read(&root, &mechanism, drive_link.coordinate)?;
-    let drive_train = drive_train::read(&root, drive_link)?;
+    let (drive_train, mut drive_elements) = drive_train::read(&root, drive_link)?;
+    drive_elements.extend(element.map(|element| DriveElement {
+        on_input: drive_train.stages().is_empty(),
+        ..element
+    }));
     let variator = variator::read(&root, drive_link)?;
     let machine = loaded(mechanism, &loads, &elements)
         .and_then(|m| Ok(m.with_gravity(gravity)?.with_flywheel(flywheel)?))
@@ -271,6 +277,7 @@ fn machine(name: &str, text: &str, files: &dyn Files) -> Result<UncheckedFile> {
         table_turns,
         elements,
         drive_train,
+        drive_elements,
         variator,
         motion,
         simulation,

@@ -43,6 +43,29 @@ fn wrong_words_are_shown_with_the_right_ones() {
     refuses_edits(PRESS, edits);
 }
 
+/// Limits of belts, screws and pinions that need another one, or are of another type.
+#[test]
+fn limits_of_drive_elements_are_whole() {
+    let edits = r#"
+        belt_mass = => max_tension = "2 kN"\nbelt_mass = => `pretension` in [[drive_train]] number 1 is missing | pretension = "150 N"
+        belt_mass = => pretension = "0 N"\nbelt_mass = => `pretension` | greater than zero
+        belt_mass = => max_force = "2 kN"\nbelt_mass = => `max_force` is for type = "ball-screw", "rack"
+        belt_mass = => ends = "fixed-free"\nbelt_mass = => `ends` is for type = "ball-screw"
+    "#;
+    refuses_edits(PRESS, edits);
+    let screw = "gravity = { inclination = \"0 deg\" }\n[mechanism]\ntype = \"ball-screw\"\nlead = \"10 mm\"\n\
+        root_diameter = \"16 mm\"\nfree_length = \"0.8 m\"\nends = \"fixed-free\"\n\
+        screw = { inertia = \"1 kg cm^2\" }\nnut = { mass = \"9 kg\" }\n";
+    let edits = r#"
+        root_diameter = "16 mm" => => `root_diameter` in [mechanism] is missing
+        free_length = "0.8 m" => => `free_length` in [mechanism] is missing
+        ends = "fixed-free" => => `ends` in [mechanism] is missing | ends = "fixed-fixed"
+        "fixed-free" => "free-free" => "free-free" | "fixed-fixed", "fixed-supported", "supported-supported", "fixed-free"
+        root_diameter => pretension = "1 N"\nroot_diameter => unknown key `pretension`
+    "#;
+    refuses_edits(screw, edits);
+}
+
 #[test]
 fn loads_that_make_no_sense_are_refused() {
     let edits = r#"

@@ -56,9 +56,20 @@ impl Cap {
         match rule {
             Rule::PeakTorque | Rule::PeakCurrent => Some(Self::MotorTorque),
             Rule::GearboxPeak | Rule::GearboxCubicMean => Some(Self::GearboxTorque),
-            Rule::Speed | Rule::GearboxSpeed | Rule::GearboxMeanSpeed | Rule::GearboxCycles => {
-                Some(Self::Speed)
-            }
+            // With a gearbox or without one.
+            Rule::BeltTension
+            | Rule::BeltForce
+            | Rule::BeltPretension
+            | Rule::ScrewForce
+            | Rule::ScrewBuckling
+            | Rule::PinionForce
+            | Rule::GearboxRadial
+            | Rule::GearboxAxial => Some(Self::MotorTorque),
+            Rule::Speed
+            | Rule::GearboxSpeed
+            | Rule::GearboxMeanSpeed
+            | Rule::GearboxCycles
+            | Rule::ScrewSpeed => Some(Self::Speed),
             Rule::RmsCurrent | Rule::Overload => Some(Self::RmsTorque),
             Rule::RmsTorque | Rule::WindingTemperature | Rule::HousingTemperature if heat => {
                 Some(Self::RmsTorque)

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use jred_analysis::checked;
 use jred_analysis::duty::Duty;
 use jred_file::model::axis::Axis;
+use jred_file::model::drive_element::{DriveElement, ElementKind};
 use jred_file::model::machine::MachineFile;
 use jred_file::model::rule::Rule;
 use jred_file::model::rules::{Limit, RuleVerdict};
@@ -171,6 +172,29 @@ fn a_gearbox_keeps_its_torques_at_the_rate_of_the_motion() {
     let way = 30f64.to_radians();
     let moving = (2.0 * way * (1.0 / driven + 1.0 / braked)).sqrt();
     close(time, moving + 0.6, 1e-3);
+}
+
+/// The belt between gearbox and table bears less than the drive gives: nearly all of its force is used, and no more.
+#[test]
+fn a_belt_keeps_its_force() {
+    let catalogue = catalogue();
+    let mut file = checked::read(&home().join("support/engineer/table.toml")).unwrap();
+    file.drive_elements = vec![DriveElement {
+        name: "belt".to_owned(),
+        stage: Some(0),
+        on_input: true,
+        arm: 0.16,
+        carried: 0.9,
+        kind: ElementKind::Belt(None),
+        limits: vec![(Rule::BeltForce, 700.0)],
+    }];
+    let (_, drive) = named(&catalogue, "sm100bb+g115-16 on a6").unwrap();
+    let chain = chain(file.required_motion().unwrap(), &file.process()).unwrap();
+    let (_, judged) = made(&file, &chain, drive, None).unwrap();
+    assert_eq!(judged.violated().count(), 0, "{:?}", judged.checks);
+    let belt = judged.checks.iter().find(|c| c.id == Rule::BeltForce);
+    let used = belt.unwrap().used;
+    assert!(used <= 1.0 && used > 0.99, "{used}");
 }
 
 /// For any machine and drive, the rules reported as satisfied are satisfied by the profile read back.

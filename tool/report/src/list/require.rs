@@ -143,8 +143,8 @@ impl RequirementView<'_> {
             self.motor(&mut answer, found);
             if !found.possible {
                 answer.warning(
-                    "shafts and drive train alone are too soft for the natural frequency, or have more backlash than the tool may have: \
-                     no motor or gearbox helps; change [stiffness] or the play of the tool",
+                    "a belt, screw or pinion is overloaded, or shafts and drive train alone are too soft for the natural frequency, or have more \
+                     backlash than the tool may have: no motor or gearbox helps; `jred size --full` names the rule",
                 );
             }
             self.gearbox(&mut answer, found);
@@ -265,6 +265,8 @@ impl RequirementView<'_> {
             cycles,
             stiffness,
             backlash,
+            radial_load,
+            axial_load,
         } = *gearbox;
         let efficiency = percent(self.inquiry.gear.efficiency);
         let cycles = if cycles > 0.0 {
@@ -303,6 +305,14 @@ impl RequirementView<'_> {
         if let Some(play) = backlash.filter(|play| *play >= 0.0) {
             let most = short(down(play / ARCMIN));
             answer.fact("backlash", format!("at most {most} arcmin"));
+        }
+        let loads = [("radial", radial_load), ("axial", axial_load)];
+        let loads = loads
+            .into_iter()
+            .filter_map(|(word, load)| Some(format!("{word} at least {} N", short(up(load?)))));
+        let loads: Vec<String> = loads.collect();
+        if !loads.is_empty() {
+            answer.fact("output shaft", loads.join(", "));
         }
     }
 

@@ -5,6 +5,7 @@
 
 mod brake;
 mod electric;
+mod elements;
 mod gearbox;
 mod motor;
 mod site;
@@ -111,12 +112,13 @@ pub fn missing(check: &Check) -> String {
 
 fn words(check: &Check) -> (String, String) {
     use Rule::{
-        Altitude, AmbientTemperature, AmplifierVoltage, Backlash, BrakeResistance, BrakeTorque,
-        BrakeWork, BusVoltage, CabinetTemperature, ConstantTorque, GearboxCubicMean, GearboxCycles,
-        GearboxEmergency, GearboxMeanSpeed, GearboxPeak, GearboxSpeed, HoldingTorque,
+        Altitude, AmbientTemperature, AmplifierVoltage, Backlash, BeltForce, BeltPretension,
+        BeltTension, BrakeResistance, BrakeTorque, BrakeWork, BusVoltage, CabinetTemperature,
+        ConstantTorque, GearboxAxial, GearboxCubicMean, GearboxCycles, GearboxEmergency,
+        GearboxMeanSpeed, GearboxPeak, GearboxRadial, GearboxSpeed, HoldingTorque,
         HousingTemperature, InertiaRatio, MotorVoltage, NaturalFrequency, Overload, PeakCurrent,
-        PeakTorque, ResistorPeak, ResistorPower, ResistorPulse, RmsCurrent, RmsTorque, Speed,
-        WindingTemperature,
+        PeakTorque, PinionForce, ResistorPeak, ResistorPower, ResistorPulse, RmsCurrent, RmsTorque,
+        ScrewBuckling, ScrewForce, ScrewSpeed, Speed, WindingTemperature,
     };
     if let Grounds::Missing(figure) = check.grounds
         && !check.finding.is_known()
@@ -134,6 +136,9 @@ fn words(check: &Check) -> (String, String) {
         | GearboxCycles => gearbox::words(check),
         WindingTemperature | HousingTemperature => thermal::words(check),
         MotorVoltage | AmplifierVoltage => voltage::words(check),
+        GearboxRadial | GearboxAxial => elements::of_shaft(check),
+        BeltTension | BeltForce | BeltPretension | ScrewForce | ScrewBuckling | ScrewSpeed
+        | PinionForce => elements::words(check),
         NaturalFrequency => stiffness::of_frequency(check),
         Backlash => stiffness::of_backlash(check),
         RmsCurrent | PeakCurrent | Overload | BusVoltage | BrakeResistance | ResistorPower

@@ -240,6 +240,8 @@ columns! {
     NoLoadTorque "no_load_torque" [Gearboxes] [TORQUE] "at the input; leave it out if the efficiency includes it";
     Stiffness "stiffness" [Gearboxes] [TORSION_STIFFNESS] "torsional, at the output";
     Backlash "backlash" [Gearboxes] [ANGLE] "at the output";
+    MaxRadialLoad "max_radial_load" [Gearboxes] [FORCE] "largest radial force on the output shaft";
+    MaxAxialLoad "max_axial_load" [Gearboxes] [FORCE] "largest axial force on the output shaft";
     ShockFactors "shock_factors" [Gearboxes] [] "cycles per hour and the maker's factor, \"1000/h: 1; 2000/h: 1.25\", rising";
     MaxMotorShaft "max_motor_shaft" [Gearboxes] [LENGTH] "largest motor shaft that the hub takes; motors with a larger one are not combined";
     PeakTime "peak_time" [Amplifiers] [TIME] "longest time of the peak current from cold";

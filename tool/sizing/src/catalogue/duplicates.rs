@@ -79,6 +79,8 @@ fn figures(entry: &Entry) -> Option<(Kind, Vec<ColumnValue>, String)> {
                 (Column::Efficiency, Some(g.efficiency)),
                 (Column::Stiffness, g.stiffness),
                 (Column::Backlash, g.backlash),
+                (Column::MaxRadialLoad, g.max_radial_load),
+                (Column::MaxAxialLoad, g.max_axial_load),
                 (Column::Mass, g.mass),
             ];
             (Kind::Gearboxes, figures)

@@ -93,6 +93,8 @@ fn gearbox(row: &CatalogueRow) -> RowResult<Gearbox> {
         no_load_torque: row.not_negative(Column::NoLoadTorque).unwrap_or(0.0),
         stiffness: row.optional(Column::Stiffness),
         backlash: row.not_negative(Column::Backlash),
+        max_radial_load: row.optional(Column::MaxRadialLoad),
+        max_axial_load: row.optional(Column::MaxAxialLoad),
         shock_factors: row.points(Column::ShockFactors, [CellContent::Hourly, FACTOR]),
         max_motor_shaft: row.optional(Column::MaxMotorShaft),
         flange: row.optional(Column::Flange),

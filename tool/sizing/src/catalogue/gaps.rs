@@ -153,6 +153,18 @@ const GEARBOXES: &[Figure<Gearbox>] = &[
         &[Rule::Backlash],
         "",
     ),
+    (
+        &["max_radial_load"],
+        |g| g.max_radial_load.is_some(),
+        &[Rule::GearboxRadial],
+        "",
+    ),
+    (
+        &["max_axial_load"],
+        |g| g.max_axial_load.is_some(),
+        &[Rule::GearboxAxial],
+        "",
+    ),
     (&["mass"], |g| g.mass.is_some(), &[], "not ranked by mass"),
     (
         &["max_motor_shaft"],

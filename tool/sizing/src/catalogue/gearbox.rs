@@ -42,6 +42,10 @@ pub struct Gearbox {
     pub stiffness: Option<f64>,
     /// Backlash at the output (rad).
     pub backlash: Option<f64>,
+    /// Largest radial force on the output shaft (N).
+    pub max_radial_load: Option<f64>,
+    /// Largest axial force on the output shaft (N).
+    pub max_axial_load: Option<f64>,
     /// Shock factors of the maker: (cycles per hour, factor), cycles rising; empty: not given.
     pub shock_factors: Vec<[f64; 2]>,
     /// Largest diameter of the motor shaft that its hub takes (m).
@@ -115,6 +119,8 @@ impl Default for Gearbox {
             no_load_torque: 0.0,
             stiffness: None,
             backlash: None,
+            max_radial_load: None,
+            max_axial_load: None,
             shock_factors: Vec::new(),
             max_motor_shaft: None,
             flange: None,

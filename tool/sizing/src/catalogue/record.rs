@@ -295,6 +295,8 @@ fn gearbox(g: &Gearbox, column: Column) -> Value<'_> {
         Column::NoLoadTorque => zero_is_empty(g.no_load_torque),
         Column::Stiffness => Number(g.stiffness),
         Column::Backlash => Number(g.backlash),
+        Column::MaxRadialLoad => Number(g.max_radial_load),
+        Column::MaxAxialLoad => Number(g.max_axial_load),
         Column::ShockFactors => Value::Points(
             &g.shock_factors,
             [(CellContent::Hourly, "/h"), (FACTOR, "")],

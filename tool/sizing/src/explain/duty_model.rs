@@ -14,32 +14,13 @@ use jred::error::Error;
 use jred::machine::{Machine, TorqueTerms};
 use jred::mechanism::TrainOutput;
 
-use jred_analysis::duty::mechanics::{HoldingTorques, Rest, constant_loads};
+use jred_analysis::duty::mechanics::{
+    Alteration, ElementLoad, HoldingTorques, Mechanics, Rest, constant_loads,
+};
 use jred_analysis::duty::{Duty, Instant, Smooth};
 use jred_file::model::machine::MachineFile;
 use jred_file::model::mechanism::AnyMechanism;
 use jred_file::model::schedule::ScheduleInstant;
-
-/// Factors on parts of the machine and its motion.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Alteration {
-    /// Of the cycle time.
-    pub time: f64,
-    /// Of the moving masses and inertias, flywheel included.
-    pub mass: f64,
-    /// Of the process loads.
-    pub process: f64,
-}
-
-impl Default for Alteration {
-    fn default() -> Self {
-        Self {
-            time: 1.0,
-            mass: 1.0,
-            process: 1.0,
-        }
-    }
-}
 
 /// A machine's duty, prepared for alterations.
 #[derive(Clone, Debug)]
@@ -146,13 +127,16 @@ impl<'a> DutyModel<'a> {
         let rest = Rest::new(&held, weights).times(1.0 / ratio.abs());
         let hold_torque = rest.largest();
         Duty {
-            mechanics: (self.duty.mechanics).with_loads(
-                self.file,
-                &instants,
-                &Smooth::default(),
-                by.time,
-                rest,
-            ),
+            mechanics: Mechanics {
+                elements: ElementLoad::all(self.file, &instants, by),
+                ..(self.duty.mechanics).with_loads(
+                    self.file,
+                    &instants,
+                    &Smooth::default(),
+                    by.time,
+                    rest,
+                )
+            },
             hold_torque,
             duration,
             instants,

@@ -15,7 +15,7 @@
 use jred::error::Error;
 use serde::Serialize;
 
-use super::duty_model::{Alteration, DutyModel};
+use super::duty_model::DutyModel;
 use super::seek::{DriveResult, Judge};
 use crate::catalogue::Drive;
 use crate::catalogue::{Gearbox, MotorKind};
@@ -24,6 +24,7 @@ use crate::judge::Context;
 use crate::motor::envelope::MotorLimits;
 use crate::select::size::{Candidate, Selection};
 use jred_analysis::duty::Duty;
+use jred_analysis::duty::mechanics::Alteration;
 use jred_file::model::rule::Rule;
 use jred_file::model::rules::RuleSet;
 use jred_file::model::rules::RuleVerdict;

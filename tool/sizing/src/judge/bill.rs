@@ -21,6 +21,8 @@ pub enum Part {
     Amplifier,
     /// Brake resistor.
     Resistor,
+    /// Machine element between gearbox and machine; it belongs to the machine, not to the bill.
+    Element,
 }
 
 impl Part {
@@ -32,6 +34,7 @@ impl Part {
             Self::Gearbox => "gearbox",
             Self::Amplifier => "amplifier",
             Self::Resistor => "brake resistor",
+            Self::Element => "machine element",
         }
     }
 
@@ -56,6 +59,8 @@ impl Part {
             | Rule::GearboxMeanSpeed
             | Rule::GearboxSpeed
             | Rule::GearboxCycles
+            | Rule::GearboxRadial
+            | Rule::GearboxAxial
             | Rule::NaturalFrequency
             | Rule::Backlash => Self::Gearbox,
             Rule::CabinetTemperature
@@ -68,6 +73,13 @@ impl Part {
             | Rule::ResistorPower
             | Rule::ResistorPeak
             | Rule::ResistorPulse => Self::Resistor,
+            Rule::BeltTension
+            | Rule::BeltForce
+            | Rule::BeltPretension
+            | Rule::ScrewForce
+            | Rule::ScrewBuckling
+            | Rule::ScrewSpeed
+            | Rule::PinionForce => Self::Element,
         }
     }
 }

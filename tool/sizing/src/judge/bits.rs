@@ -4,9 +4,9 @@ use jred_file::model::rule::Rule;
 
 /// A set of rules.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct RuleBits(u32);
+pub struct RuleBits(u64);
 
-const _: () = assert!(Rule::COUNT <= u32::BITS as usize, "a bit for each rule");
+const _: () = assert!(Rule::COUNT <= u64::BITS as usize, "a bit for each rule");
 
 impl RuleBits {
     /// No rule.
@@ -14,12 +14,12 @@ impl RuleBits {
 
     /// Adds a rule.
     pub const fn add(&mut self, rule: Rule) {
-        self.0 |= 1 << rule as u32;
+        self.0 |= 1 << rule as u64;
     }
 
     /// Whether it contains a rule.
     pub const fn has(self, rule: Rule) -> bool {
-        self.0 & 1 << rule as u32 != 0
+        self.0 & 1 << rule as u64 != 0
     }
 
     /// Whether it contains no rule.

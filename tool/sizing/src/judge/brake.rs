@@ -21,8 +21,17 @@ pub(super) fn measure(context: &Context, findings: &mut impl Record) {
     let stated = brake.closing_time.is_some() || brake.work.is_some();
     if (falls || stated) && !locks(context) {
         let work = stop(context, &brake).map_or(f64::NAN, |stop| stop.work);
-        findings.set(Rule::BrakeWork, Finding::against(work, brake.work));
+        let allowed = allowed_work(&brake, context.site.emergency_stops);
+        findings.set(Rule::BrakeWork, Finding::against(work, allowed));
     }
+}
+
+/// Largest work of one stop (J): more stops per hour than the brake bears may heat it no more than those.
+fn allowed_work(brake: &Brake, stops: Option<f64>) -> Option<f64> {
+    let Some(stops) = stops else {
+        return brake.work;
+    };
+    Some(brake.work? * (brake.stops_per_hour? / stops).min(1.0))
 }
 
 /// The worst stop by the brake alone; `None` if its closing time is not given.
@@ -57,5 +66,6 @@ pub(super) fn stopped(context: &Context) -> Grounds {
         tool,
         dynamic: brake.dynamic_torque.is_some(),
         per_hour: brake.stops_per_hour,
+        stops: context.site.emergency_stops,
     }
 }

@@ -147,8 +147,16 @@ const fn unit(rule: Rule, grounds: &Grounds, words: &Vocabulary) -> (&'static st
             _ => ("K", 1.0),
         },
         Rule::GearboxPeak | Rule::GearboxCubicMean | Rule::GearboxEmergency => ("N m", 1.0),
-        Rule::GearboxMeanSpeed | Rule::GearboxSpeed => ("rpm", RPM),
+        Rule::GearboxMeanSpeed | Rule::GearboxSpeed | Rule::ScrewSpeed => ("rpm", RPM),
         Rule::GearboxCycles => ("per hour", 1.0),
+        Rule::GearboxRadial
+        | Rule::GearboxAxial
+        | Rule::BeltTension
+        | Rule::BeltForce
+        | Rule::BeltPretension
+        | Rule::ScrewForce
+        | Rule::ScrewBuckling
+        | Rule::PinionForce => ("N", 1.0),
         Rule::RmsCurrent | Rule::PeakCurrent => ("A", 1.0),
         Rule::Overload => ("A^2 s", 1.0),
         Rule::MotorVoltage | Rule::AmplifierVoltage | Rule::BusVoltage => ("V", 1.0),

@@ -12,7 +12,9 @@ pub const fn cure(rule: Rule) -> &'static str {
             "the standstill rating of the motor in the catalogue"
         }
         Rule::BrakeTorque => "the columns of the holding brake of the motor in the catalogue",
-        Rule::BrakeWork => "brake_closing_time and brake_work of the motor in the catalogue",
+        Rule::BrakeWork => {
+            "brake_closing_time and brake_work of the motor in the catalogue, with emergency_stops in [duty] brake_stops"
+        }
         Rule::AmbientTemperature => "temperature_derating of the motor in the catalogue",
         Rule::CabinetTemperature => "temperature_derating of the amplifier in the catalogue",
         Rule::Altitude => "altitude_derating in the catalogue",
@@ -26,6 +28,18 @@ pub const fn cure(rule: Rule) -> &'static str {
         Rule::GearboxMeanSpeed => "rated_input_speed of the gearbox in the catalogue",
         Rule::GearboxSpeed => "max_input_speed of the gearbox in the catalogue",
         Rule::GearboxCycles => "shock_factors of the gearbox in the catalogue",
+        Rule::GearboxRadial => {
+            "max_radial_load of the gearbox in the catalogue, and pretension of the belt in the machine file"
+        }
+        Rule::GearboxAxial => "max_axial_load of the gearbox in the catalogue",
+        Rule::BeltTension => "pretension and max_tension of the belt in the machine file",
+        Rule::BeltForce => "max_effective_force of the belt in the machine file",
+        Rule::BeltPretension => "pretension of the belt in the machine file",
+        Rule::ScrewForce => "max_force of the screw in the machine file",
+        Rule::ScrewBuckling | Rule::ScrewSpeed => {
+            "root_diameter, free_length and ends of the screw in the machine file"
+        }
+        Rule::PinionForce => "max_force of the pinion in the machine file",
         Rule::RmsCurrent => "amplifiers in the catalogue, and k_t or rated_current of the motor",
         Rule::PeakCurrent => "k_t or rated_current of the motor in the catalogue",
         Rule::Overload => "peak_time of the amplifier and k_t of the motor in the catalogue",

@@ -49,6 +49,8 @@ pub enum Grounds {
         dynamic: bool,
         /// Stops per hour that the brake bears.
         per_hour: Option<f64>,
+        /// Stops per hour of the machine file.
+        stops: Option<f64>,
     },
     /// Ratings at the site.
     Site {
@@ -112,6 +114,15 @@ pub enum Grounds {
         /// Whether the backlash of the drive train is given.
         train: bool,
     },
+    /// The element of the drive train or of the mechanism that uses most of its limit.
+    Element {
+        /// Its name.
+        name: String,
+        /// Its largest force (N).
+        force: f64,
+    },
+    /// Name of the element on the output shaft of the gearbox.
+    OnShaft(String),
     /// No amplifier is chosen.
     NoAmplifier,
     /// The current of the motor is the limit.

@@ -8,8 +8,8 @@
 
 use super::outcome::Tally;
 use super::{
-    Context, Outcome, Record as _, brake, electric, gearbox, motor, site, stiffness, thermal,
-    voltage,
+    Context, Outcome, Record as _, brake, electric, elements, gearbox, motor, site, stiffness,
+    thermal, voltage,
 };
 use crate::catalogue::{Drive, DriveId, Gearbox, Motor, Resistor};
 use crate::cycle::{Cycle, PeakCheck};
@@ -127,5 +127,6 @@ fn by_itself(context: &Context, rules: &RuleSet) -> Outcome {
     let mut tally = Tally::new(rules, Outcome::NOTHING);
     gearbox::measure_alone(context, rules, &mut tally);
     stiffness::measure(context, &mut tally);
+    elements::measure(context, &mut tally);
     tally.outcome
 }

@@ -21,7 +21,7 @@ use serde::Serialize;
 use crate::catalogue::{Amplifier, Brake, Drive, Gearbox, Motor, MotorKind};
 use crate::cycle::Cycle;
 use crate::cycle::form::Coefficients;
-use crate::judge::{Context, Findings};
+use crate::judge::{Context, Findings, OF_ELEMENTS};
 use crate::motor::envelope::MotorLimits;
 use crate::select::fit::input_kind;
 use crate::select::ratio::Gear;
@@ -100,7 +100,8 @@ pub struct Requirement {
     pub currents: [f64; 2],
     /// Energy that flows back.
     pub regeneration: Regeneration,
-    /// Whether shafts and drive train alone satisfy the rules of natural frequency and backlash, so that a gearbox can.
+    /// Whether shafts and drive train alone satisfy the rules of natural frequency and backlash, so that a gearbox can, and the machine's belts,
+    /// screws and pinions theirs.
     pub possible: bool,
     /// The gearbox; `None`: coupled directly.
     pub gearbox: Option<GearboxRequirement>,
@@ -332,10 +333,18 @@ impl Inquiry<'_> {
         found
     }
 
-    /// Whether shafts and drive train leave room for a gearbox, or, coupled directly, satisfy the rules themselves.
+    /// Whether belts, screws and pinions satisfy their rules, and shafts and drive train leave room for a gearbox, or, coupled directly, satisfy the
+    /// rules themselves.
     fn is_possible(&self, found: &Requirement, measured: &Findings) -> bool {
         let rules = &self.file.rules;
         let fails = |rule| rules.limit(rule).fail.is_some();
+        let satisfied = |rule: &Rule| {
+            let found = measured.get(*rule);
+            found.is_none_or(|found| rules.verdict(*rule, found) != RuleVerdict::Fail)
+        };
+        if !OF_ELEMENTS.iter().all(satisfied) {
+            return false;
+        }
         match &found.gearbox {
             Some(gearbox) => {
                 let soft = gearbox.stiffness.is_some_and(f64::is_infinite);
@@ -343,11 +352,8 @@ impl Inquiry<'_> {
                 !(soft && fails(Rule::NaturalFrequency) || loose && fails(Rule::Backlash))
             }
             None => [Rule::NaturalFrequency, Rule::Backlash]
-                .into_iter()
-                .all(|rule| {
-                    let found = measured.get(rule);
-                    found.is_none_or(|found| rules.verdict(rule, found) != RuleVerdict::Fail)
-                }),
+                .iter()
+                .all(satisfied),
         }
     }
 

@@ -5,6 +5,8 @@ use std::cmp::Ordering;
 
 use jred_analysis::checked;
 use jred_analysis::duty::Duty;
+use jred_analysis::duty::mechanics::ElementLoad;
+use jred_file::model::drive_element::{DriveElement, ElementKind};
 use jred_file::model::rule::Rule;
 use jred_file::model::rules::RuleVerdict;
 use jred_file::model::rules::{Limit, RuleSet};
@@ -226,12 +228,18 @@ fn scaled(mut duty: Duty, [torque, speed]: [f64; 2]) -> Duty {
 /// Random cycles of all kinds, at torques and speeds that suit a part of the catalogue.
 #[test]
 fn random_cycles_are_screened_as_in_full() {
-    let catalogue = with_more_ratios();
+    let mut catalogue = with_more_ratios();
+    for (k, gearbox) in catalogue.gearboxes.iter_mut().enumerate() {
+        gearbox.max_radial_load = (k % 3 > 0).then_some(1000.0 * (k % 3) as f64);
+    }
     let ranges = [-1.0..3.0f64, -1.0..2.5f64];
-    let cases = (duty(), ranges, 0usize..3, -20.0..70.0f64);
+    let loads = (0usize..4, 0.0..2500.0f64);
+    let cases = (duty(), ranges, 0usize..3, -20.0..70.0f64, loads);
     let sets = sets();
     let seen = Cell::new([0; 2]);
-    let check = |(duty, tens, set, ambient): (Duty, [f64; 2], usize, f64)| {
+    type Loads = (usize, f64);
+    let check = |(mut duty, tens, set, ambient, loads): (Duty, [f64; 2], usize, f64, Loads)| {
+        duty.mechanics.elements = elements(loads);
         let cycle = Cycle::new(&scaled(duty, tens.map(|x| 10f64.powf(x))));
         let mut site = Site::default();
         site.surroundings.ambient = ambient;
@@ -249,6 +257,29 @@ fn random_cycles_are_screened_as_in_full() {
         many_fit >= 5 && many_refused >= 20,
         "{many_fit} {many_refused}"
     );
+}
+
+/// No element, or a belt on the gearbox: overloaded, without pretension, or with one that some shafts bear.
+fn elements((kind, pretension): (usize, f64)) -> Vec<ElementLoad> {
+    let belt = |pretension, tension| ElementLoad {
+        element: DriveElement {
+            name: "belt".to_owned(),
+            stage: Some(0),
+            on_input: true,
+            arm: 1.0,
+            carried: 0.0,
+            kind: ElementKind::Belt(pretension),
+            limits: vec![(Rule::BeltTension, tension), (Rule::BeltForce, 700.0)],
+        },
+        force: 600.0,
+        speed: 1.0,
+    };
+    match kind {
+        0 => Vec::new(),
+        1 => vec![belt(None, 2000.0)],
+        2 => vec![belt(Some(pretension), 2000.0)],
+        _ => vec![belt(Some(pretension), f64::INFINITY)],
+    }
 }
 
 /// Three sets of rules: the general one, one with warnings, one with few rules.

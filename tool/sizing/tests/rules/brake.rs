@@ -106,10 +106,45 @@ fn the_stop_of_a_lift_is_that_of_its_steps() {
         1e-3,
     );
     assert!(
-        note(&check).contains("at most 20 such stops per hour"),
+        note(&check).contains("the brake bears 20 such stops per hour"),
         "{}",
         note(&check)
     );
+}
+
+/// More stops per hour than the brake bears share the work of those that it bears.
+#[test]
+fn stops_per_hour_share_the_work() {
+    for (stops, per_hour, rating) in [
+        (None, Some(20.0), Some(400.0)),
+        (Some(5.0), Some(20.0), Some(400.0)),
+        (Some(20.0), Some(20.0), Some(400.0)),
+        (Some(50.0), Some(20.0), Some(160.0)),
+        (Some(5.0), None, None),
+        (None, None, Some(400.0)),
+    ] {
+        let mut stand = lift(Brake {
+            stops_per_hour: per_hour,
+            ..BRAKE
+        });
+        stand.file.site.emergency_stops = stops;
+        let found = stand.found(true, Rule::BrakeWork);
+        assert_eq!(Some(found.rating).filter(|r| !r.is_nan()), rating);
+        let check = stand.check(true, &RuleSet::default(), Rule::BrakeWork);
+        match rating {
+            Some(_) => assert_ne!(check.verdict, RuleVerdict::NotChecked),
+            None => assert!(
+                note(&check).contains("brake_stops in the catalogue"),
+                "{}",
+                note(&check)
+            ),
+        }
+    }
+    let text = format!("{LIFT}\n[duty]\nemergency_stops = 50\n");
+    let file = Stand::new(&text).file;
+    assert_eq!(file.site.emergency_stops, Some(50.0));
+    // Without a type the machine runs as before.
+    assert_eq!(file.site.duty, Stand::new(LIFT).file.site.duty);
 }
 
 /// A brake with a slip torque below the weight never stops it.

@@ -126,7 +126,14 @@ fn missing_data_have_a_place() {
         for key in keys {
             assert!(documents.contains(key), "{rule:?}: {key} is in no document");
         }
-        let place = ["catalogue", "[supply]", "[rules]", "[stiffness]", "motor"];
+        let place = [
+            "catalogue",
+            "[supply]",
+            "[rules]",
+            "[stiffness]",
+            "motor",
+            "machine file",
+        ];
         assert!(
             place.iter().any(|place| words.contains(place)),
             "{rule:?}: {words}"

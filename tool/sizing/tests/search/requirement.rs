@@ -4,7 +4,7 @@ use rand::rngs::ChaCha8Rng;
 use rand::{RngExt as _, SeedableRng as _};
 
 use super::{Case, RACK, case};
-use crate::support::press_text;
+use crate::support::{edited, press_text};
 use jred_file::model::rule::Rule;
 use jred_file::model::rules::RuleVerdict;
 use jred_sizing::catalogue::{Drive, Gearbox, Motor, MotorKind};
@@ -33,7 +33,18 @@ const TOUCH: f64 = 3e-5;
 /// The machines and ratios of these tests. The rule set of a file may have warnings and errors.
 fn cases() -> Vec<(Case, Vec<Option<f64>>)> {
     let gears = || vec![None, Some(4.0), Some(10.0), Some(35.0)];
-    let mut all: Vec<_> = [press_text().as_str(), RACK, HOIST, CONVEYOR, SCREW]
+    // A helical pinion pushes at the gearbox, and a belt pulls.
+    let helical = edited(
+        RACK,
+        "type = \"rack-and-pinion\"",
+        "type = \"rack-and-pinion\"\nhelix_angle = \"19.5 deg\"",
+    );
+    let belt = edited(
+        &press_text(),
+        "belt_mass = \"0.6 kg\"",
+        "belt_mass = \"0.6 kg\"\npretension = \"3 kN\"",
+    );
+    let mut all: Vec<_> = [belt.as_str(), &helical, HOIST, CONVEYOR, SCREW]
         .into_iter()
         .map(|text| (case(text, 500), gears()))
         .collect();
@@ -65,6 +76,8 @@ fn gearbox(found: &Requirement) -> Option<Gearbox> {
         max_speed: Some(needed.max_speed),
         stiffness: needed.stiffness,
         backlash: needed.backlash,
+        max_radial_load: needed.radial_load,
+        max_axial_load: needed.axial_load,
         ..Gearbox::default()
     })
 }
@@ -296,7 +309,7 @@ fn a_gearbox_just_outside_fails() {
                 continue;
             };
             let less = 1.0 - STEP;
-            let weaker: [(Rule, Gearbox); 6] = [
+            let weaker: [(Rule, Gearbox); 8] = [
                 (
                     Rule::GearboxPeak,
                     Gearbox {
@@ -339,10 +352,26 @@ fn a_gearbox_just_outside_fails() {
                         ..exact.clone()
                     },
                 ),
+                (
+                    Rule::GearboxRadial,
+                    Gearbox {
+                        max_radial_load: exact.max_radial_load.map(|x| x * less),
+                        ..exact.clone()
+                    },
+                ),
+                (
+                    Rule::GearboxAxial,
+                    Gearbox {
+                        max_axial_load: exact.max_axial_load.map(|x| x * less),
+                        ..exact.clone()
+                    },
+                ),
             ];
             for (rule, gearbox) in weaker {
                 if !case.file.rules.limit(rule).is_set()
                     || rule == Rule::Backlash && case.file.site.tool.is_none()
+                    || rule == Rule::GearboxRadial && exact.max_radial_load.is_none()
+                    || rule == Rule::GearboxAxial && exact.max_axial_load.is_none()
                 {
                     continue;
                 }

@@ -34,10 +34,12 @@ use crate::keys::cam::DISC_CAM;
 use crate::keys::linkage::LINKAGE;
 use crate::keys::mechanism as keys;
 use crate::model::coordinate::Coordinate;
+use crate::model::drive_element::DriveElement;
 use crate::model::mechanism::AnyMechanism;
 use crate::number::rounding::figure;
 use crate::text::file::Files;
 
+use crate::read::drive_element;
 use crate::text::item::Item;
 use crate::text::key::KeyTable;
 use crate::text::problem::{Problem, Result};
@@ -88,12 +90,12 @@ pub fn mechanism_types() -> impl Iterator<Item = &'static str> {
     TYPES.iter().map(|(table, _)| table.name)
 }
 
-/// The mechanism under this `gravity` (m/s²), and the inertia of its flywheel (kg·m²).
+/// The mechanism under this `gravity` (m/s²), the inertia of its flywheel (kg·m²), and its belt, screw or pinion, if the file gives its limits.
 pub(super) fn read(
     section: &Section,
     gravity: [f64; 2],
     files: &dyn Files,
-) -> Result<(AnyMechanism, f64)> {
+) -> Result<(AnyMechanism, f64, Option<DriveElement>)> {
     let kind = section
         .need("type")?
         .choice(&TYPES.map(|(table, _)| table.name))?;
@@ -105,6 +107,7 @@ pub(super) fn read(
         Reader::Files(read) => read(section, files)?,
     };
     let mechanism = swing(section, mechanism)?;
+    let element = drive_element::of_mechanism(section, &mechanism)?;
     section.finish()?;
     let mut mechanism = mechanism
         .with_gravity_on_guides(gravity)
@@ -112,7 +115,7 @@ pub(super) fn read(
     if AXES.contains(&mechanism.kind()) {
         mechanism = mechanism.with_fact("axis", inclination(gravity));
     }
-    Ok((mechanism, flywheel))
+    Ok((mechanism, flywheel, element))
 }
 
 /// The types whose part slides along x.

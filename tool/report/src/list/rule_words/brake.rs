@@ -25,8 +25,19 @@ pub(super) fn of_torque(check: &Check) -> (String, String) {
 
 pub(super) fn of_work(check: &Check) -> (String, String) {
     let finding = check.finding;
+    let uncounted = matches!(
+        check.grounds,
+        Grounds::BrakeStop {
+            per_hour: None,
+            stops: Some(_),
+            ..
+        }
+    );
     let rating = match (finding.value.is_nan(), finding.rating.is_nan()) {
         (false, false) => "work of the brake in one emergency stop",
+        (false, true) if uncounted => {
+            "work that the brake bears in one emergency stop and stops per hour, brake_work and brake_stops in the catalogue"
+        }
         (true, false) => "closing time of the brake, brake_closing_time in the catalogue",
         (false, true) => {
             "work that the brake bears in one emergency stop, brake_work in the catalogue"
@@ -46,6 +57,7 @@ fn run_on(check: &Check) -> String {
         tool,
         dynamic,
         per_hour,
+        stops,
     } = &check.grounds
     else {
         return String::new();
@@ -74,8 +86,15 @@ fn run_on(check: &Check) -> String {
             "; brake_dynamic_{torque} not given, using the static {torque}"
         );
     }
-    if let Some(stops) = per_hour {
-        let _ = write!(place, "; at most {} such stops per hour", short(*stops));
+    if let Some(most) = per_hour {
+        let _ = write!(
+            place,
+            "; the brake bears {} such stops per hour",
+            short(*most)
+        );
+        if let Some(stops) = stops {
+            let _ = write!(place, ", the machine has {}", short(*stops));
+        }
     }
     place
 }

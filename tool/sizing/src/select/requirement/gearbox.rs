@@ -34,6 +34,12 @@ pub struct GearboxRequirement {
     /// Largest backlash at the output; negative if the drive train alone has too much; `None`: no rule needs it.
     #[serde(rename = "backlash [rad]")]
     pub backlash: Option<f64>,
+    /// Radial load that the output shaft must bear; `None`: nothing with a known pull is on it.
+    #[serde(rename = "radial load [N]")]
+    pub radial_load: Option<f64>,
+    /// Axial load that the output shaft must bear; `None`: as above.
+    #[serde(rename = "axial load [N]")]
+    pub axial_load: Option<f64>,
 }
 
 impl Inquiry<'_> {
@@ -49,6 +55,11 @@ impl Inquiry<'_> {
         });
         let [first, _] = &each;
         let of = |rule| self.required(first, rule);
+        let load = |rule| {
+            let found = first.get(rule)?;
+            let load = found.value / self.share(rule);
+            load.is_finite().then_some(load)
+        };
         let stops = each.each_ref().map(|found| {
             let stop = found.get(Rule::GearboxEmergency)?;
             let torque = stop.value / self.share(Rule::GearboxEmergency);
@@ -84,6 +95,8 @@ impl Inquiry<'_> {
                 .map_or(0.0, |found| found.value),
             stiffness,
             backlash,
+            radial_load: load(Rule::GearboxRadial),
+            axial_load: load(Rule::GearboxAxial),
         }
     }
 }
