@@ -46,6 +46,9 @@ pub(super) fn read(root: &Section, drive: DriveLink) -> Result<(DriveTrain, Vec<
                 _ => stages.push(stage::rack(&section)?),
             }
             elements.extend(drive_element::of_stage(&section, TYPES[kind], before)?);
+            if section.word("sense")? == 1 {
+                stage::forward(&mut stages[before..])?;
+            }
             if let Some(item) = section.get("branch") {
                 for own in section.tables("branch")? {
                     names.add(&own)?;

@@ -4,6 +4,7 @@ use jred::error::Error;
 
 use super::section::{Page, Section};
 use super::{class, drive_pages};
+use crate::answer::Block;
 use crate::list::project::ProjectView;
 
 /// The document of a project.
@@ -19,7 +20,7 @@ pub fn project_page(shown: &ProjectView) -> Result<String, Error> {
         let name = &axis.axis.name;
         sections.push(Section {
             heading: format!("Axis {name}: {}", axis.listing.file.title),
-            blocks: drive.first,
+            blocks: drive.first.iter().map(Block::shown).collect(),
             ..Section::default()
         });
         sections.extend(drive.sections.into_iter().map(|section| Section {
@@ -35,7 +36,7 @@ pub fn project_page(shown: &ProjectView) -> Result<String, Error> {
         version: env!("CARGO_PKG_VERSION"),
         file: &shown.project.name,
         class: class(shown.holds()),
-        blocks: &answer.blocks,
+        blocks: answer.shown(),
         sections,
     };
     Ok(page.html("Drives of all axes, their parts and their supply"))

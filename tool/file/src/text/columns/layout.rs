@@ -4,6 +4,7 @@ use std::borrow::Cow;
 use std::f64::consts::TAU;
 
 use super::ColumnSpec;
+use crate::text::csv;
 use crate::text::item::Item;
 use crate::text::problem::Result;
 use crate::text::section::Section;
@@ -179,7 +180,7 @@ fn counts(text: &str) -> Option<usize> {
 
 /// Whether a text is the unit of a column.
 pub(super) fn is_unit(text: &str) -> bool {
-    text == "1" || counts(text).is_some() || unit::read_listed(text).is_ok()
+    text == "1" || counts(text).is_some() || csv::is_unit(text)
 }
 
 /// A title of a column: its name and its unit.
