@@ -32,6 +32,7 @@ mod image_refused;
 mod image_slices;
 mod indexing_cam;
 mod inverted_slider_crank;
+mod joint_friction;
 mod layers;
 mod layouts;
 mod library_as_linkages;

@@ -49,6 +49,18 @@ pub enum PoseError {
         /// Position of the drive link (rad, or m for a sliding link).
         phi: f64,
     },
+    /// Friction in the joints has no definite size here: it blocks the mechanism.
+    Jams {
+        /// Position of the drive link (rad, or m for a sliding link).
+        phi: f64,
+        /// Index of the joint whose friction acts on itself most.
+        joint: usize,
+    },
+    /// Friction by a coefficient depends on the acceleration, so that no curve over the position contains it.
+    NoCurve {
+        /// Index of a joint with such friction.
+        joint: usize,
+    },
     /// Inertia or load differs one turn of the drive link later.
     NotPeriodic {
         /// Angle of the drive link (rad).
@@ -94,6 +106,15 @@ impl fmt::Display for PoseError {
                     Position(phi)
                 )
             }
+            Self::Jams { phi, joint } => write!(
+                f,
+                "friction jams the mechanism at {}: in joint {joint} it grows as fast as the force against it",
+                Position(phi)
+            ),
+            Self::NoCurve { joint } => write!(
+                f,
+                "friction by a coefficient, in joint {joint}, depends on the acceleration: no curve over the position contains it"
+            ),
             Self::NotPeriodic { phi } => write!(
                 f,
                 "inertia or load at {} are not the same a turn of the drive link later: a spring, or a force of fixed \
@@ -122,6 +143,12 @@ impl Curable for PoseError {
             }
             Self::EndsMeet { .. } => "move one of them a little aside",
             Self::NoInertia { .. } => "give the drive link or its flywheel an inertia",
+            Self::Jams { .. } => {
+                "lower its coefficient, lengthen its guide, or end the drive's stroke before it: there the joint drives flatter"
+            }
+            Self::NoCurve { .. } => {
+                "give it as an opposing force or moment of the size that you expect"
+            }
             Self::NotPeriodic { .. } => "attach it elsewhere, or limit the drive by a stroke",
         })
     }

@@ -245,7 +245,8 @@ impl Joint {
         }
     }
 
-    /// The joint's free coordinate: the angle (rad) or displacement (m) of the second marker against the first; zero for the other kinds.
+    /// The joint's free coordinate: the angle (rad) or displacement (m) of the second marker against the first, of a pin along its slot; zero for the
+    /// other kinds.
     #[inline]
     #[must_use]
     pub fn coordinate(&self, frames: &[Frame]) -> Transfer {
@@ -256,12 +257,13 @@ impl Joint {
                 let ([x_a, y_a], [x_b, y_b]) = (a.position(frames), b.position(frames));
                 cos * (x_b - x_a) + sin * (y_b - y_a)
             }
+            Self::PinInSlot([pin, slot]) => Self::Prismatic([*slot, *pin]).coordinate(frames),
             _ => Transfer::constant(0.0),
         }
     }
 
     /// The wrenches of a unit of drive effort in this joint's free coordinate on the first and the second body: a moment (1 N·m) in a pin, a force (1
-    /// N) along a guide.
+    /// N) along a guide, or of the slot on its pin.
     #[must_use]
     pub fn unit_drive(&self, frames: &[Frame]) -> [Wrench; 2] {
         let [first, second] = self.bodies();
@@ -269,6 +271,10 @@ impl Joint {
             Self::Prismatic([a, b]) => {
                 let axis = a.axis(frames).map(|c| c.value);
                 Wrench::force(second, b.position(frames).map(|c| c.value), axis)
+            }
+            Self::PinInSlot([pin, slot]) => {
+                let [on_slot, on_pin] = Self::Prismatic([*slot, *pin]).unit_drive(frames);
+                return [on_pin, on_slot];
             }
             _ => Wrench::moment(second, 1.0),
         };

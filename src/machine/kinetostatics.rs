@@ -16,13 +16,15 @@ use crate::machine::Machine;
 use crate::machine::error::MachineError;
 use crate::machine::error::PoseError;
 use crate::machine::joint::{Body, Joint, Joints, MAX_JOINTS, Wrench};
+use crate::machine::joint_friction::FrictionState;
 use crate::machine::link::{Frame, Link};
 use crate::machine::mechanism::{Frames, Jointed, MAX_LINKS};
+use crate::machine::reduction::TorqueTerms;
 use crate::number::error::finite;
 use crate::number::linear;
 
 /// Greatest number of unknowns: three equations per link.
-const MOST: usize = 3 * MAX_LINKS;
+pub(super) const MOST: usize = 3 * MAX_LINKS;
 
 /// The force in one joint, from its first body on its second: a force at a point and the moment about that point.
 ///
@@ -33,6 +35,8 @@ const MOST: usize = 3 * MAX_LINKS;
 /// | rigid joint | the second marker |
 /// | pin in a slot | the pin |
 /// | transmission | where its effort acts on the second body: teeth in mesh, the end of a rope; for a moment only, the origin |
+///
+/// [Friction](crate::machine::JointFriction) in the joint is contained: along a guide or a slot, as a moment in a pin.
 ///
 /// The test `joints_close_and_forces_balance` checks the balance of every link about each of these points.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -64,22 +68,29 @@ pub struct Forces {
 impl<M: Jointed> Machine<M> {
     /// The forces at `phi` (rad) for the motion ω = `omega` (rad/s), α = `alpha` (rad/s²).
     ///
-    /// Loads that oppose the motion have the sign of ω, and are zero at rest. Needs about 20 kB of stack. Accuracy: 1e-10 of a column's largest
-    /// value, compared with 50-digit golden data (tests `slider_crank_reactions_golden`, `four_bar_reactions_golden`), and the same for the drive
-    /// torque compared with the reduced equation (test `dalembert_is_the_reduced_equation`).
+    /// Loads that oppose the motion and [friction in the joints](crate::machine::JointFriction) have the sign of ω, and are zero at rest. Needs about
+    /// 30 kB of stack. Accuracy: 1e-10 of a column's largest value, compared with 50-digit golden data (tests `slider_crank_reactions_golden`,
+    /// `four_bar_reactions_golden`), and the same for the drive torque compared with the reduced equation (test `dalembert_is_the_reduced_equation`).
     ///
     /// # Errors
     /// The mechanism cannot be placed at `phi`; ω or α not finite; joints that do not leave exactly one degree of freedom, or are at a dead point or
-    /// a [change point](Jointed::determined).
+    /// a [change point](Jointed::determined); [`PoseError::Jams`].
     pub fn forces(&self, phi: f64, omega: f64, alpha: f64) -> Result<Forces, MachineError> {
         let (omega, alpha) = (finite("speed", omega)?, finite("acceleration", alpha)?);
+        let (frames, joints) = self.placed(phi)?;
+        self.forces_in(&frames, &joints, [phi, omega, alpha])
+    }
+
+    /// Frames and joints where the forces are determined.
+    fn placed(&self, phi: f64) -> Result<(Frames, Joints), PoseError> {
         let mechanism = self.mechanism();
         let frames = mechanism.frames(phi)?;
         let joints = mechanism.joints(phi, &frames)?;
-        if !mechanism.determined(phi) {
-            return Err(PoseError::ChangePoint { phi }.into());
+        if mechanism.determined(phi) {
+            Ok((frames, joints))
+        } else {
+            Err(PoseError::ChangePoint { phi })
         }
-        self.forces_in(&frames, &joints, [phi, omega, alpha])
     }
 
     /// The forces for known frames of the links and joints; the motion must be finite.
@@ -89,84 +100,40 @@ impl<M: Jointed> Machine<M> {
         joints: &Joints,
         [phi, omega, alpha]: [f64; 3],
     ) -> Result<Forces, MachineError> {
-        let mechanism = self.mechanism();
-        let links = mechanism.links();
-        let equations = 3 * links.len();
-        let unknowns = 1 + joints.iter().map(Joint::constraints).sum::<usize>();
-        if unknowns != equations {
-            return Err(MachineError::Mobility {
-                links: links.len(),
-                constraints: unknowns - 1,
-            });
-        }
-        let Some(driven) = joints.get(mechanism.drive()) else {
-            return Err(MachineError::NoSuchJoint {
-                joint: mechanism.drive(),
-                joints: joints.len(),
-            });
-        };
-
-        let mut balance = Balance {
-            links,
-            frames,
-            column: [0.0; MOST],
-        };
+        let mut factors = no_factors();
+        let equilibrium = Equilibrium::new(self, frames, joints, phi, &mut factors)?;
+        let mut balance = equilibrium.balance();
+        self.add_active_forces(&mut balance, phi, omega)?;
         // The flywheel moves with the coordinate of the driven joint, like a rotor geared to it: between its two bodies, in either order. So it
         // changes the drive's effort, but no reaction.
+        let driven = equilibrium.driven;
         let inertia = -self.flywheel() * driven.coordinate(frames).acceleration(omega, alpha);
-        let unit_drive = driven.unit_drive(frames);
-        for on in &unit_drive {
+        for on in &driven.unit_drive(frames) {
             balance.add(&on.times(inertia));
         }
-        self.add_active_forces(&mut balance, phi, omega)?;
         let (shaking_force, shaking_moment) = balance.add_inertia_forces(omega, alpha);
-        // Σ unknown reactions = −(active forces + inertia forces)
-        let mut solution = balance.column.map(|f| -f);
-
-        #[expect(clippy::large_stack_arrays, reason = "said in the documentation")]
-        let mut matrix = [0.0; MOST * MOST];
-        let mut columns = matrix.chunks_exact_mut(equations);
-        let mut fill = |pair: &[Wrench; 2]| {
-            balance.column = [0.0; MOST];
-            balance.add(&pair[0]);
-            balance.add(&pair[1]);
-            if let Some(column) = columns.next() {
-                column.copy_from_slice(&balance.column[..equations]);
+        let sliding = FrictionState::new(&equilibrium, omega, omega)?;
+        let mut of_friction = [Reaction::default(); MAX_JOINTS];
+        for (joint, [on_first, on_second]) in sliding.wrenches(alpha)? {
+            balance.add(&on_first);
+            balance.add(&on_second);
+            if let Some(sum) = of_friction.get_mut(joint) {
+                sum.add(&on_second);
             }
-        };
-        for joint in joints {
-            joint.unit_reactions(frames).iter().for_each(&mut fill);
         }
-        fill(&unit_drive);
-
-        let mut pivots = [0; MOST];
-        let (matrix, pivots) = (
-            &mut matrix[..equations * equations],
-            &mut pivots[..equations],
-        );
-        if linear::factor(matrix, pivots) == 0.0 {
-            return Err(PoseError::DeadPoint {
-                phi,
-                joint: mechanism.drive(),
-            }
-            .into());
-        }
-        linear::solve(matrix, pivots, &mut solution[..equations]);
+        let solution = equilibrium.solve(&balance);
 
         let mut values = solution.iter().copied();
         let mut reactions = heapless::Vec::new();
-        for joint in joints {
+        for (joint, friction) in joints.iter().zip(of_friction) {
             let units = joint.unit_reactions(frames);
             let mut sum = Reaction {
                 // The force comes first, with no moment about its point.
                 point: units.first().map_or([0.0; 2], |[_, unit]| unit.point),
-                ..Reaction::default()
+                ..friction
             };
             for [_, on_second] in &units {
-                let part = on_second.times(values.next().unwrap_or_default());
-                sum.force[0] += part.force[0];
-                sum.force[1] += part.force[1];
-                sum.moment += part.moment;
+                sum.add(&on_second.times(values.next().unwrap_or_default()));
             }
             // Cannot fail: both have the capacity MAX_JOINTS.
             let _ = reactions.push(sum);
@@ -179,8 +146,38 @@ impl<M: Jointed> Machine<M> {
         })
     }
 
+    /// The drive torque of a motion, term by term, with [friction in the joints](crate::machine::JointFriction) in its Coulomb term.
+    ///
+    /// # Errors
+    /// The mechanism cannot be placed at `phi`; as [`friction_at`](Self::friction_at).
+    pub fn torque(&self, phi: f64, omega: f64, alpha: f64) -> Result<TorqueTerms, MachineError> {
+        let mut terms = self.bare_reduction(phi)?.torque(omega, alpha);
+        terms.coulomb += self.friction_at(phi, omega, omega)?.torque(alpha)?[0];
+        Ok(terms)
+    }
+
+    /// The friction in the joints at `phi` (rad) and the speed `omega` (rad/s), for any acceleration. `direction` is the sign of the motion, or of the
+    /// motion that begins here from rest; 0: without friction.
+    ///
+    /// # Errors
+    /// As [`forces`](Self::forces), if the machine has such friction; [`PoseError::Jams`].
+    pub fn friction_at(
+        &self,
+        phi: f64,
+        omega: f64,
+        direction: f64,
+    ) -> Result<FrictionState, MachineError> {
+        if self.frictions().is_empty() || direction == 0.0 {
+            return Ok(FrictionState::default());
+        }
+        let (frames, joints) = self.placed(phi)?;
+        let mut factors = no_factors();
+        let equilibrium = Equilibrium::new(self, &frames, &joints, phi, &mut factors)?;
+        FrictionState::new(&equilibrium, omega, direction)
+    }
+
     /// Gravity, loads and force elements.
-    fn add_active_forces(
+    pub(super) fn add_active_forces(
         &self,
         balance: &mut Balance,
         phi: f64,
@@ -206,8 +203,114 @@ impl<M: Jointed> Machine<M> {
     }
 }
 
+/// Memory for the factors of the equations of equilibrium: the matrix and its pivots.
+type Factors = ([f64; MOST * MOST], [usize; MOST]);
+
+#[expect(clippy::large_stack_arrays, reason = "said in the documentation")]
+const fn no_factors() -> Factors {
+    ([0.0; MOST * MOST], [0; MOST])
+}
+
+/// The equations of equilibrium of all links at one position, solved for the reactions and the drive's effort.
+pub(super) struct Equilibrium<'a, M> {
+    pub(super) machine: &'a Machine<M>,
+    pub(super) frames: &'a Frames,
+    pub(super) joints: &'a Joints,
+    pub(super) phi: f64,
+    driven: &'a Joint,
+    equations: usize,
+    factors: &'a Factors,
+}
+
+impl<'a, M: Jointed> Equilibrium<'a, M> {
+    pub(super) fn new(
+        machine: &'a Machine<M>,
+        frames: &'a Frames,
+        joints: &'a Joints,
+        phi: f64,
+        factors: &'a mut Factors,
+    ) -> Result<Self, MachineError> {
+        let mechanism = machine.mechanism();
+        let links = mechanism.links();
+        let equations = 3 * links.len();
+        let unknowns = 1 + joints.iter().map(Joint::constraints).sum::<usize>();
+        if unknowns != equations {
+            return Err(MachineError::Mobility {
+                links: links.len(),
+                constraints: unknowns - 1,
+            });
+        }
+        let Some(driven) = joints.get(mechanism.drive()) else {
+            return Err(MachineError::NoSuchJoint {
+                joint: mechanism.drive(),
+                joints: joints.len(),
+            });
+        };
+        let mut balance = Balance {
+            links,
+            frames,
+            column: [0.0; MOST],
+        };
+        let mut columns = factors.0.chunks_exact_mut(equations);
+        let mut fill = |pair: &[Wrench; 2]| {
+            balance.column = [0.0; MOST];
+            balance.add(&pair[0]);
+            balance.add(&pair[1]);
+            if let Some(column) = columns.next() {
+                column.copy_from_slice(&balance.column[..equations]);
+            }
+        };
+        for joint in joints {
+            joint.unit_reactions(frames).iter().for_each(&mut fill);
+        }
+        fill(&driven.unit_drive(frames));
+        let matrix = &mut factors.0[..equations * equations];
+        if linear::factor(matrix, &mut factors.1[..equations]) == 0.0 {
+            return Err(PoseError::DeadPoint {
+                phi,
+                joint: mechanism.drive(),
+            }
+            .into());
+        }
+        Ok(Self {
+            machine,
+            frames,
+            joints,
+            phi,
+            driven,
+            equations,
+            factors,
+        })
+    }
+
+    /// No forces.
+    pub(super) fn balance(&self) -> Balance<'a> {
+        Balance {
+            links: self.machine.mechanism().links(),
+            frames: self.frames,
+            column: [0.0; MOST],
+        }
+    }
+
+    /// Σ unknown reactions = −(active forces + inertia forces): the reactions in the order of the joints, then the drive's effort.
+    pub(super) fn solve(&self, balance: &Balance) -> [f64; MOST] {
+        let (n, (matrix, pivots)) = (self.equations, self.factors);
+        let mut solution = balance.column.map(|f| -f);
+        linear::solve(&matrix[..n * n], &pivots[..n], &mut solution[..n]);
+        solution
+    }
+}
+
+impl Reaction {
+    fn add(&mut self, on_second: &Wrench) {
+        self.force[0] += on_second.force[0];
+        self.force[1] += on_second.force[1];
+        self.moment += on_second.moment;
+    }
+}
+
 /// Forces summed link by link: x, y, and the moment about the centre of mass.
-struct Balance<'a> {
+pub(super) struct Balance<'a> {
     links: &'a [Link],
     frames: &'a Frames,
     column: [f64; MOST],
@@ -215,7 +318,7 @@ struct Balance<'a> {
 
 impl Balance<'_> {
     /// Adds a wrench to its link; wrenches on the ground are ignored.
-    fn add(&mut self, wrench: &Wrench) {
+    pub(super) fn add(&mut self, wrench: &Wrench) {
         let Some(link) = wrench.body.link() else {
             return;
         };
@@ -231,7 +334,7 @@ impl Balance<'_> {
     }
 
     /// Adds every link's inertia force and moment, (1.1)-(1.8), and returns their resultant: force, and moment about the global origin.
-    fn add_inertia_forces(&mut self, omega: f64, alpha: f64) -> ([f64; 2], f64) {
+    pub(super) fn add_inertia_forces(&mut self, omega: f64, alpha: f64) -> ([f64; 2], f64) {
         let (mut force, mut moment) = ([0.0; 2], 0.0);
         for (k, (link, frame)) in self.links.iter().zip(self.frames).enumerate() {
             let wrench = inertia_force(k, link, frame, omega, alpha);

@@ -13,6 +13,8 @@ mod free_motion;
 #[cfg(feature = "mechanics")]
 pub(crate) mod joint;
 #[cfg(feature = "mechanics")]
+pub(crate) mod joint_friction;
+#[cfg(feature = "mechanics")]
 pub(crate) mod kinetostatics;
 #[cfg(feature = "mechanics")]
 pub(crate) mod link;
@@ -36,6 +38,8 @@ pub use error::{MachineError, PoseError};
 pub use free_motion::FreeMotion;
 #[cfg(feature = "mechanics")]
 pub use joint::{Body, Joint, Joints, MAX_JOINTS, Marker, UnitReactions, Wrench};
+#[cfg(feature = "mechanics")]
+pub use joint_friction::{FrictionState, JointFriction, MAX_FRICTIONS};
 #[cfg(feature = "mechanics")]
 pub use kinetostatics::{Forces, Reaction};
 #[cfg(feature = "mechanics")]

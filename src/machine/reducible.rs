@@ -63,6 +63,7 @@ impl<M: Mechanism> Reducible for Machine<M> {
     }
 
     fn reduction(&self, phi: f64) -> Result<Reduction, PoseError> {
+        self.check_curves()?;
         let reduction = self.bare_reduction(phi)?;
         if reduction.inertia > 0.0 {
             Ok(reduction)

@@ -14,8 +14,9 @@ use crate::machine::error::PoseError;
 use crate::number::error::RangeError;
 
 use crate::machine::element::{Element, MAX_ELEMENTS};
+use crate::machine::joint_friction::{JointFriction, MAX_FRICTIONS};
 use crate::machine::load::Load;
-use crate::machine::mechanism::{Frames, MAX_LINKS, Mechanism};
+use crate::machine::mechanism::{Frames, Jointed, MAX_LINKS, Mechanism};
 use crate::math;
 use crate::number::error::{finite, not_negative};
 
@@ -185,6 +186,7 @@ pub struct Machine<M> {
     loads: heapless::Vec<Load, MAX_LOADS>,
     elements: heapless::Vec<Element, MAX_ELEMENTS>,
     flywheel: f64,
+    frictions: heapless::Vec<JointFriction, MAX_FRICTIONS>,
 }
 
 impl<M: Mechanism> Machine<M> {
@@ -196,6 +198,7 @@ impl<M: Mechanism> Machine<M> {
             loads: heapless::Vec::new(),
             elements: heapless::Vec::new(),
             flywheel: 0.0,
+            frictions: heapless::Vec::new(),
         }
     }
 
@@ -250,6 +253,27 @@ impl<M: Mechanism> Machine<M> {
         Ok(self)
     }
 
+    /// Adds friction by a coefficient in a joint. It acts in [`forces`](Self::forces) and [`friction_at`](Self::friction_at); the reduced link at a
+    /// position does not contain it, and tables of such a machine are refused.
+    ///
+    /// # Errors
+    /// A joint that does not exist or is of another kind, or more than [`MAX_FRICTIONS`].
+    pub fn with_friction(mut self, friction: JointFriction) -> Result<Self, MachineError>
+    where
+        M: Jointed,
+    {
+        let phi = self.mechanism.domain().position(0.0);
+        let joints = self.mechanism.joints(phi, &self.mechanism.frames(phi)?)?;
+        friction.check(&joints)?;
+        self.frictions
+            .push(friction)
+            .map_err(|_| RangeError::TooMany {
+                what: "joints with friction",
+                capacity: MAX_FRICTIONS,
+            })?;
+        Ok(self)
+    }
+
     fn check_link(&self, link: Option<usize>) -> Result<(), MachineError> {
         let links = self.mechanism.links().len();
         match link {
@@ -277,6 +301,31 @@ impl<M: Mechanism> Machine<M> {
     /// The springs and dampers.
     pub fn elements(&self) -> &[Element] {
         &self.elements
+    }
+
+    /// The friction by a coefficient in its joints.
+    pub fn frictions(&self) -> &[JointFriction] {
+        &self.frictions
+    }
+
+    /// The same machine without friction by a coefficient.
+    #[must_use]
+    pub fn without_frictions(mut self) -> Self {
+        self.frictions.clear();
+        self
+    }
+
+    /// Refuses friction by a coefficient, which a curve over the position cannot contain.
+    ///
+    /// # Errors
+    /// [`PoseError::NoCurve`].
+    pub fn check_curves(&self) -> Result<(), PoseError> {
+        match self.frictions.first() {
+            Some(friction) => Err(PoseError::NoCurve {
+                joint: friction.joint(),
+            }),
+            None => Ok(()),
+        }
     }
 
     /// Gravity (m/s²).

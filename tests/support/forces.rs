@@ -11,7 +11,7 @@ use super::{assert_near, budget, largest};
 #[track_caller]
 pub(crate) fn dalembert<M: Jointed>(machine: &Machine<M>, phi: f64, omega: f64, alpha: f64) {
     let forces = machine.forces(phi, omega, alpha).unwrap();
-    let terms = machine.bare_reduction(phi).unwrap().torque(omega, alpha);
+    let terms = machine.torque(phi, omega, alpha).unwrap();
     // Where terms cancel, the roundings are relative to the largest force at the size of the mechanism.
     let frames = machine.mechanism().frames(phi).unwrap();
     let length = size(machine.mechanism(), phi, &frames);

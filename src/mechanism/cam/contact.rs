@@ -84,13 +84,15 @@ pub fn contact_force<M: Jointed>(
 /// Accuracy: the root at every φ is exact to rounding, φ is found to 1e-8 (tests `lift_off_of_a_circular_cam`, `contact_vanishes_at_lift_off`).
 ///
 /// # Errors
-/// As [`contact_force`].
+/// As [`contact_force`]; friction by a coefficient in the joints.
 pub fn lift_off<M: Jointed>(
     machine: &Machine<M>,
     contact: usize,
     pieces: impl Iterator<Item = Piece> + Clone,
     direction: f64,
 ) -> Result<Option<LiftOff>, MachineError> {
+    // Friction by a coefficient bends the polynomial.
+    machine.check_curves()?;
     let direction = if direction < 0.0 { -1.0 } else { 1.0 };
     // The three speeds that define the polynomial should be near the limit, where every term is significant.
     let rough = first(machine, contact, pieces.clone(), 100.0 * direction)?;

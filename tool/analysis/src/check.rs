@@ -4,10 +4,10 @@ use std::f64::consts::TAU;
 
 use jred::Domain;
 use jred::error::Error;
-use jred::machine::Reducible;
+use jred::machine::{MachineError, PoseError, Reducible};
 
 use jred_file::model::axis::Axis;
-use jred_file::model::coordinate::Coordinate;
+use jred_file::model::coordinate::{Coordinate, positions};
 use jred_file::model::machine::{MachineFile, POSITIONS};
 use jred_file::number::numerics;
 use jred_file::read::UncheckedFile;
@@ -22,9 +22,10 @@ const ZERO: f64 = 1e-12;
 /// The machine file, if its mechanics pass all checks.
 ///
 /// # Errors
-/// The reduced inertia vanishes somewhere, the motion passes too many edges, a follower lifts off or a rope goes slack.
+/// The reduced inertia vanishes somewhere, friction jams a joint, the motion passes too many edges, a follower lifts off or a rope goes slack.
 pub fn check(unchecked: UncheckedFile) -> Result<MachineFile> {
     inertia(&unchecked)?;
+    friction(&unchecked)?;
     passages(&unchecked)?;
     contacts(&unchecked)?;
     Ok(unchecked.trusted())
@@ -95,6 +96,27 @@ fn no_inertia(unchecked: &UncheckedFile, place: Option<f64>) -> Problem {
     };
     let what = format!("the reduced inertia is zero at {place}");
     unchecked.in_mechanism(Problem::new(what).help(help), "in this machine")
+}
+
+/// Checks that friction by a coefficient is determined everywhere in the range.
+fn friction(unchecked: &UncheckedFile) -> Result<()> {
+    let machine = &unchecked.file().machine;
+    if machine.frictions().is_empty() {
+        return Ok(());
+    }
+    for phi in positions(machine.domain(), POSITIONS) {
+        machine.friction_at(phi, 0.0, 1.0).map_err(|error| {
+            let label = match error {
+                MachineError::Pose(PoseError::Jams { joint, .. }) => {
+                    let name = machine.mechanism().joint_names().get(joint);
+                    format!("joint {joint} is \"{}\"", name.map_or("", String::as_str))
+                }
+                _ => "in this machine".to_owned(),
+            };
+            unchecked.in_mechanism(Problem::of(error), &label)
+        })?;
+    }
+    Ok(())
 }
 
 /// Most passages of the edges of loads and cams in a motion: between any two of them it has separate instants.

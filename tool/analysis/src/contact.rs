@@ -124,7 +124,8 @@ impl OneWay {
         let is_named = contact.is_none_or(|contact| contact.named);
         let lift_off = match contact {
             Some(contact) if coordinate == Coordinate::Angle => {
-                lift_off(machine, self.joint, contact.pieces.iter().copied(), omega)?
+                let bare = machine.clone().without_frictions();
+                lift_off(&bare, self.joint, contact.pieces.iter().copied(), omega)?
             }
             _ => None,
         };

@@ -46,6 +46,8 @@ pub struct Instant {
     pub inertia: f64,
     /// Torque at the drive link, term by term, without drive train (N·m).
     pub terms: TorqueTerms,
+    /// Torque against friction by a coefficient in the joints (N·m), contained in the Coulomb term.
+    pub joint_friction: f64,
     /// Torque at the input (N·m), losses and inertia of the drive train included.
     pub input_torque: f64,
     /// Speed at the input (rad/s).

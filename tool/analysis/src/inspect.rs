@@ -195,12 +195,13 @@ fn lift_offs(file: &MachineFile) -> Result<Vec<ContactLimit>, Error> {
     let direction = file.motion.as_ref().map_or(1.0, |motion| {
         motion.at(motion.duration()).phi - motion.at(0.0).phi
     });
+    let machine = file.machine.clone().without_frictions();
     let limit = |contact: &Contact| {
         let name = mechanism.joint_names().get(contact.joint);
         let pieces = contact.pieces.iter().copied();
         Ok(ContactLimit {
             joint: name.filter(|_| contact.named).cloned(),
-            limit: lift_off(&file.machine, contact.joint, pieces, direction)?,
+            limit: lift_off(&machine, contact.joint, pieces, direction)?,
         })
     };
     mechanism.contacts().iter().map(limit).collect()

@@ -60,6 +60,7 @@ pub fn simulate_together(
     let file = machines.first;
     if let Some(variator) = &file.variator {
         refuse_scheduled(file)?;
+        file.machine.check_curves()?;
         let plant = variator::Plant::new(file, variator, simulation, motor)?;
         return run::run(&plant, simulation, &mut NoObserver);
     }

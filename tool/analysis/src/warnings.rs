@@ -12,6 +12,10 @@ mod noise;
 mod overshoot;
 mod plausible;
 
+/// Results that friction in joints is not part of.
+const WITHOUT_FRICTION: &str = "friction by a coefficient in the joints follows the motion: curves over the position, speeds at which a follower \
+    lifts off, emergency stops and torques at rest do not contain it, and `jred size` proposes no other time, masses or loads";
+
 /// The warnings, in sentences.
 ///
 /// # Errors
@@ -19,6 +23,11 @@ mod plausible;
 pub fn warnings(file: &MachineFile) -> Result<Vec<String>, Error> {
     let mut warnings = driving::of(file)?;
     warnings.extend(endless::of(file)?);
+    warnings.extend(
+        file.frictions_in_words()
+            .next()
+            .map(|_| WITHOUT_FRICTION.to_owned()),
+    );
     warnings.extend(near_centre::of(file)?);
     warnings.extend(overshoot::of(file));
     warnings.extend(digits::of(file));

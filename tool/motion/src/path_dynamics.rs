@@ -166,7 +166,9 @@ impl<'a> PathDynamics<'a> {
     }
 
     fn place_now(&self, now: &ScheduleInstant, phi: f64) -> Result<Place, Error> {
-        let point: Reduction = self.file.machine_at(now, phi)?.bare_reduction(phi)?;
+        let machine = self.file.machine_at(now, phi)?;
+        machine.check_curves()?;
+        let point: Reduction = machine.bare_reduction(phi)?;
         Ok(Place {
             phi,
             inertia: point.inertia,

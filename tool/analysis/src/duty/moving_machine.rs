@@ -67,6 +67,21 @@ impl<'a> MovingMachine<'a> {
         Ok(reduction)
     }
 
+    /// Torque against friction in the joints, in a motion or in the direction of the one that begins.
+    fn friction(
+        &self,
+        now: &ScheduleInstant,
+        state: &State<f64>,
+        direction: f64,
+    ) -> Result<f64, Error> {
+        if self.file.machine.frictions().is_empty() {
+            return Ok(0.0);
+        }
+        let machine = self.file.machine_at(now, state.phi)?;
+        let friction = machine.friction_at(state.phi, state.omega, direction)?;
+        Ok(friction.torque(state.alpha)?[0])
+    }
+
     /// The direction of the move that begins from rest with this stretch, if it must overcome static friction.
     pub(super) fn starts(&self, [from, to]: [f64; 2]) -> Option<f64> {
         if !self.file.schedule.has_static_friction() {
@@ -80,10 +95,12 @@ impl<'a> MovingMachine<'a> {
     /// The machine at time `t` of its motion.
     pub(super) fn at(&mut self, t: f64) -> Result<DutyInstant, Error> {
         let state = self.motion.at(t);
-        let (reduction, carriages) = self.parts(&ScheduleInstant::of(t, state.omega), state.phi)?;
+        let now = ScheduleInstant::of(t, state.omega);
+        let (reduction, carriages) = self.parts(&now, state.phi)?;
         let mut terms = reduction.torque(state.omega, state.alpha);
         terms.velocity += carriages;
-        Ok(self.with(t, state, &reduction, terms))
+        let friction = self.friction(&now, &state, state.omega)?;
+        Ok(self.with(t, state, &reduction, terms, friction))
     }
 
     /// The moment before a move in this `direction` begins from rest: with static friction, without acceleration. It has no weight.
@@ -93,14 +110,15 @@ impl<'a> MovingMachine<'a> {
             alpha: 0.0,
             ..self.motion.at(t)
         };
-        let (reduction, carriages) =
-            self.parts(&ScheduleInstant::starting(t, direction), state.phi)?;
+        let now = ScheduleInstant::starting(t, direction);
+        let (reduction, carriages) = self.parts(&now, state.phi)?;
         let terms = TorqueTerms {
             coulomb: reduction.coulomb * direction,
             velocity: carriages,
             ..reduction.torque(0.0, 0.0)
         };
-        let DutyInstant { instant, .. } = self.with(t, state, &reduction, terms);
+        let friction = self.friction(&now, &state, direction)?;
+        let DutyInstant { instant, .. } = self.with(t, state, &reduction, terms, friction);
         Ok(instant.towards(&self.file.drive_train, direction))
     }
 
@@ -109,8 +127,10 @@ impl<'a> MovingMachine<'a> {
         t: f64,
         state: State<f64>,
         reduction: &Reduction,
-        terms: TorqueTerms,
+        mut terms: TorqueTerms,
+        joint_friction: f64,
     ) -> DutyInstant {
+        terms.coulomb += joint_friction;
         let train = &self.file.drive_train;
         let ratio = train.ratio();
         let inertia = reduction.inertia;
@@ -130,6 +150,7 @@ impl<'a> MovingMachine<'a> {
             direction: state.omega,
             inertia,
             terms,
+            joint_friction,
             input_torque: input.torque,
             input_speed: state.omega * ratio,
             input_alpha: state.alpha * ratio,

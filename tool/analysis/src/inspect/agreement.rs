@@ -204,7 +204,7 @@ pub(super) fn agreement(file: &MachineFile, machines: &Machines) -> Result<Agree
         if !machine.mechanism().determined(phi) {
             continue;
         }
-        let terms = machine.bare_reduction(phi)?.torque(omega, alpha);
+        let terms = machine.torque(phi, omega, alpha)?;
         let found = machine.forces(phi, omega, alpha)?.drive;
         let off = (found - terms.total()).abs();
         // NaN agrees with nothing.
@@ -338,7 +338,7 @@ impl<'m> SmoothStretch<'m> {
         let drive = if machine.mechanism().determined(phi) {
             machine.forces(phi, omega, alpha)?.drive
         } else {
-            machine.bare_reduction(phi)?.torque(omega, alpha).total()
+            machine.torque(phi, omega, alpha)?.total()
         };
         Ok(drive * omega)
     }
@@ -348,6 +348,8 @@ impl<'m> SmoothStretch<'m> {
         let (inside, state, machine) = self.at(t)?;
         let point = machine.bare_reduction(state.phi)?;
         let loads = point.reduced_torque(state.omega) + point.potential_slope;
+        let friction = machine.friction_at(state.phi, state.omega, state.omega)?;
+        let loads = loads - friction.torque(state.alpha)?[0];
         let mut power = self.drive(t)? + loads * state.omega;
         if !self.carriages.is_empty() {
             let frames = machine.mechanism().frames(state.phi)?;

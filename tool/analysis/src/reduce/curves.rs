@@ -1,7 +1,7 @@
 //! The reduced link and the motion's drive torque as columns.
 
 use jred::error::Error;
-use jred::machine::{Reducible as _, TorqueTerms};
+use jred::machine::TorqueTerms;
 use jred::mechanism::TrainOutput;
 
 use super::{RowPose, Set, Source};
@@ -33,8 +33,10 @@ impl Set for TorqueColumns {
 
     fn values(&self, source: &Source, place: &RowPose) -> Result<Vec<Option<f64>>, Error> {
         let machine = source.machines.at(&place.now, place.phi)?;
-        let point = machine.reduction(place.phi)?;
-        let terms = place.state.map(|s| point.torque(s.omega, s.alpha));
+        let terms = place
+            .state
+            .map(|s| machine.torque(place.phi, s.omega, s.alpha));
+        let terms = terms.transpose()?;
         let values = (0..TorqueTerms::NAMES.len()).map(|k| Some(terms?.values()[k]));
         let sum = self.sum.then(|| terms.map(|terms| terms.total()));
         Ok(values.chain(sum).collect())
@@ -114,7 +116,7 @@ impl Set for CurveColumns {
 
     fn values(&self, source: &Source, place: &RowPose) -> Result<Vec<Option<f64>>, Error> {
         let machine = source.machines.at(&place.now, place.phi)?;
-        let point = machine.reduction(place.phi)?;
+        let point = machine.bare_reduction(place.phi)?;
         let [inertia, slope, bend] = point.inertias();
         let mut values = vec![
             inertia,
@@ -139,13 +141,10 @@ impl Set for CurveColumns {
             values.resize(values.len() + empty, None);
             return Ok(values);
         };
-        let terms = point.torque(state.omega, state.alpha);
+        let terms = machine.torque(place.phi, state.omega, state.alpha)?;
         // The drive train's inertia is in its stages, between the losses.
-        let bare = source
-            .file
-            .machine_at(&place.now, place.phi)?
-            .bare_reduction(place.phi)?;
-        let bare = bare.torque(state.omega, state.alpha).total();
+        let bare = source.file.machine_at(&place.now, place.phi)?;
+        let bare = bare.torque(place.phi, state.omega, state.alpha)?.total();
         let train = &source.file.drive_train;
         let input = train
             .input(&TrainOutput {

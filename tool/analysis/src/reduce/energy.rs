@@ -24,6 +24,9 @@ impl Set for Energy {
         source.file.loads.iter().for_each(|load| force(&load.name));
         let elements = source.file.elements.iter();
         elements.for_each(|element| force(&element.name));
+        if !source.machine.frictions().is_empty() {
+            force("friction in joints");
+        }
         force("total");
         heads
     }
@@ -60,6 +63,10 @@ impl Set for Energy {
             let wrenches = element.wrenches(frames, omega);
             let parts = wrenches.iter().flatten();
             forces.push(parts.map(|w| generalised(w, frames)).sum());
+        }
+        if !machine.frictions().is_empty() {
+            let friction = machine.friction_at(place.phi, omega, omega)?;
+            forces.push(-friction.torque(state.alpha)?[0]);
         }
         let total = forces.iter().sum::<f64>();
         values.extend(forces);

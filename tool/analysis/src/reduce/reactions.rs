@@ -100,8 +100,11 @@ impl Set for Reactions {
         if !machine.mechanism().determined(place.phi) {
             // At a change point the drive's effort comes from the reduced link, and the joint forces are unknown.
             let mut values = vec![None; self.heads(source).len()];
-            let terms = (machine.bare_reduction(place.phi)?).torque(state.omega, state.alpha);
-            if let Some(drive) = values.first_mut() {
+            if let Some(drive) = values
+                .first_mut()
+                .filter(|_| machine.frictions().is_empty())
+            {
+                let terms = machine.torque(place.phi, state.omega, state.alpha)?;
                 *drive = Some(terms.total());
             }
             return Ok(values);

@@ -140,7 +140,7 @@ impl<'m> Pass<'m> {
     }
 }
 
-/// The loads and payloads that some rows of the request omit, because these have no time of the motion, or no direction.
+/// The loads, payloads and frictions that some rows of the request omit, because these have no time of the motion, or no direction.
 pub fn not_contained(file: &MachineFile, request: &Request) -> Vec<String> {
     not_in(file, || rows(file, request))
 }
@@ -154,7 +154,7 @@ fn not_in<R: Iterator<Item = RowMotion>>(
     file: &MachineFile,
     rows: impl FnOnce() -> R,
 ) -> Vec<String> {
-    if file.schedule.is_empty() {
+    if file.schedule.is_empty() && file.machine.frictions().is_empty() {
         return Vec::new();
     }
     let (mut timed, mut directed) = (true, true);
@@ -166,5 +166,7 @@ fn not_in<R: Iterator<Item = RowMotion>>(
         (when.spans.is_some() && !timed) || (when.travel.is_some() && !directed)
     });
     let carriages = file.carriages().filter(|_| !timed);
-    missing.chain(carriages.map(|item| item.what)).collect()
+    let frictions = file.frictions_in_words().filter(|_| !directed);
+    let missing = missing.chain(carriages.map(|item| item.what));
+    missing.chain(frictions).collect()
 }

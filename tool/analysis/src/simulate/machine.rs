@@ -147,13 +147,7 @@ impl<'a, M: Motor> Plant<'a, M> {
     ) -> Result<f64, Error> {
         let direction = moment.direction;
         let points = self.points(moment, DriveState { phi, omega })?;
-        let loads = points.all().map(|point| {
-            let machine = point.machine;
-            let [_, omega, alpha] = machine.state([phi, omega, alpha]);
-            let resisting = point.resisting(direction * machine.ratio(), omega);
-            let inertia = point.reduction.inertia;
-            (machine, [inertia * alpha + resisting, inertia])
-        });
+        let loads = points.loads(direction, [phi, omega, alpha])?;
         Ok(self.through(direction, [omega, alpha], loads).torque)
     }
 
@@ -166,9 +160,9 @@ impl<'a, M: Motor> Plant<'a, M> {
         let first = GearedMachine::first(self.machines.first);
         let phi = self.inside(phi);
         let point = ReducedLink::new(first, moment, DriveState { phi, omega })?;
-        let resisting = point.resisting(moment.direction, omega);
+        let [torque, _] = point.load(moment.direction, omega, alpha)?;
         Ok(first.file.drive_train.delivered(&TrainOutput {
-            torque: point.reduction.inertia * alpha + resisting,
+            torque,
             torque_per_alpha: 0.0,
             omega,
             alpha,
@@ -227,11 +221,11 @@ impl<'a, M: Motor> Plant<'a, M> {
     /// The torque at the first drive link that keeps the speed, without the losses of drive trains.
     pub(crate) fn resisting(&self, moment: &Moment, link: DriveState) -> Result<f64, Error> {
         let points = self.points(moment, link)?;
-        let each = points.all().map(|point| {
-            let ratio = point.machine.ratio();
-            ratio * point.resisting(moment.direction * ratio, link.omega * ratio)
-        });
-        Ok(each.sum())
+        let state = [link.phi, link.omega, 0.0];
+        let loads = points.loads(moment.direction, state)?.into_iter();
+        Ok(loads
+            .map(|(machine, [torque, _])| machine.ratio() * torque)
+            .sum())
     }
 
     /// Inertia of the machines at `phi`, of their drive trains and of the motor, all at the first drive link; and the potential energy. Without
@@ -275,7 +269,7 @@ impl<'a, M: Motor> Plant<'a, M> {
         torque: f64,
     ) -> Result<Instant, Error> {
         let points = self.points(moment, link)?;
-        Ok(self.solved(&points, moment.direction, link, torque))
+        self.solved(&points, moment.direction, link, torque)
     }
 
     /// The motor's torque, split into the part at its own shaft and the part at the first drive link. In the second case everything in front of the
@@ -293,26 +287,22 @@ impl<'a, M: Motor> Plant<'a, M> {
         direction: f64,
         DriveState { phi, omega }: DriveState,
         torque: f64,
-    ) -> Instant {
+    ) -> Result<Instant, Error> {
         let speed = omega * self.ratio();
         let [at_motor, at_link] = self.acting(torque);
-        // The motor acts only at the first drive link.
-        let at = |k: usize| if k == 0 { at_link } else { 0.0 };
         let mut input_torque = 0.0;
         let mut loss = 0.0;
         let alpha = newton(|alpha| {
-            let loads = points.all().enumerate().map(|(k, point)| {
-                let machine = point.machine;
-                let [_, omega, alpha] = machine.state([phi, omega, alpha]);
-                let resisting = point.resisting(direction * machine.ratio(), omega);
-                let inertia = point.reduction.inertia;
-                (machine, [inertia * alpha + resisting - at(k), inertia])
-            });
+            let mut loads = points.loads(direction, [phi, omega, alpha])?;
+            // The motor acts only at the first drive link.
+            if let Some((_, [first, _])) = loads.first_mut() {
+                *first -= at_link;
+            }
             let through = self.through(direction, [omega, alpha], loads);
             loss = through.loss;
             input_torque = through.input_torque;
-            [through.torque - at_motor, through.per_alpha]
-        });
+            Ok::<_, Error>([through.torque - at_motor, through.per_alpha])
+        })?;
         let [mut process_power, mut carriage_power] = [0.0; 2];
         for point in points.all() {
             let machine = point.machine;
@@ -323,9 +313,10 @@ impl<'a, M: Motor> Plant<'a, M> {
             let working = (viscous * omega + coulomb * direction) * omega;
             process_power += reduction.process * omega - working;
             carriage_power += point.carriage_power(alpha);
-            loss += (reduction.viscous * omega + reduction.coulomb * direction) * omega - working;
+            let coulomb = reduction.coulomb * direction + point.friction.torque(alpha)?[0];
+            loss += (reduction.viscous * omega + coulomb) * omega - working;
         }
-        Instant {
+        Ok(Instant {
             alpha,
             motor_torque: torque,
             input_torque,
@@ -333,7 +324,7 @@ impl<'a, M: Motor> Plant<'a, M> {
             process_power,
             carriage_power,
             loss,
-        }
+        })
     }
 
     /// Power of the second axes while friction holds the machine (W).

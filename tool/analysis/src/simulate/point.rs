@@ -1,7 +1,7 @@
 //! The reduced link of each machine at an instant, including its second axes.
 
 use jred::error::Error;
-use jred::machine::{Frames, Mechanism as _, Reduction};
+use jred::machine::{Frames, FrictionState, Mechanism as _, Reduction};
 
 use super::clock::Moment;
 use super::coupled::GearedMachine;
@@ -16,6 +16,8 @@ pub(super) struct ReducedLink<'a> {
     pub(super) reduction: Reduction,
     /// b and c of the motion-opposing loads that do process work; they are contained in those of the reduction.
     pub(super) working: [f64; 2],
+    /// Friction by a coefficient in the joints.
+    pub(super) friction: FrictionState,
     /// Torque of carriages by that motion, against the drive link (N·m).
     resists: f64,
     carried: Option<CarriageState<'a>>,
@@ -53,8 +55,11 @@ impl<'a> ReducedLink<'a> {
             }),
             None => None,
         };
+        let friction = own.friction_at(phi, omega, moment.direction * machine.ratio())?;
+        friction.check(reduction.inertia + file.train_inertia())?;
         Ok(Self {
             machine,
+            friction,
             working: file.working(&own, phi)?,
             reduction,
             resists,
@@ -62,7 +67,15 @@ impl<'a> ReducedLink<'a> {
         })
     }
 
-    /// The torque at the drive link that keeps its speed; only the sign of the direction counts.
+    /// Torque and inertia at the drive link for an acceleration, with friction in the joints.
+    pub(super) fn load(&self, direction: f64, omega: f64, alpha: f64) -> Result<[f64; 2], Error> {
+        let inertia = self.reduction.inertia;
+        let [torque, per_alpha] = self.friction.torque(alpha)?;
+        let resisting = self.resisting(direction, omega) + torque;
+        Ok([inertia * alpha + resisting, inertia + per_alpha])
+    }
+
+    /// The torque at the drive link that keeps its speed, without friction by a coefficient; only the sign of the direction counts.
     pub(super) fn resisting(&self, direction: f64, omega: f64) -> f64 {
         let point = &self.reduction;
         let load = point.load_torque() - point.viscous * omega - point.coulomb * sign(direction);
@@ -117,6 +130,21 @@ impl<'a> ReducedLinks<'a> {
             first: ReducedLink::new(first, moment, link)?,
             beside: beside.collect::<Result<_, Error>>()?,
         })
+    }
+
+    /// Torque and inertia at each drive link, for a direction and a motion of the first.
+    pub(super) fn loads(
+        &self,
+        direction: f64,
+        state: [f64; 3],
+    ) -> Result<Vec<(GearedMachine<'a>, [f64; 2])>, Error> {
+        let load = |point: &ReducedLink<'a>| {
+            let machine = point.machine;
+            let [_, omega, alpha] = machine.state(state);
+            let load = point.load(direction * machine.ratio(), omega, alpha)?;
+            Ok((machine, load))
+        };
+        self.all().map(load).collect()
     }
 
     pub(super) fn all(&self) -> impl Iterator<Item = &ReducedLink<'a>> {

@@ -175,8 +175,8 @@ impl<'a> Plant<'a> {
             let traction = contact.traction(i * y[1], second);
             let alpha = newton(|alpha| {
                 let [torque, slope, _] = behind.torque(alpha);
-                [torque - traction.torque, slope]
-            });
+                Ok::<_, Error>([torque - traction.torque, slope])
+            })?;
             now.alpha = [(at_motor - i * traction.torque) / input, alpha * n, alpha];
             now.slip = traction.slip;
             now.contact = traction.torque;
@@ -189,11 +189,11 @@ impl<'a> Plant<'a> {
             let link = |first: f64| (j * first + rate * y[1]) / n;
             let first = newton(|first| {
                 let [torque, slope, _] = behind.torque(link(first));
-                [
+                Ok::<_, Error>([
                     input * first + force * torque - at_motor,
                     input + force * slope * j / n,
-                ]
-            });
+                ])
+            })?;
             let alpha = link(first);
             let [torque, ..] = behind.torque(alpha);
             now.alpha = [first, alpha * n, alpha];

@@ -20,6 +20,7 @@ use jred_report::list;
 pub fn balance(options: &options::balance::Balance) -> Result<Completion> {
     let file = checked::read(&options.file)?;
     variator::refuse(&file, "balance")?;
+    file.refuse_joint_friction("balance")?;
     if let Some(carriage) = file.carriages().next() {
         return Err(miette!(
             help =

@@ -116,6 +116,7 @@ fn reciprocal(options: &options::export::Export) -> Result<bool> {
 /// Bad input, or a file that cannot be written.
 pub(super) fn run(options: &options::export::Export) -> Result<Completion> {
     let file = read_warned(&options.file)?;
+    file.refuse_joint_friction("export")?;
     output::check([("--out", &options.out)])?;
     let name = name(options)?;
     variator::refuse(&file, "export")?;

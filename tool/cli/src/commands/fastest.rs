@@ -68,6 +68,7 @@ pub fn fastest(options: &Options) -> Result<Completion> {
     variator::refuse(&file, "fastest")?;
     drive_train::refuse(&file, "fastest")?;
     file.refuse_timed("fastest")?;
+    file.refuse_joint_friction("fastest")?;
     let task = task(options, &file)?;
     let chosen = chosen(options, &file)?;
     output::check([

@@ -37,6 +37,7 @@ pub fn gentlest(options: &Gentlest) -> Result<Completion> {
     variator::refuse(&file, "gentlest")?;
     drive_train::refuse(&file, "gentlest")?;
     file.refuse_timed("gentlest")?;
+    file.refuse_joint_friction("gentlest")?;
     let motion = file.required_motion()?;
     let chosen = drive_asked(options.drive.as_deref(), &options.catalogue, &file)?;
     output::check([

@@ -61,6 +61,7 @@ pub fn size(options: &Size) -> Result<Completion> {
     if options.motion == MotionChoice::Best {
         drive_train::refuse(&file, "size --motion best")?;
         file.refuse_scheduled("size --motion best")?;
+        file.refuse_joint_friction("size --motion best")?;
         let narrow = |selection: &mut Selection| {
             options.search.apply(&filter, selection);
         };

@@ -191,3 +191,31 @@ fn the_machine_file_is_never_overwritten() {
     }
     assert!(lost.is_empty(), "overwritten by {lost:?}");
 }
+
+/// Commands whose curves have no acceleration refuse friction by a coefficient; the others go on.
+#[test]
+fn friction_by_a_coefficient_is_refused_by_name() {
+    let folder = Folder::new();
+    let friction =
+        "[[friction]]\njoint = \"guide\"\ncoefficient = 0.1\nguide_length = \"150 mm\"\n";
+    let text = press_text();
+    let (before, after) = text.split_once("[motion]").unwrap();
+    let press = folder.file("press.toml", format!("{before}{friction}\n[motion]{after}"));
+    for (command, more) in [
+        ("export", "--torque-error '1 N m'"),
+        ("fastest", ""),
+        ("gentlest", ""),
+        ("balance", "--counterweight 'crank, 20 kg, 250 mm'"),
+        ("size", "--motion best"),
+    ] {
+        let mut arguments = vec![command, press.to_str().unwrap()];
+        arguments.extend(typed(more));
+        run(&arguments).ends(2).says(&[
+            "friction in joint \"guide\" depends on the acceleration",
+            "opposing_force",
+        ]);
+    }
+    for command in ["check", "reduce", "size", "simulate"] {
+        jred([&command, &press]).ends(0);
+    }
+}

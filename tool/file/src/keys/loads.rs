@@ -1,6 +1,6 @@
 //! Loads, masses, springs and dampers.
 
-use jred::machine::{MAX_ELEMENTS, MAX_LOADS, Window};
+use jred::machine::{MAX_ELEMENTS, MAX_FRICTIONS, MAX_LOADS, Window};
 
 use super::inner;
 use super::motion::LAYOUT;
@@ -139,14 +139,23 @@ pub(crate) static DAMPER: KeyTable = KeyTable::of("damper", &[&[
     may("viscous_moment", quantity(&VISCOUS_MOMENT).positive(), "instead: d of the moment d·θ̇ between two bodies"),
 ]]).either(&[(&["viscous_force", "viscous_moment"], KEEP_ONE)]);
 
+pub(crate) static FRICTION: KeyTable = KeyTable::of("friction", &[&[
+    key("joint", ValueForm::Name("a guide, a slot or a pin"), "as `jred check` names it").such_as("\"guide\""),
+    key("coefficient", ValueForm::Number([0.0, 2.0]), "μ: of a guide f = μ·max(\\|N\\|, 2·\\|M\\|/l), of a slot μ·\\|N\\|, of a pin M = μ·r·\\|F\\|").such_as("0.1"),
+    may("pin_radius", quantity(&LENGTH).positive(), "r; required of a pin").such_as("\"15 mm\""),
+    may("guide_length", quantity(&LENGTH).positive(), "l; required of a guide: distance of its outer bearings around the slider's point, which carry its moment"),
+    may("preload", quantity(&FORCE).not_negative(), "a force that presses besides that of the joint").or("0"),
+]]);
+
 /// The lists of loads and masses.
 pub(super) const LISTS: &[Key] = &[
     may("load", ValueForm::Tables(&LOAD, [0, usize::MAX], AT_MOST), "[forces and moments](#load) besides gravity, up to 16"),
     may("mass", ValueForm::Tables(&MASSES, [0, 16], "combine what is fixed to the same link"), "[masses](#mass) fixed to links, up to 16"),
     may("payload", ValueForm::Tables(&PAYLOAD, [0, 16], "combine what the same link carries at the same time"), "[masses](#payload) that a link picks up and sets down, up to 16"),
     may("carriage", ValueForm::Tables(&CARRIAGE, [0, 4], "combine what moves along the same guide"), "[masses](#carriage) that a second axis moves, up to 4"),
+    may("friction", ValueForm::Tables(&FRICTION, [0, MAX_FRICTIONS], "give the joints with the largest forces"), "[friction in joints](#friction) by its coefficient, up to 16"),
     may("spring", ValueForm::Tables(&SPRING, [0, usize::MAX], ""), "[springs](#spring), with dampers up to 8"),
     may("damper", ValueForm::Tables(&DAMPER, [0, usize::MAX], ""), "[dampers](#damper), with springs up to 8"),
 ];
 
-const _: () = assert!(MAX_LOADS == 16 && MAX_ELEMENTS == 8, "the texts above name these numbers");
+const _: () = assert!(MAX_LOADS == 16 && MAX_FRICTIONS == 16 && MAX_ELEMENTS == 8, "the texts above name these numbers");

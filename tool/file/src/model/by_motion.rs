@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use jred::machine::JointFriction;
+
 use crate::model::machine::MachineFile;
 use crate::model::motion::Motion;
 use crate::model::schedule::When;
@@ -62,6 +64,27 @@ impl MachineFile {
                 "{what}: that goes by the time of [motion] or by rest, but `jred {command}` seeks another motion"
             )),
         }
+    }
+
+    /// Refuses friction by a coefficient, for a command whose curves over the position cannot contain it.
+    ///
+    /// # Errors
+    /// It has such friction.
+    pub fn refuse_joint_friction(&self, command: &str) -> crate::text::problem::Result<()> {
+        match self.frictions_in_words().next() {
+            None => Ok(()),
+            Some(friction) => Err(crate::problem!(
+                help = "for this command give an opposing_force or opposing_moment of its mean size in [[load]] instead: `jred reduce --over time` shows it; `size`, `simulate` and `steady` follow the coefficient",
+                "{friction} depends on the acceleration, but `jred {command}` needs loads that depend on position and speed only"
+            )),
+        }
+    }
+
+    /// Descriptions of the friction by a coefficient, for example `friction in joint "guide"`.
+    pub fn frictions_in_words(&self) -> impl Iterator<Item = String> {
+        let names = self.machine.mechanism().joint_names();
+        let joints = self.machine.frictions().iter().map(JointFriction::joint);
+        joints.filter_map(|joint| Some(format!("friction in joint \"{}\"", names.get(joint)?)))
     }
 
     /// All items of the schedule.

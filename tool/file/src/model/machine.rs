@@ -5,7 +5,7 @@ use std::fmt;
 use std::sync::OnceLock;
 
 use jred::error::Error;
-use jred::machine::{Element, Load, Machine, Mechanism, Reducible as _, Reduction};
+use jred::machine::{Element, Jointed, Load, Machine, Mechanism, Reducible as _, Reduction};
 
 use crate::model::axis::Axis;
 use crate::model::coordinate::positions;
@@ -302,11 +302,11 @@ impl MachineFile {
     }
 }
 
-/// A machine with the gravity and the flywheel of another one.
+/// A machine with the gravity, the flywheel and the friction in the joints of another one, whose joints are the same.
 ///
 /// # Errors
 /// A load or an element does not belong to the mechanism.
-pub fn machine_like<M: Mechanism>(
+pub fn machine_like<M: Jointed>(
     like: &Machine<impl Mechanism>,
     mechanism: M,
     loads: impl IntoIterator<Item = Load>,
@@ -320,6 +320,9 @@ pub fn machine_like<M: Mechanism>(
     }
     for element in elements {
         machine = machine.with_element(element)?;
+    }
+    for friction in like.frictions() {
+        machine = machine.with_friction(*friction)?;
     }
     Ok(machine)
 }

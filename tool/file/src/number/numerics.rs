@@ -22,18 +22,28 @@ pub fn sign(direction: f64) -> f64 {
     }
 }
 
-/// The zero of a rising, piecewise linear function, from its value and slope: the drive train's efficiencies change sides with its power.
-pub fn newton(mut f: impl FnMut(f64) -> [f64; 2]) -> f64 {
-    let mut x = 0.0f64;
-    for _ in 0..50 {
-        let [value, slope] = f(x);
+/// The zero of a rising, piecewise smooth function, from its value and slope: the drive train's efficiencies change sides with its power, friction with
+/// the forces in the joints. Steps that go back and forth over bends are replaced by bisection.
+///
+/// # Errors
+/// Those of `f`.
+pub fn newton<E>(mut f: impl FnMut(f64) -> Result<[f64; 2], E>) -> Result<f64, E> {
+    let (mut x, mut around) = (0.0f64, [f64::NEG_INFINITY, f64::INFINITY]);
+    for count in 0..100 {
+        let [value, slope] = f(x)?;
+        around[usize::from(value > 0.0)] = x;
         let step = value / slope;
+        let from = x;
         x -= step;
-        if step.abs() <= 1e-15 * x.abs() {
+        let [low, high] = around;
+        if count > 20 && !(low < x && x < high) && low.is_finite() && high.is_finite() {
+            x = low.midpoint(high);
+        }
+        if (x - from).abs() <= 1e-15 * x.abs() {
             break;
         }
     }
-    x
+    Ok(x)
 }
 
 /// The position of the minimum of `f` between `low` and `high`, where it has only one, by thirds. It is accurate to rounding, because no step reuses

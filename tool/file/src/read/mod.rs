@@ -11,6 +11,7 @@ mod drive_train;
 mod duty_type;
 mod effect;
 mod elements;
+mod joint_friction;
 mod law;
 mod load_table;
 mod loads;
@@ -242,6 +243,7 @@ fn machine(name: &str, text: &str, files: &dyn Files) -> Result<UncheckedFile> {
     let machine = loaded(mechanism, &loads, &elements)
         .and_then(|m| Ok(m.with_gravity(gravity)?.with_flywheel(flywheel)?))
         .map_err(|error| section.error(error, "in this machine"))?;
+    let machine = joint_friction::read(&root, machine)?;
     let motion = motion::read(&root, files, drive_link, (&machine, &loads))?;
     let moved = motion.as_ref();
     let (machine, carriages) = carriage::read(&root, files, machine, &mut loads, moved)?;

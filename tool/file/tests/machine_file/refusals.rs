@@ -189,3 +189,31 @@ fn a_part_of_a_word_is_understood() {
         );
     }
 }
+
+#[test]
+fn friction_belongs_to_a_guide_a_slot_or_a_pin() {
+    let friction =
+        "[[friction]]\njoint = \"guide\"\ncoefficient = 0.1\nguide_length = \"150 mm\"\n";
+    let (before, after) = PRESS.split_once("[motion]").unwrap();
+    let press = format!("{before}{friction}\n[motion]{after}");
+    crate::reading::parse(&press).unwrap();
+    let edits = r#"
+        joint = "guide" => joint = "gide" => `joint` in [[friction]] | "crank pivot", "crank pin", "slider pin", "guide"
+        joint = "guide" => joint = "crank pin" => `pin_radius` in [[friction]] number 1 is missing
+        guide_length => pin_radius => `guide_length` in [[friction]] number 1 is missing
+        guide_length = "150 mm" => guide_length = "150 mm"\npin_radius = "1 mm" => `pin_radius` | not used here
+        guide_length = "150 mm" => guide_length = "0 mm" => greater than zero
+        coefficient = 0.1 => coefficient = -0.1 => `coefficient` | 0 | 2
+        coefficient = 0.1 => coefficient = "10 %" => `coefficient`
+    "#;
+    refuses_edits(&press, edits);
+    refuses_edit(
+        GEARS,
+        "[motion]",
+        "[[friction]]\njoint = \"stage 1\"\ncoefficient = 0.1\n[motion]",
+        &[
+            "has no friction by a coefficient",
+            "efficiency of [[drive_train]]",
+        ],
+    );
+}

@@ -176,6 +176,7 @@ impl Sketch {
 
     /// Pins, blocks and slots of one joint.
     fn joint(&mut self, joint: &Joint, over_range: &[(&Joint, &Frames)]) {
+        let way = |(joint, frames): &(&Joint, &Frames)| joint.coordinate(frames).value;
         match joint {
             Joint::Revolute([a, b]) => {
                 // One circle is enough: that of the fixed body with its bearing, otherwise that of the later link.
@@ -193,12 +194,10 @@ impl Sketch {
                 }
             }
             Joint::Prismatic([guide, block]) => {
-                let way = |(joint, frames): &(&Joint, &Frames)| joint.coordinate(frames).value;
                 self.slot(guide, over_range.iter().map(way));
                 self.add(block.body, BodyPart::Block(block.at, block.angle()));
             }
             Joint::PinInSlot([pin, slot]) => {
-                let way = |(joint, frames): &(&Joint, &Frames)| along(joint, frames);
                 self.slot(slot, over_range.iter().map(way));
                 self.add(pin.body, BodyPart::Pin(pin.at));
             }
@@ -318,19 +317,6 @@ fn markers(joint: &Joint) -> Vec<Marker> {
         }
         Joint::Transmission(_) => Vec::new(),
     }
-}
-
-/// Position of the pin along its slot.
-fn along(joint: &Joint, frames: &Frames) -> f64 {
-    let Joint::PinInSlot([pin, slot]) = joint else {
-        return 0.0;
-    };
-    let [cos, sin] = slot.axis(frames).map(|c| c.value);
-    let (at, from) = (
-        pin.position(frames).map(|c| c.value),
-        slot.position(frames).map(|c| c.value),
-    );
-    cos * (at[0] - from[0]) + sin * (at[1] - from[1])
 }
 
 /// Diagonal of all joints and named points over the range (m).

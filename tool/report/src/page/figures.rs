@@ -31,7 +31,8 @@ pub(super) fn dashed(name: &str, points: Vec<(f64, f64)>) -> Series<'_> {
 
 /// Sentence for a caption about parts that the curves over the position do not contain; empty without such parts.
 pub(super) fn not_contained(file: &MachineFile) -> String {
-    let missing: Vec<String> = file.scheduled().map(|item| item.what).collect();
+    let scheduled = file.scheduled().map(|item| item.what);
+    let missing: Vec<String> = scheduled.chain(file.frictions_in_words()).collect();
     if missing.is_empty() {
         return String::new();
     }
@@ -47,7 +48,7 @@ pub(super) fn reduced_inertia(file: &MachineFile) -> Result<Chart, Error> {
     let coordinate = machine.mechanism().coordinate();
     let (mut inertia, mut slope) = (Vec::new(), Vec::new());
     for phi in whole_range(machine.domain(), POSITIONS) {
-        let point = machine.reduction(phi)?;
+        let point = machine.bare_reduction(phi)?;
         inertia.push((coordinate.shown(phi), point.inertia));
         slope.push((coordinate.shown(phi), point.inertia_slope));
     }

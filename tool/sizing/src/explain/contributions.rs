@@ -230,6 +230,12 @@ fn machine(
         contributions.add(kind, part, Effect::Viscous, curves.viscous * omega / total);
         contributions.add(kind, part, Effect::Coulomb, curves.coulomb * sign / total);
     }
+    contributions.add(
+        PartKind::Load,
+        "friction in joints",
+        Effect::Coulomb,
+        instant.joint_friction / total,
+    );
     for (element, named) in machine.elements().iter().zip(&file.elements) {
         let slope = element.length(&frames).d1;
         let still = element.effort(&frames, 0.0);

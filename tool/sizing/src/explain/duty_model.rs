@@ -8,7 +8,8 @@
 //! ```
 //!
 //! m scales every mass and inertia of the mechanism, its payload and its flywheel; p every force and moment of given direction. The drive train keeps
-//! its inertia and its losses, which are computed again at every instant.
+//! its inertia and its losses, which are computed again at every instant. Friction by a coefficient in joints depends on all three, so no such machine
+//! is altered.
 
 use jred::error::Error;
 use jred::machine::{Machine, TorqueTerms};
@@ -80,6 +81,11 @@ impl<'a> DutyModel<'a> {
             file,
             duty,
         })
+    }
+
+    /// Whether alterations of time, masses and loads are exact: friction by a coefficient in the joints depends on all of them.
+    pub fn scales(&self) -> bool {
+        self.file.machine.frictions().is_empty()
     }
 
     /// The original duty.
@@ -175,6 +181,7 @@ impl<'a> DutyModel<'a> {
             direction: instant.direction,
             inertia,
             terms,
+            joint_friction: instant.joint_friction,
             input_torque: input.torque,
             input_speed: omega * ratio,
             input_alpha: alpha * ratio,

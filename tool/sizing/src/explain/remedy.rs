@@ -198,7 +198,10 @@ impl Remedies {
             }
             _ => true,
         };
-        let levers = Lever::ALL.into_iter().filter(free);
+        let exact = |lever: &Lever| {
+            altered.scales() || matches!(lever, Lever::GearRatio | Lever::IdealGearbox)
+        };
+        let levers = Lever::ALL.into_iter().filter(free).filter(exact);
         let remedies = levers.map(|lever| {
             let at_ratio = |context: &Context<'_>, ratio: f64, judge: Rules| {
                 let gearbox = with_ratio(drive.gearbox, ratio);

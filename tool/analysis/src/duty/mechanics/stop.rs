@@ -13,7 +13,7 @@
 //!
 //! The position of the machine determines J and d. The worst of all positions of the motion is used, each at the motion's speed and at standstill.
 //! Between those two speeds d is a convex or a falling function of the speed, so the ends are the worst. Losses of the drive train, which would help
-//! to brake, are ignored.
+//! to brake, are ignored, and so is friction by a coefficient in the joints.
 
 use std::cmp::Ordering;
 
@@ -72,7 +72,9 @@ impl Stop {
     pub(super) fn of(instants: &[Instant], smooth: &Smooth, ratio: f64) -> Self {
         let states = |instant: &Instant| {
             let terms = &instant.terms;
-            let slow = terms.potential + terms.process + terms.coulomb;
+            // In a stop the joints carry other forces, and so another friction.
+            let coulomb = terms.coulomb - instant.joint_friction;
+            let slow = terms.potential + terms.process + coulomb;
             let fast = slow + terms.velocity + terms.viscous;
             let driving = |torque: f64| -torque * instant.omega.signum() / ratio;
             [slow, fast].map(|torque| [instant.input_inertia, driving(torque)])

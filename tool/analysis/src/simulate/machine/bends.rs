@@ -2,7 +2,7 @@
 //! torque-speed curve has a corner, and where a point under friction turns back.
 
 use jred::error::Error;
-use jred::machine::{Action, Mechanism as _};
+use jred::machine::{Action, Jointed as _, Mechanism as _};
 use jred::mechanism::TrainOutput;
 
 use super::{Instant, Plant};
@@ -23,7 +23,7 @@ pub(super) struct Bends {
     losses: bool,
     /// The motor's gearbox.
     gearbox: bool,
-    /// Loads against the motion.
+    /// Loads against the motion, and friction in joints.
     opposing: bool,
 }
 
@@ -39,6 +39,7 @@ impl Bends {
             opposing: machines.all().any(|machine| {
                 let mut loads = machine.file.machine.loads().iter();
                 loads.any(|load| opposes(load.action()))
+                    || !machine.file.machine.frictions().is_empty()
             }),
         }
     }
@@ -59,8 +60,8 @@ impl<'a, M: Motor> Plant<'a, M> {
             .collect();
         if self.bends.losses || self.bends.gearbox {
             let points = self.points(moment, link)?;
-            let now = self.solved(&points, moment.direction, link, torque);
-            values.extend(self.flows(&points, moment.direction, link, &now));
+            let now = self.solved(&points, moment.direction, link, torque)?;
+            values.extend(self.flows(&points, moment.direction, link, &now)?);
         }
         if self.bends.opposing {
             self.turning_back(moment, link, &mut values)?;
@@ -81,9 +82,9 @@ impl<'a, M: Motor> Plant<'a, M> {
             let points = self.points(moment, link)?;
             let now = Instant {
                 alpha,
-                ..self.solved(&points, moment.direction, link, torque)
+                ..self.solved(&points, moment.direction, link, torque)?
             };
-            values.extend(self.flows(&points, moment.direction, link, &now));
+            values.extend(self.flows(&points, moment.direction, link, &now)?);
         }
         if self.bends.opposing {
             self.turning_back(moment, link, &mut values)?;
@@ -98,7 +99,7 @@ impl<'a, M: Motor> Plant<'a, M> {
         direction: f64,
         DriveState { phi, omega }: DriveState,
         now: &Instant,
-    ) -> Vec<f64> {
+    ) -> Result<Vec<f64>, Error> {
         let [_, at_link] = self.acting(now.motor_torque);
         let mut flows = Vec::new();
         let mut all = f64::MIN_POSITIVE + (now.motor_torque * self.ratio()).abs();
@@ -109,7 +110,8 @@ impl<'a, M: Motor> Plant<'a, M> {
             let train = &machine.file.drive_train;
             let inertia = point.reduction.inertia;
             let given = if k == 0 { at_link } else { 0.0 };
-            let resisting = point.resisting(direction * ratio, omega) - given;
+            let [friction, _] = point.friction.torque(alpha)?;
+            let resisting = point.resisting(direction * ratio, omega) + friction - given;
             let own = train.inertia_at_input() * train.ratio() * train.ratio();
             let size = ((inertia + own) * alpha).abs() + resisting.abs();
             let size = f64::MIN_POSITIVE + size + (now.motor_torque * self.ratio() / ratio).abs();
@@ -127,10 +129,10 @@ impl<'a, M: Motor> Plant<'a, M> {
             let ratio = self.machines.first.drive_train.ratio();
             flows.push(now.input_torque * ratio / all);
         }
-        flows
+        Ok(flows)
     }
 
-    /// The velocities, divided by the drive link's, of the points and links under motion-opposing loads.
+    /// The velocities, divided by the drive link's, of the points and links under motion-opposing loads, and in the joints with friction.
     fn turning_back(
         &self,
         moment: &Moment,
@@ -143,7 +145,12 @@ impl<'a, M: Motor> Plant<'a, M> {
                 .file
                 .machine_among(&moment.now(&machine, omega))
                 .loads();
-            let frames = machine.file.machine.mechanism().frames(phi)?;
+            let mechanism = machine.file.machine.mechanism();
+            let frames = mechanism.frames(phi)?;
+            let joints = mechanism.joints(phi, &frames)?;
+            let frictions = machine.file.machine.frictions().iter();
+            let rubbing = frictions.filter_map(|friction| joints.get(friction.joint()));
+            values.extend(rubbing.map(|joint| joint.coordinate(&frames).d1));
             for load in loads {
                 let Some(frame) = frames.get(load.link()) else {
                     continue;
