@@ -13,7 +13,7 @@ use jred_file::text::file::Files;
 
 use crate::check::check;
 
-/// Reads the machine file at `path`; its loads must repeat every turn.
+/// Reads the machine file at `path`, or standard input if it is `-`; its loads must repeat every turn.
 ///
 /// # Errors
 /// A file that cannot be read, any error of [`parse`], or a load that repeats only after several turns.
@@ -36,8 +36,7 @@ pub fn read(path: &Path) -> Result<MachineFile, Problem> {
 /// A file that cannot be read, or any error of [`parse`].
 #[cfg(feature = "fs")]
 pub fn read_over_turns(path: &Path) -> Result<MachineFile, Problem> {
-    let name = jred_file::plain::path(path);
-    parse(&name, &read::text(path)?, read::folder(path))
+    parse(&read::name(path), &read::text(path)?, read::folder(path))
 }
 
 /// Reads a machine file from its `text`. `name` is its name in messages; `files` provides the files that it names, for example a profile's CSV.

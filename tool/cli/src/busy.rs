@@ -1,4 +1,4 @@
-//! Progress line with the running task and its time: on a terminal after one second; elsewhere, as in a log, after two seconds and then every ten,
+//! Progress line with the running task and its time: on a terminal after one second; elsewhere, as in a log, every ten seconds,
 //! unless the environment has `JRED_PROGRESS=never`.
 //!
 //! For commands without rows to count (`rows/run.rs` counts those). Ctrl-C ends the command at once: nothing is written before the result is
@@ -19,10 +19,7 @@ const PATIENCE: Duration = Duration::from_secs(1);
 /// Interval at which the line is drawn.
 const TICK: Duration = Duration::from_millis(200);
 
-/// The same if stderr is not a terminal.
-const PATIENCE_OF_LOGS: Duration = Duration::from_secs(2);
-
-/// Interval between the lines of a log.
+/// Interval between the lines of a log, in which a short command writes none.
 const TICK_OF_LOGS: Duration = Duration::from_secs(10);
 
 static LINE: Mutex<Option<ProgressLine>> = Mutex::new(None);
@@ -45,7 +42,7 @@ pub fn begin(what: &'static str) {
     } else if std::env::var_os("JRED_PROGRESS").is_some_and(|word| word == "never") {
         return;
     } else {
-        ProgressLine::in_log(what, std::io::stderr(), [PATIENCE_OF_LOGS, TICK_OF_LOGS])
+        ProgressLine::in_log(what, std::io::stderr(), TICK_OF_LOGS)
     };
     *LINE.lock().unwrap_or_else(PoisonError::into_inner) = Some(line);
 }
@@ -105,17 +102,12 @@ impl ProgressLine {
         }
     }
 
-    /// Writes lines to a log, the first after `patience`, more after every `tick`.
-    fn in_log(
-        what: &'static str,
-        mut log: impl Write + Send + 'static,
-        [patience, tick]: [Duration; 2],
-    ) -> Self {
+    /// Writes a line to a log after every `tick`.
+    fn in_log(what: &'static str, mut log: impl Write + Send + 'static, tick: Duration) -> Self {
         let (stop, stopped) = channel();
         let begun = Instant::now();
         let thread = std::thread::spawn(move || {
-            let mut wait = patience;
-            while stopped.recv_timeout(wait) == Err(RecvTimeoutError::Timeout) {
+            while stopped.recv_timeout(tick) == Err(RecvTimeoutError::Timeout) {
                 let [done, of] = [&ROWS[0], &ROWS[1]].map(|rows| rows.load(Ordering::Relaxed));
                 let rows = match of {
                     0 => String::new(),
@@ -124,7 +116,6 @@ impl ProgressLine {
                 let seconds = begun.elapsed().as_secs();
                 // A log that cannot be written does not stop the command.
                 let _ = writeln!(log, "{what}: {seconds} s{rows}");
-                wait = tick;
             }
         });
         Self {
@@ -229,7 +220,7 @@ mod tests {
     fn a_log_gets_lines() {
         let (sender, written) = channel();
         rows(3, 8);
-        let line = ProgressLine::in_log("sizing", Log(sender), [Duration::ZERO; 2]);
+        let line = ProgressLine::in_log("sizing", Log(sender), Duration::ZERO);
         let mut text = String::new();
         // Waits for the second line without a timeout.
         while text.matches('\n').count() < 2 {
@@ -243,7 +234,7 @@ mod tests {
             "{first}"
         );
         let (sender, written) = channel();
-        ProgressLine::in_log("sizing", Log(sender), [Duration::from_secs(3600); 2]).end();
+        ProgressLine::in_log("sizing", Log(sender), Duration::from_secs(3600)).end();
         assert_eq!(written.iter().count(), 0);
     }
 

@@ -7,6 +7,7 @@ mod core_error;
 mod export;
 pub mod fastest;
 pub mod gentlest;
+mod help;
 mod plan;
 mod project;
 pub mod ratio;
@@ -72,6 +73,9 @@ pub fn run(command: &options::Command) -> Result<Completion> {
 
 fn dispatch(command: &options::Command) -> Result<Completion> {
     match command {
+        options::Command::New(options) => help::new(options),
+        options::Command::Completion(options) => help::completion(options),
+        options::Command::Man(options) => help::man(options),
         options::Command::Reduce(options) => reduce::run(options),
         options::Command::Check(options) => run_check(options),
         options::Command::Size(options) => size::size(options),
@@ -105,6 +109,8 @@ fn dispatch(command: &options::Command) -> Result<Completion> {
 const fn doing(command: &options::Command) -> &'static str {
     use options::Command;
     match command {
+        Command::New(_) => "writing the machine file",
+        Command::Completion(_) | Command::Man(_) => "writing",
         Command::Reduce(_) => "reducing the machine",
         Command::Check(_) => "checking the machine",
         Command::Size(_) => "checking drives",

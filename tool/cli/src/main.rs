@@ -5,6 +5,7 @@ use std::process::ExitCode;
 
 use jred_cli::commands::{Completion, run};
 use jred_cli::options::Cli;
+use jred_cli::options::help::FIRST;
 use jred_cli::terminal;
 use jred_file::plain;
 use jred_report::units::show_in;
@@ -12,6 +13,10 @@ use jred_report::units::show_in;
 fn main() -> ExitCode {
     let words = std::env::args_os().map(|word| word.to_string_lossy().into_owned());
     let words: Vec<String> = words.collect();
+    if words.len() < 2 {
+        terminal::say(FIRST);
+        return ExitCode::from(2);
+    }
     // Colours are control characters. If an argument contains control characters, errors are printed without colours, so that all of them can be
     // escaped.
     let plainly = words.iter().any(|word| plain::hidden(word).is_some());

@@ -6,6 +6,7 @@ pub mod catalogue;
 pub mod export;
 pub mod fastest;
 pub mod gentlest;
+pub mod help;
 pub mod parts;
 pub mod plan;
 pub mod project;
@@ -42,12 +43,17 @@ pub struct Cli {
 }
 
 impl Cli {
+    /// The command line as users see it.
+    pub fn declared() -> clap::Command {
+        completed(Self::command())
+    }
+
     /// Parses the command line; the first word is the name of the command.
     ///
     /// # Errors
     /// Words that the command does not accept.
     pub fn read(words: impl IntoIterator<Item = OsString>) -> Result<Self, clap::Error> {
-        let mut command = completed(Self::command());
+        let mut command = Self::declared();
         let matches = command.try_get_matches_from_mut(words)?;
         Self::from_arg_matches(&matches).map_err(|error| error.format(&mut command))
     }
@@ -80,8 +86,8 @@ fn completed(command: clap::Command) -> clap::Command {
 }
 
 const EXIT_CODES: &str = "Exit codes: 0 done, every rule satisfied; 1 a sizing rule is violated (or a torque error not \
-     reached); 2 bad input.\ndocs/machine-file.md describes machine files; machines/press.toml is a good one to start \
-     from.";
+     reached); 2 bad input.\n`jred new slider-crank` writes a machine file to start from; docs/machine-file.md describes \
+     them. FILE may be - for standard input.";
 
 /// Largest number of time steps of a cycle: --explain and the report, which recompute it for many machines, then take half a minute.
 const MOST_STEPS: i64 = 200_000;
@@ -89,6 +95,8 @@ const MOST_STEPS: i64 = 200_000;
 /// The commands.
 #[derive(Debug, Subcommand)]
 pub enum Command {
+    /// Write a machine file to begin with: every key of a type with its meaning as a comment; without a type, list the types.
+    New(help::New),
     /// Compute reduced inertia J(φ), J′ and J″, reduced torque and drive torque; points, forces, energies.
     Reduce(Reduce),
     /// Check the mechanism: degrees of freedom, closure, dead centres, transmission angle, agreement of methods.
@@ -123,7 +131,10 @@ pub enum Command {
     /// Find counterweights and springs that minimise the torque of the drive, or the fluctuation of the reduced inertia.
     Balance(balance::Balance),
     /// Look into a catalogue, check one, or write an empty one to fill in.
-    #[command(subcommand)]
+    #[command(
+        subcommand,
+        after_help = "Exit codes: 0 done; 1 `catalogue check` finds figures that are probably wrong; 2 bad input."
+    )]
     Catalogue(parts::Catalogue),
     /// Write a fast firmware table that meets a torque error.
     Export(export::Export),
@@ -131,6 +142,10 @@ pub enum Command {
     Rules(Rules),
     /// Divide a total gear ratio over stages for the smallest reduced inertia.
     Split(Split),
+    /// Print the completion of commands and options for a shell.
+    Completion(help::Completion),
+    /// Print the manual page, or write those of all commands.
+    Man(help::Man),
 }
 
 /// A file to write. "-" is refused: it suggests stdout, which is used for the result.

@@ -186,6 +186,7 @@ impl Files {
 pub fn failed(path: &Path, error: &Error) -> Report {
     let help = match error.kind() {
         ErrorKind::NotFound => "make the folder first, or choose another one",
+        ErrorKind::NotADirectory => "a part of this path is a file: name a folder",
         ErrorKind::IsADirectory => "name a file in this folder",
         ErrorKind::PermissionDenied | ErrorKind::ReadOnlyFilesystem => {
             "choose a file and a folder that you may write"

@@ -11,6 +11,8 @@ use miette::{
     GraphicalReportHandler, GraphicalTheme, IntoDiagnostic as _, Report, Result, WrapErr as _,
 };
 
+use terminal_size::{Height, Width};
+
 use crate::busy;
 use crate::output::stdout;
 use jred_file::plain;
@@ -90,15 +92,25 @@ fn painted(text: &str) -> String {
 
 /// The screen of stdout; 80 columns if it is not a terminal.
 pub fn screen() -> Screen {
-    let terminal = terminal_size::terminal_size_of(std::io::stdout());
+    screen_of(terminal_size::terminal_size_of(std::io::stdout()))
+}
+
+/// Widths below 40 columns are taken as 40.
+fn screen_of(terminal: Option<(Width, Height)>) -> Screen {
     Screen {
         width: terminal.map(|(width, _)| usize::from(width.0).max(40)),
     }
 }
 
-/// Prints a line to stderr.
-pub fn say(line: &str) {
-    busy::aside(|| message(&plain::lines(line)));
+/// Prints lines to stderr, wrapped to the width of a terminal.
+pub fn say(lines: &str) {
+    let terminal = terminal_size::terminal_size_of(std::io::stderr());
+    let screen = screen_of(terminal);
+    let mut text = String::new();
+    for line in plain::lines(lines).lines() {
+        screen.fill(&mut text, "", "", line);
+    }
+    busy::aside(|| message(text.trim_end_matches('\n')));
 }
 
 /// Prints a warning to stderr, once: repeated runs produce the same warnings.

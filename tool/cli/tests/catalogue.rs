@@ -39,7 +39,11 @@ fn refuses(motors: &str, place: Option<(usize, usize)>, words: &[&str]) {
 fn nothing_in_the_file() {
     refuses("", None, &["is empty", "motors", "docs/catalogue.md"]);
     refuses("\n\n", None, &["is empty", "motors"]);
-    refuses(HEADER, None, &["is empty", "motors", "add a row"]);
+    refuses(
+        HEADER,
+        None,
+        &["is empty", "motors", "add motors: rows of a file"],
+    );
     refuses(&format!("{HEADER}\n# nothing yet\n"), None, &["is empty"]);
 }
 
@@ -92,6 +96,14 @@ fn wrong_columns() {
         Some((1, 36)),
         &["unknown column \"ratio\"", "It is a column of gearboxes"],
     );
+    // Without a near name: the nearest ones, not all.
+    let run = size_with(table(&HEADER.replace("rated_speed [rpm]", "ratio"))).ends(2);
+    run.says(&[
+        "nearest: \"rated_",
+        "docs/catalogue.md lists every column of motors",
+        "jred catalogue new",
+    ]);
+    assert!(run.err.len() < 900, "{}", run.err);
 }
 
 /// Two columns of one name contradict each other.
@@ -170,6 +182,46 @@ fn the_place_is_the_cell() {
         &format!("{HEADER}\nm-9,Maker,Model,-9,2000,36,8.5,Sheet\n"),
         Some((2, 17)),
         &["rated_torque of \"m-9\" is \"-9\""],
+    );
+}
+
+/// Of a long row only the cell and its neighbours are shown, with its line and its place in it.
+#[test]
+fn a_long_row_is_not_shown_as_a_whole() {
+    let source = "Handbook of servo drives, edition of spring, ".repeat(12);
+    let row = format!("m1,Maker,Model,-8,2000,36,8.5,\"{source}\"");
+    let run = size_with(format!("{HEADER}\n{row}\n")).ends(2);
+    assert!(run.err.contains("m.csv:2:16]"), "{}", run.err);
+    assert!(
+        run.err.contains("2 │ m1,Maker,Model,-8,2000,36,8.5,"),
+        "{}",
+        run.err
+    );
+    assert!(!run.err.contains("spring, Handbook"), "{}", run.err);
+    assert!(
+        run.err.lines().all(|line| line.chars().count() < 100),
+        "{}",
+        run.err
+    );
+    // Behind the long cell, too.
+    let header = HEADER
+        .replace("key,", "source,key,")
+        .replace(",source\n", "\n");
+    let header = header.strip_suffix(",source").unwrap_or(&header);
+    let row = format!("\"{source}\",m1,Maker,Model,-8,2000,36,8.5");
+    let run = size_with(format!("{header}\n{row}\n")).ends(2);
+    let column = row.find("-8").unwrap() + 1;
+    assert!(
+        run.err.contains(&format!("m.csv:2:{column}]")),
+        "{}",
+        run.err
+    );
+    assert!(run.err.contains("m1,Maker,Model,-8,2000"), "{}", run.err);
+    assert!(
+        !run.err
+            .contains("Handbook of servo drives, edition of spring, Handbook"),
+        "{}",
+        run.err
     );
 }
 

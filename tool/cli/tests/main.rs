@@ -2,6 +2,7 @@
 #![allow(clippy::disallowed_methods, reason = "tests show paths that they made")]
 
 mod aas;
+mod begin;
 mod bus {
     //! `jred bus`.
     pub(crate) mod command;

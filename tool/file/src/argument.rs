@@ -6,18 +6,18 @@ use crate::model::axis::Axis;
 use crate::model::axis::DrivePoint;
 use crate::model::coordinate::Coordinate;
 use crate::number::rounding::rounded;
-use crate::text::key::{ACCELERATIONS, Kinds, POSITION, SPEED};
+use crate::text::key::{ACCELERATIONS, Kinds, POSITION, SPEED, ValueRange};
 use crate::units::kind::Kind;
 use crate::units::quantity;
 
 /// Share of a stroke by which a position may lie beyond its ends: rounding.
 const ROUNDING: f64 = 1e-9;
 
-/// A quantity: its kinds, where the coordinate is an angle and where it is a length, and whether it must be greater than zero.
+/// A quantity: its kinds, where the coordinate is an angle and where it is a length, and its sign.
 #[derive(Clone, Copy, Debug)]
 pub struct Argument {
     kinds: Kinds,
-    positive: bool,
+    range: ValueRange,
 }
 
 impl Argument {
@@ -25,7 +25,7 @@ impl Argument {
     pub const fn any(kinds: Kinds) -> Self {
         Self {
             kinds,
-            positive: false,
+            range: ValueRange::Any,
         }
     }
 
@@ -33,7 +33,7 @@ impl Argument {
     pub const fn positive(kinds: Kinds) -> Self {
         Self {
             kinds,
-            positive: true,
+            range: ValueRange::Positive,
         }
     }
 
@@ -44,10 +44,13 @@ impl Argument {
     pub fn read(self, text: &str, coordinate: Coordinate) -> Result<f64, String> {
         let quantity = quantity::read(text, of(self.kinds, coordinate));
         let value = quantity.map_err(|fault| format!("it {}; {}", fault.message, fault.help))?;
-        if self.positive && value.si <= 0.0 {
-            return Err("it must be greater than zero".to_owned());
+        match self.range {
+            ValueRange::Positive if value.si <= 0.0 => {
+                Err("it must be greater than zero".to_owned())
+            }
+            ValueRange::NotNegative if value.si < 0.0 => Err("it must be zero or more".to_owned()),
+            _ => Ok(value.si),
         }
-        Ok(value.si)
     }
 }
 
@@ -59,6 +62,15 @@ pub fn any(kind: &'static Kind) -> impl Fn(&str) -> Result<f64, String> + Clone 
 /// Reads a quantity greater than zero in SI.
 pub fn positive(kind: &'static Kind) -> impl Fn(&str) -> Result<f64, String> + Clone {
     move |text| Argument::positive([kind; 2]).read(text, Coordinate::Angle)
+}
+
+/// Reads a quantity of zero or more in SI.
+pub fn not_negative(kind: &'static Kind) -> impl Fn(&str) -> Result<f64, String> + Clone {
+    let argument = Argument {
+        kinds: [kind; 2],
+        range: ValueRange::NotNegative,
+    };
+    move |text| argument.read(text, Coordinate::Angle)
 }
 
 const fn of(kinds: Kinds, coordinate: Coordinate) -> &'static Kind {

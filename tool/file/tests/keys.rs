@@ -5,12 +5,14 @@
 mod described;
 mod pattern;
 mod schema;
+mod starter;
 mod tables;
 mod validated;
 
 use std::path::{Path, PathBuf};
 
 use jred_file::keys::{MACHINE, PROJECT, RULE_SET};
+use jred_file::text::key::words::{plain, words_of};
 use jred_file::text::key::{Key, KeyTable, Need, ValueForm};
 use serde_json::Value;
 
@@ -159,37 +161,6 @@ fn inside(form: ValueForm, value: &Value, name: &str, path: &str, found: &mut Ve
             }
         }
         _ => {}
-    }
-}
-
-/// A help without the addresses of its links.
-fn plain(help: &str) -> String {
-    let (mut plain, mut rest) = (String::new(), help);
-    while let Some((before, link)) = rest.split_once('[') {
-        plain += before;
-        match link
-            .split_once("](")
-            .and_then(|(text, after)| Some((text, after.split_once(')')?.1)))
-        {
-            Some((text, after)) if !text.contains('[') && !text.contains(']') => {
-                plain += text;
-                rest = after;
-            }
-            _ => {
-                plain.push('[');
-                rest = link;
-            }
-        }
-    }
-    (plain + rest).replace("\\|", "|")
-}
-
-/// The words by which a table chooses its keys.
-fn words_of(table: &KeyTable, key: &Key) -> Vec<&'static str> {
-    match key.form {
-        ValueForm::Words([]) => table.variants.iter().map(|variant| variant.name).collect(),
-        ValueForm::Words(words) => words.to_vec(),
-        _ => Vec::new(),
     }
 }
 

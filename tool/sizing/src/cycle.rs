@@ -322,7 +322,7 @@ impl Cycle {
         motor: &MotorLimits,
     ) -> f64 {
         let current =
-            |torque, speed| (motor.current(torque, speed)).map_or(f64::INFINITY, |i| i.abs());
+            |torque, speed| (motor.current(torque, speed)).map_or(f64::INFINITY, f64::abs);
         let most = (self.distinct()).largest_current(coefficients, ratio, current);
         if most.is_finite() { most } else { f64::NAN }
     }

@@ -9,7 +9,7 @@ use jred_analysis::checked;
 use jred_file::argument;
 use jred_file::model::machine::MachineFile;
 use jred_file::model::variator;
-use jred_file::plain;
+use jred_file::read;
 use jred_motion::balance::{self, BalanceError, BalanceGoal, BalanceRequest, Counterweight};
 use jred_report::list;
 
@@ -72,7 +72,7 @@ pub fn balance(options: &options::balance::Balance) -> Result<Completion> {
 
 /// Why there is no answer; `links` are the links with an effect.
 fn report(options: &options::balance::Balance, fault: &BalanceError, links: &[String]) -> Report {
-    let name = plain::path(&options.file);
+    let name = read::name(&options.file);
     match fault {
         BalanceError::Duty(fault) => duty_report(fault.clone()),
         BalanceError::NoMotion => miette!(

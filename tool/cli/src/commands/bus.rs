@@ -17,6 +17,7 @@ use jred_file::model::site::Site;
 use jred_file::model::supply::Supply;
 use jred_file::model::variator;
 use jred_file::plain;
+use jred_file::read;
 use jred_report::list::{self, listing};
 use jred_sizing::bus::Watch;
 use jred_sizing::bus::analysis::{BusAnalysis, BusAxis};
@@ -179,7 +180,7 @@ fn axis(
         miette!(
             help = "give a catalogue with at least one motor",
             "no drive can be built for {}",
-            plain::path(path)
+            read::name(path)
         )
     })?;
     let holds = selection.judged(&candidate).holds();

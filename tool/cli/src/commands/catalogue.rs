@@ -92,7 +92,7 @@ fn new(options: &parts::New) -> Result<Completion> {
         output::write(&folder.join(name), text.as_bytes())?;
     }
     terminal::say(&format!(
-        "empty catalogue written to {shown}; fill in motors.csv, remove the tables that you don't need, then run `jred catalogue check {shown}`"
+        "empty catalogue written to {shown}; fill in motors.csv and the tables that you need, then run `jred catalogue check {shown}`"
     ));
     Ok(Completion::Holds)
 }

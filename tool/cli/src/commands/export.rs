@@ -20,6 +20,7 @@ use jred_file::model::axis::Axis;
 use jred_file::model::machine::MachineFile;
 use jred_file::model::variator;
 use jred_file::plain;
+use jred_file::read;
 use jred_file::text::key::{ACCELERATIONS, EFFORT, SPEED};
 use jred_report::list;
 use jred_report::table::output::Format;
@@ -45,7 +46,7 @@ fn edges(options: &options::export::Export, file: &MachineFile) -> Result<Vec<f6
             help =
                 "name the positions, for example --pieces \"60 deg, 75 deg\", or remove --pieces",
             "{} has no load with between, no disc cam and no Geneva drive, so there are no edges for --pieces auto",
-            plain::path(&options.file)
+            read::name(&options.file)
         ));
     }
     Ok(edges)

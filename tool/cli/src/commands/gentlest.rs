@@ -17,6 +17,7 @@ use jred_file::model::rules::RuleVerdict;
 use jred_file::model::variator;
 use jred_file::number::rounding::short;
 use jred_file::plain;
+use jred_file::read;
 use jred_motion::contact::broken;
 use jred_motion::fastest::ruled::Judge;
 use jred_motion::gentlest::cycle::{self, Obstacle, Request};
@@ -141,7 +142,7 @@ pub(super) fn report(
     file: &MachineFile,
     obstacle: &Obstacle,
 ) -> Report {
-    let name = plain::path(path);
+    let name = read::name(path);
     match obstacle {
         Obstacle::Duty(fault) => duty_report(fault.clone()),
         Obstacle::NoMoves(NoMoves::Still) => miette!(

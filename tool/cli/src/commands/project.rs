@@ -48,7 +48,7 @@ struct Prepared {
 /// # Errors
 /// Bad input, or a file that cannot be written.
 pub(super) fn run(options: &Options) -> Result<Completion> {
-    let name = plain::path(&options.file);
+    let name = read::name(&options.file);
     let project = read::project(&name, &read::text(&options.file)?)?;
     output::check([("--report", &options.report)])?;
     let count: usize = project.axes.iter().map(|axis| axis.quantity as usize).sum();

@@ -16,6 +16,7 @@ use jred_file::model::axis::Axis;
 use jred_file::model::machine::MachineFile;
 use jred_file::model::variator;
 use jred_file::plain;
+use jred_file::read;
 use jred_file::text::key::{ACCELERATIONS, SPEED};
 use jred_report::list::{self, reduction::not_contained};
 use jred_report::page;
@@ -75,7 +76,7 @@ pub(super) fn run(options: &options::Reduce) -> Result<Completion> {
         warn(&file, state)?;
     }
     if let Some(path) = &options.report {
-        let name = plain::path(&options.file);
+        let name = read::name(&options.file);
         let page = page::mechanism_page(&name, &file, state).map_err(core_report)?;
         output::write(path, page.as_bytes())?;
     }

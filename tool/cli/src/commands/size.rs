@@ -99,7 +99,7 @@ pub fn size(options: &Size) -> Result<Completion> {
     let asked = asked.transpose()?.flatten();
     let asked = asked.as_ref();
     let meter = match &options.meter {
-        Some(path) => write_meter(path, options, asked, &file, &selection)?,
+        Some(path) => write_meter(path, asked, &file, &selection)?,
         None => false,
     };
     let explanation = explanation(options, asked, &file, &duty, &selection)?;
@@ -115,7 +115,7 @@ pub fn size(options: &Size) -> Result<Completion> {
     };
     if let Some(path) = &options.report {
         let source = Source {
-            name: &plain::path(&options.file),
+            name: &read::name(&options.file),
             text: &read::text(&options.file)?,
             date: &output::today(),
             parts: &catalogue,
@@ -153,7 +153,7 @@ fn aas(options: &Size, shown: listing::Listing, parts: &Catalogue) -> Result<Com
         return Ok(Completion::Violated);
     };
     let source = Source {
-        name: &plain::path(&options.file),
+        name: &read::name(&options.file),
         text: &read::text(&options.file)?,
         date: &output::today(),
         parts,
@@ -283,7 +283,6 @@ fn asked_for<'c>(
 /// Writes the limits of the requested drive, or of the best suitable one; returns whether there was one.
 fn write_meter(
     path: &Path,
-    options: &Size,
     asked: Option<&listing::Asked>,
     file: &MachineFile,
     selection: &Selection,
@@ -298,7 +297,7 @@ fn write_meter(
     };
     let context = selection.context(&candidate);
     let limits = MeterLimits::new(&context, selection.rules);
-    let name = options.file.file_name().unwrap_or_default();
+    let name = Path::new(&file.name).file_name().unwrap_or_default();
     let machine = format!("{}, {}", plain::path(name), file.title);
     let assumed = assumptions(&candidate.drive, &context.assumptions(selection.rules));
     output::write(path, limits.source(&machine, &assumed).as_bytes())?;

@@ -32,7 +32,7 @@ pub struct Require {
     #[arg(long, default_value = "0.95", value_parser = efficiency)]
     pub efficiency: f64,
     /// Inertia of the gearbox at its input, e.g. "0.5 kg cm^2"; zero if not given.
-    #[arg(long, value_parser = jred_file::argument::positive(&jred_file::units::kind::INERTIA))]
+    #[arg(long, value_parser = jred_file::argument::not_negative(&jred_file::units::kind::INERTIA))]
     pub gearbox_inertia: Option<f64>,
     /// S1 torque above the least possible, e.g. 20%: the more, the wider is the window of rotor inertias.
     #[arg(long, default_value = "20%", value_parser = allowance)]

@@ -289,7 +289,7 @@ pub struct Ratio {
     #[arg(long, default_value_t = 1.0, value_parser = efficiency)]
     pub efficiency: f64,
     /// Inertia of the gearbox at its input, e.g. "0.5 kg cm^2"; zero if not given.
-    #[arg(long, value_parser = jred_file::argument::positive(&jred_file::units::kind::INERTIA))]
+    #[arg(long, value_parser = jred_file::argument::not_negative(&jred_file::units::kind::INERTIA))]
     pub gearbox_inertia: Option<f64>,
     /// Only motors whose key matches, e.g. "sgmsh-*"; may be repeated.
     #[arg(long, value_name = "GLOB")]

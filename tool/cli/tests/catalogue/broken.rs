@@ -101,8 +101,11 @@ fn files_and_folders_that_hold_nothing() {
         &file,
         &["its name does not say what it contains", "motors.csv"],
     );
-    folder.file("gearboxes.csv", "key,maker\n");
+    folder.file("gearboxes.csv", "");
     refused(&folder.path(""), &["is empty", "gearboxes"]);
+    // A header without rows is a table that is not filled in yet.
+    folder.file("gearboxes.csv", "key,maker\n");
+    refused(&folder.path(""), &["is empty", "contains no motors"]);
     std::fs::remove_file(folder.path("gearboxes.csv")).unwrap();
     folder.file("list.toml", "");
     refused(&folder.path(""), &["is empty"]);

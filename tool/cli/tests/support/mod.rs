@@ -14,7 +14,10 @@ use serde_json::Value;
 pub(crate) use shared::*;
 
 /// All commands.
-pub(crate) const COMMANDS: [&str; 20] = [
+pub(crate) const COMMANDS: [&str; 23] = [
+    "new",
+    "completion",
+    "man",
     "catalogue",
     "require",
     "reduce",

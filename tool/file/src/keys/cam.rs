@@ -40,7 +40,7 @@ const BASE_RADIUS: Key = key("base_radius", quantity(&LENGTH).positive(), "r_b, 
 const CLOSURE: Key = may("closure", ValueForm::Words(&["force", "form"]), "the follower is kept on the cam by a force, or by a groove or second cam").or("force");
 
 const SHAPE: &[Key] = &[
-    key("type", ValueForm::Words(&FOLLOWERS), "see above").such_as("\"translating-roller\""),
+    key("type", ValueForm::Words(&FOLLOWERS), "how it moves and touches the cam").such_as("\"translating-roller\""),
     may("offset", quantity(&LENGTH), "translating: e; oscillating face: h").or("0").only(&["translating-roller", "translating-flat-face", "oscillating-flat-face"]),
     key("pivot", pair(&LENGTH), "A").such_as("[\"90 mm\", \"0 mm\"]").only(SWINGING),
     key("swing", ValueForm::Words(&["counter-clockwise", "clockwise"]), "the way the arm turns when it rises").only(SWINGING),

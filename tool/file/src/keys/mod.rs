@@ -24,6 +24,7 @@ mod project;
 pub(crate) mod simulation;
 #[rustfmt::skip]
 pub(crate) mod site;
+pub mod starter;
 #[rustfmt::skip]
 mod top;
 

@@ -110,7 +110,7 @@ const TOOL: &[(&str, &str)] = &[
 ];
 
 pub(crate) static MOTION: KeyTable = KeyTable::of("motion", &[&[
-    key("type", ValueForm::Words(&["constant-speed", "cycle", "point-to-point", "profile"]), "see above").such_as("\"cycle\""),
+    key("type", ValueForm::Words(&["constant-speed", "cycle", "point-to-point", "profile"]), "how it is given").such_as("\"cycle\""),
     may("of", ValueForm::Table(&OF), "[whose motion it is](#motion-of-the-tool) (the drive link's)"),
     may("near", of_axis(POSITION), "of the drive link, on the branch on which the [tool](#motion-of-the-tool) works; no dead centre").or("0"),
     START,

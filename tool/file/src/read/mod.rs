@@ -49,6 +49,8 @@ use crate::model::machine::{MachineFile, ReductionCache};
 use crate::model::mechanism::{AnyMechanism, NamedElement, NamedLoad};
 use crate::model::rules::RuleSet;
 use crate::plain;
+#[cfg(feature = "fs")]
+use crate::text::disk;
 use crate::text::file::{self, Files};
 use crate::units::kind::ACCELERATION;
 
@@ -97,14 +99,27 @@ pub fn rules_based_on(rules: &RuleSet, set: RuleSet) -> Result<RuleSet> {
     })
 }
 
-/// The text of the machine file at `path`.
+/// The name in messages of the machine file at `path`; `-` is standard input.
+pub fn name(path: &Path) -> String {
+    if path.as_os_str() == "-" {
+        return "standard input".to_owned();
+    }
+    plain::path(path)
+}
+
+/// The text of the machine file at `path`, or of standard input if it is `-`.
 ///
 /// # Errors
 /// A file that cannot be read.
 #[cfg(feature = "fs")]
 pub fn text(path: &Path) -> Result<String> {
-    let name = plain::path(path);
-    crate::text::disk::read(path, MAX_SIZE).map_err(|fault| {
+    let name = name(path);
+    let text = if path.as_os_str() == "-" {
+        disk::read_stdin(MAX_SIZE)
+    } else {
+        disk::read(path, MAX_SIZE)
+    };
+    text.map_err(|fault| {
         let help = match fault.help.as_str() {
             file::LARGE => LARGE,
             help => help,

@@ -5,7 +5,7 @@
 
 use std::collections::HashMap;
 use std::fs::{File, Metadata};
-use std::io::{Error, ErrorKind, Read, Result};
+use std::io::{Error, ErrorKind, Read, Result, Stdin};
 use std::path::{Path, PathBuf};
 use std::sync::{LazyLock, Mutex, PoisonError, mpsc};
 use std::time::Duration;
@@ -44,7 +44,41 @@ pub(crate) fn read(path: &Path, limit: u64) -> std::result::Result<String, Fault
 }
 
 fn bytes_of(path: &Path, limit: u64) -> std::result::Result<Vec<u8>, Fault> {
-    bytes(path, limit).map_err(|error| match error.kind() {
+    bytes(path, limit).map_err(|error| fault(&error, path))
+}
+
+/// The text of standard input, of at most `limit` bytes; it is read once, however often it is asked for.
+pub(crate) fn read_stdin(limit: u64) -> std::result::Result<String, Fault> {
+    static TEXT: Mutex<Option<String>> = Mutex::new(None);
+    let mut known = TEXT.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some(text) = &*known {
+        return Ok(text.clone());
+    }
+    let stdin = std::io::stdin();
+    remember_stdin(&stdin);
+    let bytes = limited(stdin.lock(), limit);
+    let text = utf8(bytes.map_err(|error| fault(&error, Path::new("standard input")))?)?;
+    Ok(known.insert(text).clone())
+}
+
+/// Standard input may be a file, which must not be overwritten.
+fn remember_stdin(stdin: &Stdin) {
+    #[cfg(unix)]
+    {
+        use std::os::fd::AsFd as _;
+        let file = stdin.as_fd().try_clone_to_owned().map(File::from);
+        if let Ok(metadata) = file.and_then(|file| file.metadata())
+            && metadata.is_file()
+        {
+            remember(Path::new("standard input"), &metadata);
+        }
+    }
+    #[cfg(not(unix))]
+    let _ = stdin;
+}
+
+fn fault(error: &Error, path: &Path) -> Fault {
+    match error.kind() {
         ErrorKind::NotFound => Fault::new(
             "no such file",
             format!(
@@ -60,7 +94,7 @@ fn bytes_of(path: &Path, limit: u64) -> std::result::Result<Vec<u8>, Fault> {
         ErrorKind::FileTooLarge => Fault::new(error.to_string(), LARGE),
         ErrorKind::TimedOut => Fault::new(error.to_string(), SLOW),
         _ => Fault::new(error.to_string(), format!("check {}", absolute(path))),
-    })
+    }
 }
 
 /// Cure for an endless pipe or device.
@@ -115,7 +149,7 @@ fn stream(path: &Path, limit: u64, patience: Duration) -> Result<Vec<u8>> {
     })?
 }
 
-fn limited(file: File, limit: u64) -> Result<Vec<u8>> {
+fn limited(file: impl Read, limit: u64) -> Result<Vec<u8>> {
     let mut bytes = Vec::new();
     file.take(limit + 1).read_to_end(&mut bytes)?;
     if bytes.len() as u64 > limit {

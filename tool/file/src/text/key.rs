@@ -2,6 +2,8 @@
 //!
 //! A [`Section`](super::section::Section) reads by these descriptions; hints, the tables of the documentation and the schema for editors come from them too.
 
+pub mod words;
+
 use crate::units::kind::{
     ACCELERATION, ANGLE, ANGULAR_ACCELERATION, ANGULAR_JERK, ANGULAR_SPEED, FORCE, FORCE_RATE,
     JERK, Kind, LENGTH, TORQUE, TORQUE_RATE, VELOCITY,

@@ -4,7 +4,9 @@ use std::borrow::Cow;
 use std::ops::Range;
 use std::sync::Arc;
 
-use miette::{Diagnostic, LabeledSpan, NamedSource};
+use miette::{
+    Diagnostic, LabeledSpan, MietteError, MietteSpanContents, SourceCode, SourceSpan, SpanContents,
+};
 use thiserror::Error;
 
 use crate::plain;
@@ -27,7 +29,7 @@ struct Parts {
     #[help]
     help: Option<String>,
     #[source_code]
-    file: Option<NamedSource<Arc<String>>>,
+    file: Option<Excerpt>,
 }
 
 impl Problem {
@@ -65,14 +67,13 @@ impl Problem {
     #[must_use]
     pub fn in_file(mut self, name: &str, text: &Arc<String>) -> Self {
         if self.0.file.is_none() {
-            self.0.point(name, text);
+            self.0.point(text);
             let text = match plain::masked(text) {
-                Cow::Borrowed(_) if text.lines().all(|line| line.len() <= MAX_LINE) => {
-                    Arc::clone(text)
-                }
-                masked => Arc::new(self.0.narrow(&masked)),
+                Cow::Borrowed(_) => Arc::clone(text),
+                Cow::Owned(masked) => Arc::new(masked),
             };
-            self.0.file = Some(NamedSource::new(name, text));
+            let name = name.to_owned();
+            self.0.file = Some(Excerpt { name, text });
         }
         self
     }
@@ -100,18 +101,67 @@ macro_rules! problem {
     };
 }
 
-/// Longest line that is shown; a place in a longer line is given by file and line number.
-const MAX_LINE: usize = 400;
+/// Longest line that is shown as a whole (bytes).
+const MAX_LINE: usize = 120;
+
+/// Shown of a longer line on both sides of the place (bytes).
+const AROUND: usize = 30;
+
+/// A text of which messages show the lines around a place, or a part of a long line.
+#[derive(Debug)]
+struct Excerpt {
+    name: String,
+    text: Arc<String>,
+}
+
+impl SourceCode for Excerpt {
+    fn read_span<'a>(
+        &'a self,
+        span: &SourceSpan,
+        before: usize,
+        after: usize,
+    ) -> Result<Box<dyn SpanContents<'a> + 'a>, MietteError> {
+        let text = self.text.as_str();
+        let all = text.read_span(span, before, after)?;
+        let from = text.get(..span.offset()).unwrap_or_default();
+        let line = from.rfind('\n').map_or(0, |at| at + 1);
+        let rest = text.get(line..).unwrap_or_default();
+        let end = line + rest.find('\n').unwrap_or(rest.len());
+        let last = span.offset() + span.len();
+        let shown = std::str::from_utf8(all.data()).unwrap_or_default();
+        let is_short = shown.lines().all(|line| line.len() <= MAX_LINE);
+        let name = self.name.clone();
+        // Without lines around it, the place itself is asked for.
+        if is_short || last > end || before + after == 0 {
+            let (at, column) = (*all.span(), all.column());
+            let (data, first, count) = (all.data(), all.line(), all.line_count());
+            let contents = MietteSpanContents::new_named(name, data, at, first, column, count);
+            return Ok(Box::new(contents));
+        }
+        let around = if end - line > MAX_LINE {
+            AROUND
+        } else {
+            MAX_LINE
+        };
+        let start = boundary(text, span.offset().saturating_sub(around)).max(line);
+        let end = boundary(text, last + around).min(end);
+        let data = text.get(start..end).unwrap_or_default().as_bytes();
+        let number = from.matches('\n').count();
+        let at = SourceSpan::from(start..end);
+        let contents = MietteSpanContents::new_named(name, data, at, number, start - line, 1);
+        Ok(Box::new(contents))
+    }
+}
 
 /// The last character boundary at or before `at`.
 fn boundary(text: &str, at: usize) -> usize {
-    let mut upto = (0..=at).rev();
+    let mut upto = (0..=at.min(text.len())).rev();
     upto.find(|&at| text.is_char_boundary(at)).unwrap_or(0)
 }
 
 impl Parts {
     /// Moves the labels to visible places in `text`.
-    fn point(&mut self, name: &str, text: &str) {
+    fn point(&mut self, text: &str) {
         // The end of the text has no line of its own: its label moves to the last character.
         let last = text
             .trim_end()
@@ -121,47 +171,14 @@ impl Parts {
         for label in std::mem::take(&mut self.places) {
             let start = boundary(text, label.offset().min(last));
             let end = boundary(text, (label.offset() + label.len()).min(text.len()));
-            let before = text.get(..start).unwrap_or_default();
-            let line_start = before.rfind('\n').map_or(0, |at| at + 1);
-            let line = text.get(line_start..).and_then(|rest| rest.lines().next());
-            match line.map_or(0, str::len) {
-                0 if text.is_empty() => {}
-                length if length > MAX_LINE => {
-                    let number = before.matches('\n').count() + 1;
-                    self.message = format!("{name}:{number}: {}", self.message);
-                }
-                _ => self.places.push(LabeledSpan::new(
+            if !text.is_empty() {
+                self.places.push(LabeledSpan::new(
                     label.label().map(ToOwned::to_owned),
                     start,
                     end.saturating_sub(start),
-                )),
+                ));
             }
         }
-    }
-}
-
-impl Parts {
-    /// The text with long lines cut, which may be near those of the labels; the labels move with their lines.
-    fn narrow(&mut self, text: &str) -> String {
-        let (mut narrow, mut read) = (String::with_capacity(text.len()), 0);
-        for line in text.split_inclusive('\n') {
-            for label in &mut self.places {
-                if (read..read + line.len()).contains(&label.offset()) {
-                    let start = narrow.len() + label.offset() - read;
-                    let name = label.label().map(ToOwned::to_owned);
-                    *label = LabeledSpan::new(name, start, label.len());
-                }
-            }
-            read += line.len();
-            // The text only becomes shorter, so a moved label is not moved again.
-            if line.len() > MAX_LINE + "…\n".len() {
-                narrow += line.get(..boundary(line, MAX_LINE)).unwrap_or_default();
-                narrow += "…\n";
-            } else {
-                narrow += line;
-            }
-        }
-        narrow
     }
 }
 

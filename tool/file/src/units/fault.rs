@@ -47,6 +47,17 @@ pub fn closest<S: AsRef<str>>(wrong: &str, words: &[S]) -> Option<String> {
         .map(|(_, word)| word.to_owned())
 }
 
+/// The three words most like `wrong`, the nearest first.
+pub fn nearest<'w>(wrong: &str, words: &[&'w str]) -> Vec<&'w str> {
+    let lower = wrong.to_lowercase();
+    let mut near = words.to_vec();
+    near.sort_by(|a, b| {
+        strsim::jaro_winkler(&lower, b).total_cmp(&strsim::jaro_winkler(&lower, a))
+    });
+    near.truncate(3);
+    near
+}
+
 /// Number of letters with which both begin.
 fn common(one: &str, other: &str) -> usize {
     let pairs = one.chars().zip(other.chars());

@@ -14,7 +14,7 @@ pub mod unit;
 mod vocabulary;
 mod word;
 
-pub use fault::{Fault, closest, did_you_mean};
+pub use fault::{Fault, closest, did_you_mean, nearest};
 pub(crate) use fault::{known, meant};
 pub use vocabulary::{Sentence, Term, Vocabulary};
 pub use word::Dimension;

@@ -5,12 +5,13 @@ use std::fs;
 use std::path::PathBuf;
 
 use jred_file::keys::MACHINE;
+use jred_file::text::key::words::noun;
 use jred_file::text::key::{Key, KeyTable, Kinds, Need, ValueForm, ValueRange};
 use jred_file::units::kind::{Kind, SHARE};
 use serde_json::{Map, Value, json};
 
 use super::pattern::{is_share, quantity};
-use super::tables::{cell, noun};
+use super::tables::cell;
 use super::{blesses, plain, root, words_of};
 
 /// Where the schema is.

@@ -4,133 +4,18 @@ use std::fmt::Write as _;
 use std::fs;
 use std::path::PathBuf;
 
-use jred_file::text::key::{Key, KeyTable, Kinds, Need, ValueForm, ValueRange};
-use jred_file::units::kind::{Kind, SHARE};
+use jred_file::text::key::words::MANY;
+use jred_file::text::key::{Key, KeyTable, Need, ValueForm};
 
-use super::{blesses, named, root, words_of};
-
-/// More words than these are not listed in a row.
-const MANY: usize = 9;
-
-/// "length", "pair of angles"
-pub(super) fn noun(kind: &Kind) -> &'static str {
-    kind.name.trim_start_matches("an ").trim_start_matches("a ")
-}
-
-fn nouns([turns, slides]: Kinds, plural: &str) -> String {
-    let [first, second] = [noun(turns), noun(slides)];
-    if first == second {
-        return format!("{first}{plural}");
-    }
-    format!("{first}{plural} or {second}{plural}")
-}
-
-fn limit(kinds: Kinds, limit: ValueRange) -> String {
-    let shown = |si: f64| {
-        if kinds[0].unit == SHARE.unit {
-            format!("{} %", si * 100.0)
-        } else {
-            format!("{si} {}", kinds[0].unit)
-        }
-    };
-    match limit {
-        ValueRange::Any => String::new(),
-        ValueRange::Positive => " > 0".to_owned(),
-        ValueRange::NotNegative => " ≥ 0".to_owned(),
-        ValueRange::UpTo(most) => format!(" > 0, ≤ {}", shown(most)),
-        ValueRange::Within(most) => format!(" ≥ 0, ≤ {}", shown(most)),
-        ValueRange::Between(least, most) => format!(", {} to {}", shown(least), shown(most)),
-    }
-}
-
-/// "1 to 16 "
-fn count([least, most]: [usize; 2]) -> String {
-    match (least, most) {
-        (_, usize::MAX) => String::new(),
-        (least, most) if least == most => format!("{least} "),
-        (0, most) => format!("up to {most} "),
-        (least, most) => format!("{least} to {most} "),
-    }
-}
-
-/// The form of a key's value, in words.
-fn value(form: ValueForm, words: &[&str]) -> String {
-    match form {
-        ValueForm::Quantity(kinds, bound) => nouns(kinds, "") + &limit(kinds, bound),
-        ValueForm::Pair(kinds) => format!("pair of {}", nouns(kinds, "s")),
-        ValueForm::Number([least, most]) if least > 0.0 && least < 1e-4 => {
-            format!("number, {least:e} to {most:e}")
-        }
-        ValueForm::Number([least, most]) if least > -1e3 => format!("number, {least} to {most}"),
-        ValueForm::Number(_) => "number".to_owned(),
-        ValueForm::Count([_, u32::MAX]) => "whole number".to_owned(),
-        ValueForm::Count([least, most]) => format!("whole number, {least} to {most}"),
-        ValueForm::Text => "text".to_owned(),
-        ValueForm::File => "CSV file".to_owned(),
-        ValueForm::Name(what) => format!("name of {what}"),
-        ValueForm::Flag => "`true`, `false`".to_owned(),
-        ValueForm::Words(_) if words.len() > MANY => "word".to_owned(),
-        ValueForm::Words(_) => {
-            let quoted = words.iter().map(|word| format!("`\"{word}\"`"));
-            quoted.collect::<Vec<_>>().join(", ")
-        }
-        ValueForm::Table(_) => "table".to_owned(),
-        ValueForm::Tables(_, counts, _) => format!("list of {}tables", count(counts)),
-        ValueForm::Named(inner) => format!("table of {}", many(*inner)),
-        ValueForm::List(inner, counts) => format!("list of {}{}", count(counts), many(*inner)),
-        ValueForm::Tuple(forms) => {
-            let parts = forms.iter().map(|form| value(*form, &[]));
-            format!("`[{}]`", parts.collect::<Vec<_>>().join(", "))
-        }
-        ValueForm::Any(forms) => {
-            let parts = forms.iter().map(|form| match form {
-                ValueForm::Words(words) => value(*form, words),
-                form => value(*form, &[]),
-            });
-            parts.collect::<Vec<_>>().join(" or ")
-        }
-    }
-}
-
-/// Several of them.
-fn many(form: ValueForm) -> String {
-    match form {
-        ValueForm::Text => "texts".to_owned(),
-        ValueForm::Name(what) => format!("names of {what}"),
-        ValueForm::Count(_) => "whole numbers".to_owned(),
-        ValueForm::Quantity(kinds, _) => nouns(kinds, "s"),
-        ValueForm::Pair(kinds) => format!("pairs of {}", nouns(kinds, "s")),
-        ValueForm::Any(forms) => {
-            let parts = forms.iter().map(|form| many(*form));
-            parts.collect::<Vec<_>>().join(" or ")
-        }
-        ValueForm::Table(_) => "tables".to_owned(),
-        form => value(form, &[]),
-    }
-}
+use super::{blesses, named, root};
 
 /// The second column of a row.
 pub(super) fn cell(table: &KeyTable, key: &Key, only: &[&str]) -> String {
-    let mut cell = String::new();
-    if !only.is_empty() {
-        write!(cell, "{}: ", only.join(", ")).unwrap();
-    }
-    cell += &value(key.form, &words_of(table, key));
-    if let Need::Default(default) = key.need {
-        match key.form {
-            ValueForm::Words(_) => write!(cell, " (`\"{default}\"`)").unwrap(),
-            ValueForm::Flag | ValueForm::Text => write!(cell, " (`{default}`)").unwrap(),
-            ValueForm::Pair(_) => cell += " (0, 0)",
-            _ => write!(cell, " ({default})").unwrap(),
-        }
-    }
-    // A help that begins with a default goes on with the value.
-    match key.help {
-        "" => {}
-        help if help.starts_with('(') => write!(cell, " {help}").unwrap(),
-        help => write!(cell, ": {help}").unwrap(),
-    }
-    cell
+    let with = match only {
+        [] => String::new(),
+        only => format!("{}: ", only.join(", ")),
+    };
+    with + &key.says(table)
 }
 
 /// Which keys of a table are shown: all, those with a word only, all but those of some words.

@@ -225,11 +225,15 @@ fn of_part(
         };
         answer.fact("amplifiers", amplifiers);
     }
-    for gap in &gaps {
-        answer.fact(
-            format!("no {}", gap.columns.join(" or ").replace('_', " ")),
-            cost(gap),
-        );
+    if !gaps.is_empty() {
+        answer.heading(MISSING);
+        let row = |gap: &Gap| vec![names(gap).into(), cost(gap).into()];
+        answer.table(Reading {
+            columns: ["column", "cost"].map(str::to_owned).to_vec(),
+            rows: gaps.iter().map(row).collect(),
+            whole: 1,
+            ..Reading::default()
+        });
     }
     answer
 }
@@ -314,11 +318,10 @@ pub fn checked(catalogue: &Catalogue) -> Answer<'static> {
         answer.sentence("No figure is missing that a rule needs.");
         return answer;
     }
-    answer.heading("missing figures, and what they cost");
+    answer.heading(MISSING);
     let rows = gaps.iter().map(|gap| {
         let missing = format!("{} of {}", gap.missing, gap.of);
-        let columns = gap.columns.join(" or ");
-        [gap.table.to_owned(), columns, missing, cost(gap)]
+        [gap.table.to_owned(), names(gap), missing, cost(gap)]
             .map(Cell::from)
             .to_vec()
     });
@@ -333,12 +336,19 @@ pub fn checked(catalogue: &Catalogue) -> Answer<'static> {
     answer
 }
 
+const MISSING: &str = "missing figures, and what they cost";
+
+/// The columns of which one would do.
+fn names(gap: &Gap) -> String {
+    gap.columns.join(" or ")
+}
+
 /// The empty tables of a new catalogue: file name and text. Each column is explained in a comment, with its unit.
 pub fn empty(linear: bool) -> Vec<(String, String)> {
     let tables = Parts::ALL.map(|parts| {
         let columns = parts.columns(linear);
         let mut text = format!(
-            "# {}: one row for each. Remove the columns that you have no figures for; leave a cell empty if a data sheet has no figure.\n\
+            "# {}: one row for each. A table may stay empty. Remove the columns that you have no figures for; leave a cell empty if a data sheet has no figure.\n\
              # Units may be changed in the header. `jred catalogue check FOLDER` judges the rows.\n",
             capital(parts.name())
         );

@@ -247,6 +247,9 @@ impl RequirementView<'_> {
                     "at least {}: the machine moves without current",
                     effort(least)
                 ),
+                None if !self.inquiry.file.rules.limit(Rule::BrakeTorque).is_set() => {
+                    "not asked for: brake_torque is off in [rules]".to_owned()
+                }
                 None => "not needed: the machine stays where it is without current".to_owned(),
             },
         );

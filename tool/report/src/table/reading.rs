@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use comfy_table::{CellAlignment, ColumnConstraint, ContentArrangement};
+use comfy_table::{CellAlignment, ColumnConstraint, ContentArrangement, Width};
 
 use super::rows::csv_line;
 use super::screen::Screen;
@@ -17,6 +17,9 @@ const WIDEST: u16 = 120;
 
 /// Least width of the only wrapped column on a screen.
 const LEAST: u16 = 24;
+
+/// Longest word that is kept whole.
+const WORD: u16 = 16;
 
 /// Digits of a number in a table.
 const DIGITS: i32 = 3;
@@ -151,6 +154,20 @@ impl Reading {
         csv_line(header) + &rows.collect::<String>()
     }
 
+    /// Characters of the longest word in a column.
+    fn longest_word(&self, column: usize) -> u16 {
+        let header = self.columns.get(column).cloned();
+        let cells = self.cells().filter_map(|row| row.into_iter().nth(column));
+        let cells = header.into_iter().chain(cells);
+        let longest = cells.filter_map(|cell| {
+            let words = cell.split_whitespace().map(|word| word.chars().count());
+            words.max()
+        });
+        longest
+            .max()
+            .map_or(0, |n| u16::try_from(n).unwrap_or(u16::MAX))
+    }
+
     /// A table for a screen, no wider than [`WIDEST`] elsewhere.
     pub(crate) fn text(&self, screen: Screen) -> String {
         let mut table = text_table(&self.columns);
@@ -168,11 +185,31 @@ impl Reading {
         // On a narrow screen the only wrapped column would have no room.
         let is_narrow = width.is_some_and(|width| width < least);
         let kept = if is_narrow { 1 } else { self.whole };
+        let widest = width.unwrap_or(WIDEST.max(least));
         table
             .set_content_arrangement(ContentArrangement::Dynamic)
-            .set_width(width.unwrap_or(WIDEST.max(least)));
-        for column in table.column_iter_mut().take(kept) {
-            column.set_constraint(ColumnConstraint::ContentWidth);
+            .set_width(widest);
+        // Where there is room, words are not broken.
+        let words: Vec<u16> = (0..self.columns.len())
+            .map(|column| self.longest_word(column).min(WORD))
+            .collect();
+        let full = table.column_max_content_widths();
+        let fits = |kept: &usize| {
+            let widths = full.iter().take(*kept).chain(words.iter().skip(*kept));
+            widths.map(|width| u32::from(*width) + 3).sum::<u32>() <= u32::from(widest)
+        };
+        let unbroken = [kept, kept.min(1), 0].into_iter().find(fits);
+        let kept = match unbroken {
+            Some(kept) => kept,
+            None if whole * 3 > widest * 2 => 0,
+            None => kept,
+        };
+        for (k, (column, word)) in table.column_iter_mut().zip(words).enumerate() {
+            if k < kept {
+                column.set_constraint(ColumnConstraint::ContentWidth);
+            } else if unbroken.is_some() {
+                column.set_constraint(ColumnConstraint::LowerBoundary(Width::Fixed(word + 2)));
+            }
         }
         for (column, right) in table.column_iter_mut().zip(self.are_numbers()) {
             if right {
@@ -184,5 +221,59 @@ impl Reading {
             .map(|line| line.trim_end().to_owned() + "\n")
             .collect();
         lines.concat()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A table like that of `jred size --motion best`.
+    fn drives() -> Reading {
+        let columns = [
+            "drive, each with its own motion",
+            "rated power [W]",
+            "RMS torque, file's motion [N m]",
+            "saving [%]",
+            "rules",
+        ];
+        let row = [
+            "sgm7g-03a-brake + peii050-007 on sgd7s-3r8a",
+            "308",
+            "0.361",
+            "50.8",
+            "satisfied",
+        ];
+        Reading {
+            columns: columns.map(str::to_owned).to_vec(),
+            rows: vec![row.map(Cell::from).to_vec(); 2],
+            whole: 1,
+            ..Reading::default()
+        }
+    }
+
+    /// On any screen the lines fit, and where the words of a row fit side by side none is broken.
+    #[test]
+    fn short_words_are_not_broken() {
+        for width in [40, 50, 60, 70, 80, 100, 120] {
+            let text = drives().text(Screen { width: Some(width) });
+            let widest = text.lines().map(|line| line.chars().count()).max();
+            assert!(
+                widest.is_some_and(|widest| widest <= width),
+                "{width}\n{text}"
+            );
+            if width >= 70 {
+                for word in [
+                    "satisfied",
+                    "saving",
+                    "rated",
+                    "sgm7g-03a-brake",
+                    "peii050-007",
+                ] {
+                    assert!(text.contains(word), "{word} at {width}\n{text}");
+                }
+            }
+        }
+        assert!(drives().text(Screen { width: None }).contains("satisfied"));
     }
 }

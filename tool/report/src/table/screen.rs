@@ -11,7 +11,7 @@ pub struct Screen {
 
 impl Screen {
     /// Appends a text after the start of its first line, wrapped to the width.
-    pub(crate) fn fill(self, text: &mut String, first: &str, rest: &str, says: &str) {
+    pub fn fill(self, text: &mut String, first: &str, rest: &str, says: &str) {
         match self.width {
             None => {
                 *text += first;

@@ -13,6 +13,7 @@ use super::column::Column;
 use super::fault::Text;
 use super::files::is_toml;
 use super::load::{FileGroup, Loader};
+use super::motor::WITH_BRAKE;
 use super::pairing::Keys;
 use super::row::{CatalogueRow, RowResult, Syntax};
 
@@ -83,7 +84,11 @@ impl Loader {
             let mut found = |keys: &Keys, pattern: &str, what: &str| {
                 let mut indices = Vec::new();
                 keys.find(pattern, |i| indices.push(i));
-                if indices.is_empty() && !self.broken.contains(pattern) {
+                let own = pattern.strip_suffix(WITH_BRAKE).unwrap_or(pattern);
+                if indices.is_empty()
+                    && !self.broken.contains(pattern)
+                    && !self.broken.contains(own)
+                {
                     let near = did_you_mean(pattern, &keys.names());
                     let names = match what {
                         "motor" => String::new(),
@@ -99,7 +104,10 @@ impl Loader {
                 }
                 indices
             };
-            let named = found(&motors, &listing.motor, "motor");
+            let mut named = found(&motors, &listing.motor, "motor");
+            // The key of a motor names it with its optional brake as well.
+            let with_brake = format!("{}{WITH_BRAKE}", listing.motor);
+            motors.find(&with_brake, |motor| named.push(motor));
             let mut partners = [Vec::new(), Vec::new()];
             for key in listing.gearboxes.iter().flatten() {
                 partners[0].extend(found(&gearboxes, key, "gearbox"));

@@ -13,6 +13,7 @@ use super::entry::Entry;
 use super::fault::{CatalogueError, Faults, Remarks, Text};
 use super::files::{FileFormat, unreadable};
 use super::lists::Listing;
+use super::motor::WITH_BRAKE;
 use super::pairing::Partners;
 use super::row::{CatalogueRow, RowResult};
 use super::table::CatalogueTable;
@@ -110,7 +111,9 @@ impl Loader {
                 }
                 FileFormat::Database(kind) => self.database(kind, index, &text, &mut group)?,
             };
-            if count == 0 {
+            // A table with a header may have no rows yet.
+            let has_header = matches!(format, FileFormat::Csv(_)) && has_lines(&text.text);
+            if count == 0 && !has_header {
                 let (what, cure) = match format {
                     FileFormat::Csv(kind) | FileFormat::Database(kind) => (
                         kind.plural(),
@@ -243,10 +246,14 @@ impl Loader {
         {
             return Err(vec![clash]);
         }
-        if let Entry::Motor(_, Some(gearbox)) = &entry {
-            let motor = self.catalogue.motors.len() as u32;
+        if let Entry::Motor(motor, Some(gearbox)) = &entry {
+            let first = self.catalogue.motors.len() as u32;
             let at = row.place(Column::BuiltInGearbox);
-            self.gear_motors.push((motor, gearbox.clone(), index, at));
+            let variants = 1 + u32::from(motor.key_with_brake().is_some());
+            for motor in first..first + variants {
+                self.gear_motors
+                    .push((motor, gearbox.clone(), index, at.clone()));
+            }
         }
         self.put(entry, index, group, &|| format!("{}:{line}", text.name));
         Ok(())
@@ -267,7 +274,7 @@ impl Loader {
         }
         self.twins.check(&mut self.remarks, place, &entry);
         match entry {
-            Entry::Motor(motor, _) => self.catalogue.motors.push(*motor),
+            Entry::Motor(motor, _) => self.catalogue.motors.extend(motor.variants()),
             Entry::Gearbox(gearbox) => self.catalogue.gearboxes.push(*gearbox),
             Entry::Amplifier(amplifier) => self.catalogue.amplifiers.push(amplifier),
             Entry::Resistor(resistor) => self.catalogue.resistors.push(resistor),
@@ -306,6 +313,14 @@ impl Loader {
         Some(fault.help("give every row a unique key"))
     }
 
+    /// Whether the brake of a motor that has one as an option, but neither its torque nor a row of its own, holds a machine is not known.
+    fn forget_unknown_brakes(&mut self) {
+        for motor in &mut self.catalogue.motors {
+            let with = || (Kind::Motors, format!("{}{WITH_BRAKE}", motor.key));
+            motor.brake_is_optional = motor.brake_is_optional && self.keys.contains_key(&with());
+        }
+    }
+
     fn finish(mut self, groups: Vec<FileGroup>) -> Result<Catalogue, CatalogueError> {
         let mut pairing = Pairing {
             motors: vec![Partners::default(); self.catalogue.motors.len()],
@@ -313,6 +328,7 @@ impl Loader {
             listed: vec![false; self.catalogue.amplifiers.len()],
             built_in: vec![false; self.catalogue.gearboxes.len()],
         };
+        self.forget_unknown_brakes();
         self.pair_gear_motors(&mut pairing);
         for group in groups {
             self.pair(&group, &mut pairing);
@@ -334,7 +350,6 @@ impl Loader {
         }
         catalogue.warnings = self.remarks.into_lines();
         catalogue.mark_amplifiers();
-        catalogue.offer_brakes();
         if catalogue.motors.is_empty() {
             let names: Vec<&str> = self.texts.iter().map(|t| t.name.as_str()).collect();
             let names = names.join(", ");
@@ -342,7 +357,7 @@ impl Loader {
                 0 => CatalogueError::Empty(
                     names,
                     "motors",
-                    "add motors: a file whose name ends in motors.csv, or tables [[motor]] in a .toml file; docs/catalogue.md shows their figures",
+                    "add motors: rows of a file whose name ends in motors.csv, or tables [[motor]] in a .toml file; docs/catalogue.md shows their figures",
                 ),
                 n => CatalogueError::Skipped(names, counted(n, "row is", "rows are")),
             });
@@ -356,6 +371,12 @@ pub(super) fn twice(path: &Path, before: &Path) -> CatalogueError {
         path: plain::path(path),
         before: plain::path(before),
     }
+}
+
+/// Whether a table has a line that is not empty and not a comment.
+fn has_lines(text: &str) -> bool {
+    let mut lines = text.lines().map(str::trim);
+    lines.any(|line| !line.is_empty() && !line.starts_with('#'))
 }
 
 fn wrong(text: &Text, fault: Problem) -> CatalogueError {

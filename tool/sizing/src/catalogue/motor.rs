@@ -64,7 +64,7 @@ pub struct Motor {
     pub derating: Derating,
     /// Its holding brake.
     pub brake: Option<Brake>,
-    /// Whether it can be ordered with a brake: the next motor of the catalogue has it.
+    /// Whether it can be ordered with a brake: another motor of the catalogue has it.
     pub brake_is_optional: bool,
     /// Size of its flange (m).
     pub flange: Option<f64>,
@@ -150,6 +150,9 @@ pub struct Thermal {
     pub max_temperature: Option<f64>,
 }
 
+/// End of the key of a motor that is offered with an optional brake.
+pub(super) const WITH_BRAKE: &str = "-brake";
+
 /// A holding brake.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Brake {
@@ -182,7 +185,12 @@ impl Motor {
     /// The key under which it is offered with its brake, if that is an option.
     pub(super) fn key_with_brake(&self) -> Option<String> {
         let has_option = self.brake_is_optional && self.brake.is_some();
-        has_option.then(|| format!("{}-brake", self.key))
+        has_option.then(|| format!("{}{WITH_BRAKE}", self.key))
+    }
+
+    /// Its key without the end that names an optional brake.
+    pub fn key_without_brake(&self) -> &str {
+        self.key.strip_suffix(WITH_BRAKE).unwrap_or(&self.key)
     }
 
     /// The motor without and with a brake that is an option; otherwise the motor as it is.

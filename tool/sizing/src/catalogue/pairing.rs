@@ -247,17 +247,6 @@ impl Catalogue {
         }
     }
 
-    /// Adds every motor whose brake is an option once more, with its brake and the same partners.
-    pub(super) fn offer_brakes(&mut self) {
-        let partners = std::mem::take(&mut self.pairing.motors);
-        for (motor, own) in std::mem::take(&mut self.motors).into_iter().zip(partners) {
-            for variant in motor.variants() {
-                self.motors.push(variant);
-                self.pairing.motors.push(own.clone());
-            }
-        }
-    }
-
     /// Every possible drive, with its id.
     pub fn drives(&self) -> Drives<'_> {
         Drives::new(self, 0..self.motors.len())

@@ -4,8 +4,8 @@ use std::ops::Range;
 
 use jred_file::plain;
 use jred_file::text::csv::{self, name_and_unit};
-use jred_file::text::problem::Problem;
-use jred_file::units::did_you_mean;
+use jred_file::text::problem::{Problem, quoted};
+use jred_file::units::{did_you_mean, nearest};
 
 use super::cell::TableCell;
 use super::column::{Column, Kind, Unit};
@@ -77,7 +77,10 @@ impl<'t> CatalogueTable<'t> {
 /// The fault of a name that is not a column of this table.
 pub(super) fn unknown(name: &str, kind: Kind, form: Syntax, at: Range<usize>) -> Problem {
     let names: Vec<&str> = Column::of(kind).map(Column::name).collect();
-    let near = did_you_mean(name, &names);
+    let near = match did_you_mean(name, &names) {
+        none if none.is_empty() => format!("nearest: {}; ", quoted(&nearest(name, &names))),
+        near => near,
+    };
     let elsewhere = Column::ALL.iter().find(|column| column.name() == name);
     let elsewhere = elsewhere.and_then(|column| column.kinds().first());
     let column = form.column();
@@ -88,16 +91,15 @@ pub(super) fn unknown(name: &str, kind: Kind, form: Syntax, at: Range<usize>) ->
     let elsewhere = elsewhere.map_or(String::new(), |kind| {
         format!("It is a {column} of {}. ", table(*kind))
     });
-    let (label, all) = match form {
-        Syntax::Csv => ("not a column of this table", "Columns"),
-        Syntax::Toml => ("not a key of this table", "Keys"),
+    let label = match form {
+        Syntax::Csv => "not a column of this table",
+        Syntax::Toml => "not a key of this table",
     };
     Problem::new(format!("unknown {column} \"{}\"", plain::cut(name)))
         .at(at, label)
         .help(format!(
-            "{elsewhere}{near}{all} of {}: {}",
-            table(kind),
-            names.join(", ")
+            "{elsewhere}{near}docs/catalogue.md lists every {column} of {}, and `jred catalogue new FOLDER` writes them with their meanings",
+            table(kind)
         ))
 }
 

@@ -153,7 +153,9 @@ impl Stretches<'_> {
                     *best = (k, value);
                 }
             };
-            ends.into_iter().for_each(|end| weigh(best, end));
+            for end in ends {
+                weigh(best, end);
+            }
             if bound(node, ends[0].1.max(ends[1].1)) <= best.1 {
                 return;
             }

@@ -14,7 +14,7 @@ use crate::select::size::{Candidate, Group, Selection};
 pub struct Filter {
     /// Makers of motor and gearbox, as patterns; empty: any.
     pub makers: Vec<Pattern>,
-    /// Keys of motors, as patterns; empty: any.
+    /// Keys of motors, as patterns, each also with its optional brake; empty: any.
     pub motors: Vec<Pattern>,
     /// Keys of gearboxes, as patterns; empty: any gearbox, or none.
     pub gearboxes: Vec<Pattern>,
@@ -64,7 +64,12 @@ impl Filter {
         let (motors, gearboxes) = (catalogue.motors.len(), catalogue.gearboxes.len());
         let [least, most] = self.ratio.unwrap_or([0.0, f64::INFINITY]);
         catalogue.keep(
-            |m| matches(&self.makers, &m.maker) && matches(&self.motors, &m.key),
+            |m| {
+                let is_named = [m.key.as_str(), m.key_without_brake()]
+                    .iter()
+                    .any(|key| matches(&self.motors, key));
+                is_named && matches(&self.makers, &m.maker)
+            },
             |g| {
                 !self.direct_only
                     && matches(&self.makers, &g.maker)

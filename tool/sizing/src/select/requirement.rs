@@ -302,7 +302,9 @@ impl Inquiry<'_> {
         let [mean_speed, max_speed] = [self.cycle.mean_speed(), self.cycle.peak_speed()]
             .map(|speed| speed * ratio.unwrap_or(1.0));
         let max_speed = max_speed / self.share(Rule::Speed);
+        // A machine without the rule asks for no brake.
         let brake_torque = (measured.get(Rule::BrakeTorque))
+            .filter(|_| self.file.rules.limit(Rule::BrakeTorque).is_set())
             .map(|found| found.value / self.share(Rule::BrakeTorque));
         let site = &self.file.site.surroundings;
         let derated = Amplifier::default().derated(site).factor;

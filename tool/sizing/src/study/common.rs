@@ -69,7 +69,7 @@ impl Study {
         rules: Option<RuleSet>,
         sampling: impl Into<Sampling>,
     ) -> Result<Self> {
-        let name = jred_file::plain::path(path);
+        let name = read::name(path);
         let files = Box::new(read::folder(path).to_owned());
         Self::new(name, read::text(path)?, files, catalogue, rules, sampling)
     }

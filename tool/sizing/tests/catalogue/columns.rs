@@ -4,8 +4,10 @@ use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
 
-use jred_sizing::catalogue::{Catalogue, Parts};
+use glob::Pattern;
+use jred_sizing::catalogue::{Catalogue, CatalogueError, Parts};
 use jred_sizing::cell::Cell;
+use jred_sizing::select::filter::Filter;
 
 /// The tables of columns between the marks of docs/catalogue.md; `JRED_BLESS=1` writes them anew.
 #[test]
@@ -158,4 +160,66 @@ fn an_optional_brake_is_an_order_of_its_own() {
     // Its key is taken.
     let clash = text.replace("\nn,A,N1,", "\nm-brake,A,N1,");
     assert!(Catalogue::of_texts([("motors.csv", clash)], false).is_err());
+}
+
+/// The rows of a motor with an optional brake, and of one without.
+fn with_option(torque: &str) -> String {
+    format!(
+        "key,maker,model,rated_torque [N m],rated_speed [rpm],peak_torque [N m],rotor_inertia [kg cm^2],brake_option,brake_torque [N m],source\n\
+         m,A,M1,2,3000,6,1.5,yes,{torque},page 1\n\
+         n,A,N1,2,3000,6,1.5,,,page 2\n"
+    )
+}
+
+/// An option whose torque nobody states is a brake of unknown torque: the motor is offered once, and not as one without a brake. In a list that was
+/// written by jred, the motor with its brake is a row of its own.
+#[test]
+fn an_optional_brake_without_a_torque_is_unknown() {
+    let found = Catalogue::of_texts([("motors.csv", with_option(""))], false).unwrap();
+    let known: Vec<_> = (found.motors.iter())
+        .map(|m| (m.key.as_str(), m.brake.is_some(), m.brake_is_optional))
+        .collect();
+    assert_eq!(known, [("m", false, false), ("n", false, false)]);
+    let listed = with_option("").replace("\nn,", "\nm-brake,");
+    let found = Catalogue::of_texts([("motors.csv", listed)], false).unwrap();
+    assert!(found.motors[0].brake_is_optional && !found.motors[1].brake_is_optional);
+}
+
+/// A pattern for a motor and a row of pairs mean the motor with its optional brake, too; a row may name that alone.
+#[test]
+fn the_key_of_a_motor_means_it_with_its_brake() {
+    let mut found = Catalogue::of_texts([("motors.csv", with_option("3"))], false).unwrap();
+    let filter = Filter {
+        motors: vec![Pattern::new("M").unwrap()],
+        ..Filter::default()
+    };
+    filter.thin(&mut found).unwrap();
+    let keys: Vec<_> = found.motors.iter().map(|m| m.key.as_str()).collect();
+    assert_eq!(keys, ["m", "m-brake"]);
+    let amplifiers = "key,maker,model,rated_current [A],peak_current [A],source\n\
+                      a,A,A1,3,9,page 3\nb,A,B1,3,9,page 3\n";
+    let pairs = |rows: &str| {
+        let texts = [
+            ("motors.csv", with_option("3")),
+            ("amplifiers.csv", amplifiers.to_owned()),
+            ("compatibility.csv", format!("motor,amplifiers\n{rows}")),
+        ];
+        let found = Catalogue::of_texts(texts, false)?;
+        let of = |motor| -> Vec<String> {
+            let amplifiers = found.amplifiers_of(motor).into_iter();
+            amplifiers.map(|a| a.key.clone()).collect()
+        };
+        Ok::<_, CatalogueError>([of(0), of(1)])
+    };
+    let [without, with] = pairs("m,a\n").unwrap();
+    assert_eq!(
+        (without, with),
+        (vec!["a".to_owned()], vec!["a".to_owned()])
+    );
+    let [without, with] = pairs("m,a\nm-brake,b\n").unwrap();
+    assert_eq!(
+        (without, with),
+        (vec!["a".to_owned()], vec!["a".to_owned(), "b".to_owned()])
+    );
+    assert!(pairs("n-brake,b\n").is_err());
 }

@@ -109,5 +109,5 @@ fn each_form_has_its_own_words() {
         "{empty}"
     );
     let csv = read("motors.csv", &format!("{HEADER}\n"));
-    assert!(csv.contains("add a row, or delete the file"), "{csv}");
+    assert!(csv.contains("add motors: rows of a file"), "{csv}");
 }
