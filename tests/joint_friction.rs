@@ -50,7 +50,7 @@ fn crosshead_in_closed_form() {
             let beta = (r / l * phi.sin()).asin();
             let slope = -r * (phi + beta).sin() / beta.cos();
             let speed = slope * omega;
-            let resists = (load * speed < 0.0).then_some(1.0).unwrap_or(-1.0);
+            let resists = if load * speed < 0.0 { 1.0 } else { -1.0 };
             let force = load.abs() / (1.0 - resists * mu * beta.tan().abs());
             let expected = force * -load.signum() * slope;
             let found = machine.torque(phi, omega, 0.0).unwrap().total();

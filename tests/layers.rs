@@ -238,7 +238,9 @@ const TOOL: [(&str, &[&str]); 8] = [
     ),
     (
         "cli",
-        &["busy", "output", "terminal", "options", "rows", "commands"],
+        &[
+            "browser", "busy", "output", "terminal", "options", "rows", "commands",
+        ],
     ),
 ];
 

@@ -28,7 +28,7 @@ pub const COMMANDS: &[&str] = &[
     "size MACHINE --pareto mass,energy",
     "size MACHINE --meter OUT",
     "simulate MACHINE",
-    "simulate MACHINE --format json --plot OUT",
+    "simulate MACHINE --format json --report OUT",
     "ratio MACHINE",
     "ratio MACHINE --format csv",
     "bus MACHINE",

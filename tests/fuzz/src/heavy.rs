@@ -48,7 +48,7 @@ pub const COMMANDS: [Heavy; 32] = [
     slow("sensitivity excavator-bucket.toml"),
     slow("sensitivity press.toml --steps 100000 --format json"),
     slow("split --ratio 500 --stages 4 --pinion 0.2_kg_cm^2 --points 10000"),
-    slow("simulate long.toml --plot OUT"),
+    slow("simulate long.toml --report OUT"),
     slow("tolerance press.toml --tolerance slider.mass=5% --samples 20000 --out OUT"),
     slow("vary press.toml --vary slider.mass=50,60kg --steps 200000"),
     slow("bus hoist.toml hoist.toml --steps 200000").violated(),

@@ -160,11 +160,11 @@ fn simulation_is_the_inverse_of_the_duty() {
     let columns = simulate(&text);
     assert!(imbalance(&columns) < 1e-9, "{:e}", imbalance(&columns));
     let [phi, omega, alpha] =
-        ["phi [deg]", "omega [rpm]", "alpha [rad/s^2]"].map(|n| columns.get(n));
-    let torque = columns.get("T_motor [N m]");
+        ["phi [deg]", "omega [rad/s]", "alpha [rad/s^2]"].map(|n| columns.get(n));
+    let torque = columns.get("motor torque [N m]");
     let mut moving = 0;
     for k in 0..phi.len() {
-        let (phi, omega) = (phi[k].to_radians(), omega[k] * std::f64::consts::PI / 30.0);
+        let (phi, omega) = (phi[k].to_radians(), omega[k]);
         if omega.abs() > 1e-3 {
             moving += 1;
             let needed = file.machine.torque(phi, omega, alpha[k]).unwrap().total();

@@ -4,6 +4,7 @@ pub mod balance;
 pub mod bus;
 mod catalogue;
 mod core_error;
+mod documents;
 mod export;
 pub mod fastest;
 pub mod gentlest;

@@ -3,6 +3,7 @@
 pub mod balance;
 pub mod bus;
 pub mod catalogue;
+pub mod documents;
 pub mod export;
 pub mod fastest;
 pub mod gentlest;
@@ -23,6 +24,7 @@ use std::path::PathBuf;
 use clap::builder::{PathBufValueParser, TypedValueParser};
 use clap::{Args, CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
 
+use self::documents::Documents;
 use self::search::Objectives;
 use self::word::word;
 use jred_analysis::reduce::Over;
@@ -192,9 +194,9 @@ pub struct Reduce {
     /// Constant acceleration of the drive link, e.g. "120 rad/s^2" ("3 m/s^2"); zero if not given.
     #[arg(long, allow_hyphen_values = true, requires = "speed")]
     pub accel: Option<String>,
-    /// Write a report on the mechanism as one self-contained HTML page: drawing, animation, curves.
-    #[arg(long, value_name = "HTML", value_parser = output_file())]
-    pub report: Option<PathBuf>,
+    /// Documents.
+    #[command(flatten)]
+    pub documents: Documents,
     /// Output format.
     #[arg(long, value_parser = word::<Format>(), default_value_t)]
     pub format: Format,
@@ -268,7 +270,7 @@ pub struct Size {
     /// Instead of the ranking: list the Pareto front over two or three of power, mass, price, energy, margin and
     /// temperature, e.g. "mass,energy".
     #[arg(long, value_name = "OBJECTIVES", value_parser = Objectives::read, conflicts_with_all = [
-        "rank", "all_gearboxes", "full", "top", "nearest", "refused", "all", "explain", "why", "meter", "report"
+        "rank", "all_gearboxes", "full", "top", "nearest", "refused", "all", "explain", "why", "meter", "report", "pdf", "xlsx"
     ])]
     pub pareto: Option<Objectives>,
     /// Which drives are considered and how they are ranked.
@@ -311,10 +313,9 @@ pub struct Size {
     /// (docs/duty-meter.md).
     #[arg(long, value_name = "RS", value_parser = output_file())]
     pub meter: Option<PathBuf>,
-    /// Write a report as one self-contained HTML page. For PDF, print it from a browser, or run `chromium --headless
-    /// --no-pdf-header-footer --print-to-pdf=report.pdf report.html`.
-    #[arg(long, value_name = "HTML", value_parser = output_file())]
-    pub report: Option<PathBuf>,
+    /// Documents.
+    #[command(flatten)]
+    pub documents: Documents,
     /// Output format.
     #[arg(long, value_parser = word::<SizeFormat>(), default_value_t)]
     pub format: SizeFormat,
@@ -365,9 +366,9 @@ pub struct Steady {
     /// Number of positions in the list for each turn; the list ends with the end of the cycle.
     #[arg(long, default_value_t = 36, value_parser = clap::value_parser!(u32).range(2..=10_000))]
     pub positions: u32,
-    /// Write a report as one self-contained HTML page: speed, torque and energies over the turn, without and with the flywheel.
-    #[arg(long, value_name = "HTML", value_parser = output_file())]
-    pub report: Option<PathBuf>,
+    /// Documents.
+    #[command(flatten)]
+    pub documents: Documents,
     /// Output format.
     #[arg(long, value_parser = word::<Format>(), default_value_t)]
     pub format: Format,

@@ -14,6 +14,7 @@ mod catalogue;
 mod check;
 mod choice;
 mod cli;
+mod documents;
 mod drawing;
 mod envelope_commands;
 mod export;

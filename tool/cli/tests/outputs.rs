@@ -22,7 +22,7 @@ const READ: [[&str; 3]; 15] = [
         "--report",
         "reduced-curves.csv",
     ],
-    ["simulate @reduced-curves.toml", "--plot", "drive-log.csv"],
+    ["simulate @reduced-curves.toml", "--report", "drive-log.csv"],
     [
         "export @press.toml --torque-error 1Nm",
         "--out",
@@ -57,7 +57,7 @@ const READ: [[&str; 3]; 15] = [
     ],
     [
         "simulate @press.toml --motors @motors.csv --drive sgm7a-25a+npt025mf-4",
-        "--plot",
+        "--report",
         "motors.csv",
     ],
     [

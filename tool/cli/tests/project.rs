@@ -1,5 +1,6 @@
 //! `jred project`.
 
+use std::fmt::Write as _;
 use std::path::PathBuf;
 
 use crate::bus::command::figure;
@@ -76,7 +77,10 @@ fn supply_and_resistor_by_another_calculation() {
             table(inertia, turn, time, dwell),
         );
         let quantity = if k == 0 { 2 } else { 1 };
-        text += &format!("[[axis]]\nmachine = \"table-{k}.toml\"\nquantity = {quantity}\n");
+        let _ = writeln!(
+            text,
+            "[[axis]]\nmachine = \"table-{k}.toml\"\nquantity = {quantity}"
+        );
     }
     let file = folder.file("project.toml", text);
     let run = jred([
@@ -223,7 +227,7 @@ fn what_is_wrong_with_a_project_is_said() {
     let axis = "[[axis]]\nmachine = \"table.toml\"\n";
     let cases = [
         (
-            format!("[[axis]]\nmachine = \"tabel.toml\"\n"),
+            "[[axis]]\nmachine = \"tabel.toml\"\n".to_owned(),
             "names the machine file",
             "does not exist",
         ),

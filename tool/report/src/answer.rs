@@ -6,6 +6,7 @@
 pub mod schema;
 pub mod sheet;
 mod text;
+mod workbook;
 
 use std::borrow::Cow;
 use std::fmt::{Debug, Formatter, Result as FmtResult};

@@ -24,6 +24,7 @@ mod figures;
 mod mechanism;
 mod motion;
 mod notes;
+mod paper;
 mod project;
 mod require;
 mod section;
@@ -33,8 +34,11 @@ mod tool;
 use drive::{Subject, TOP};
 use section::{Figure, Page, Section};
 
+pub(crate) use paper::in_quotes;
+
 pub use mechanism::mechanism_page;
 pub use motion::{fastest_page, gentlest_page, steady_page};
+pub use paper::Paper;
 pub use project::project_page;
 pub use require::require_page;
 
@@ -182,7 +186,6 @@ fn drive_pages(
             for note in notes::notes(judged, duty) {
                 answer.sentence(note);
             }
-            answer.sentence("Charts: drag to zoom, double-click to reset, click a name in the legend to hide its curve. Print the page for the report on paper or as PDF.");
         },
     ));
     Ok(Some(DrivePages {

@@ -155,7 +155,7 @@ pub fn text(text: &str) -> Cow<'_, str> {
 fn number(text: &str, start: usize) -> Option<(usize, usize)> {
     let bytes = text.as_bytes();
     let digit = |k: usize| bytes.get(k).is_some_and(u8::is_ascii_digit);
-    let digits = |k: usize| (k..).take_while(|k| digit(*k)).count() + k;
+    let digits = |k: usize| (k..bytes.len()).take_while(|k| digit(*k)).count() + k;
     let mut at = start;
     loop {
         at += text.get(at..)?.find(|c: char| c.is_ascii_digit())?;

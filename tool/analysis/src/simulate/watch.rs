@@ -147,12 +147,20 @@ fn parted(watched: WatchedJoint, force: f64, at: LinkState) -> SimulationError {
     }
 }
 
-/// φ and ω between two states, at a share of the time: the polynomial of fifth degree through their positions, speeds and accelerations.
+/// φ and ω between two states, at a share of the time: the polynomial of fifth degree through their positions, speeds and accelerations. Over a very
+/// short time the difference of the positions is the integrator's error, which would be a large speed: there the way follows from the speeds and
+/// accelerations.
 pub(super) fn between([from, to]: [LinkState; 2]) -> impl Fn(f64) -> DriveState {
     let span = to.moment.t - from.moment.t;
     let ([p, v, a], [q, w, b]) = (from.state, to.state);
+    // Hermite's polynomial of third degree for the speed, integrated.
+    let travel = span * (0.5 * (v + w) + span * (a - b) / 12.0);
+    // The deviation of the positions from it, as the speed in the middle that it would make, against the change of the speed.
+    let strange = 15.0 / 8.0 * (q - p - travel).abs();
+    let is_noise = strange > span * ((w - v).abs() + span * (a.abs() + b.abs()));
+    let way = if is_noise { travel } else { q - p };
     let through =
-        (span > 0.0).then(|| Polynomial::between(q - p, span, End::new(v, a), End::new(w, b)));
+        (span > 0.0).then(|| Polynomial::between(way, span, End::new(v, a), End::new(w, b)));
     move |share| {
         let [way, omega] = through.map_or([0.0, v], |through| {
             let [way, speed, ..] = through.at(share * span);
@@ -186,6 +194,23 @@ mod tests {
             let expected = at(0.2 + 0.7 * share).state;
             assert!((phi - expected[0]).abs() < 1e-14, "{phi}");
             assert!((omega - expected[1]).abs() < 1e-13, "{omega}");
+        }
+    }
+
+    /// Two steps whose positions differ by the integrator's error only: the speed between them is theirs.
+    #[test]
+    fn a_very_short_step_makes_no_speed() {
+        let at = |t: f64, phi: f64| LinkState {
+            moment: Moment::new(t, 1.0),
+            state: [phi, 28.0, -3.0],
+        };
+        for span in [1e-15, 1e-13, 1e-10] {
+            for slip in [-1.0, 0.0, 2.0] {
+                let end = 50.0 + 28.0 * span + slip * 1e-10;
+                let DriveState { phi, omega } = between([at(0.0, 50.0), at(span, end)])(0.5);
+                assert!((omega - 28.0).abs() < 1e-6, "{omega}");
+                assert!((phi - 50.0).abs() < 1e-8, "{phi}");
+            }
         }
     }
 }

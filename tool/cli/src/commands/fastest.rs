@@ -12,7 +12,8 @@ use crate::commands::core_error::core_report;
 use crate::commands::plan;
 use crate::commands::vary::{catalogue, study};
 use crate::commands::{
-    Completion, drive_named, envelope, print_answer, profile_written, quantity, rate, read_warned,
+    Completion, documents, drive_named, envelope, print_answer, profile_written, quantity, rate,
+    read_warned,
 };
 use crate::options::fastest::{Fastest as Options, ReserveOption};
 use crate::output::{self, Files};
@@ -37,6 +38,7 @@ use jred_motion::trace::Trace;
 use jred_report::list;
 use jred_report::list::fastest::WindingHeat;
 use jred_report::page;
+use jred_report::table::output::Format;
 use jred_sizing::catalogue::{Drive, Motor, MotorKind};
 use jred_sizing::motor::envelope::Envelope;
 use jred_sizing::select::filter::Filter;
@@ -71,12 +73,12 @@ pub fn fastest(options: &Options) -> Result<Completion> {
     file.refuse_joint_friction("fastest")?;
     let task = task(options, &file)?;
     let chosen = chosen(options, &file)?;
-    output::check([
+    let motions = [
         ("--profile", &options.profile),
         ("--cam", &options.cam),
         ("--plan", &options.plan.plan),
-        ("--report", &options.report),
-    ])?;
+    ];
+    output::check(motions.into_iter().chain(options.documents.files()))?;
     let reserve = reserve(options, &file);
     let (limits, asked) = limits(options, &file, &chosen.limits)?;
     let limits = limits.with_reserve(reserve);
@@ -153,14 +155,13 @@ pub fn fastest(options: &Options) -> Result<Completion> {
         of_catalogue: options.torque.is_none(),
         instants: options.instants as usize,
     };
-    if let Some(path) = &options.report {
-        let page = page::fastest_page(&view).map_err(core_report)?;
-        files.add(path, page.as_bytes())?;
+    let page = || page::fastest_page(&view).map_err(core_report);
+    let workbook = || view.answer(Format::Csv).map_err(core_report);
+    let documents = documents::write(&options.documents, files, page, workbook)?;
+    let mut answer = view.answer(options.format).map_err(core_report)?;
+    for line in written(options, &file).chain(documents).chain(planned) {
+        answer.sentence(line);
     }
-    files.finish()?;
-    let mut written = written(options, &file);
-    written.extend(planned);
-    let answer = view.answer(options.format, &written).map_err(core_report)?;
     print_answer(&answer, options.format)?;
     let violated = judged.is_some_and(|judged| judged.violated().next().is_some());
     Ok(completion(&cycle, broken.is_some() || violated))
@@ -190,17 +191,11 @@ fn series(options: &Options, trace: &Trace, files: &mut Files) -> Result<()> {
 }
 
 /// Sentences about the written files.
-fn written(options: &Options, file: &MachineFile) -> Vec<String> {
-    let profile = options
-        .profile
-        .iter()
-        .map(|path| profile_written(file, path));
-    let others = [("cam table", &options.cam), ("report", &options.report)];
-    let others = others.into_iter().filter_map(|(what, path)| {
-        let path = path.as_ref()?;
-        Some(format!("{what} written to {}", plain::path(path)))
-    });
-    profile.chain(others).collect()
+fn written(options: &Options, file: &MachineFile) -> impl Iterator<Item = String> {
+    let profile = options.profile.iter();
+    let profile = profile.map(|path| profile_written(file, path));
+    let cam = options.cam.iter();
+    profile.chain(cam.map(|path| format!("cam table written to {}", plain::path(path))))
 }
 
 fn reserve(options: &Options, file: &MachineFile) -> Reserve {

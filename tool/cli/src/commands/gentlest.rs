@@ -7,7 +7,7 @@ use miette::{Report, Result, miette};
 use crate::commands::core_error::{core_report, duty_report};
 use crate::commands::plan;
 use crate::commands::{
-    Completion, drive_asked, print_answer, profile_written, read_warned, warn_of_supply,
+    Completion, documents, drive_asked, print_answer, profile_written, read_warned, warn_of_supply,
 };
 use crate::options::gentlest::{EndAcceleration, Gentlest, RAMP};
 use crate::output::{self, Files};
@@ -41,12 +41,12 @@ pub fn gentlest(options: &Gentlest) -> Result<Completion> {
     file.refuse_joint_friction("gentlest")?;
     let motion = file.required_motion()?;
     let chosen = drive_asked(options.drive.as_deref(), &options.catalogue, &file)?;
-    output::check([
+    let motions = [
         ("--profile", &options.profile),
         ("--cam", &options.cam),
         ("--plan", &options.plan.plan),
-        ("--report", &options.report),
-    ])?;
+    ];
+    output::check(motions.into_iter().chain(options.documents.files()))?;
     let drive = chosen.as_ref().map(ChosenDrive::drive);
     if let Some(drive) = &drive {
         warn_of_supply(drive, &file);
@@ -95,23 +95,22 @@ pub fn gentlest(options: &Gentlest) -> Result<Completion> {
             .map_err(duty_report)?,
     };
     let broken = broken(&file, &gentlest.trace).map_err(core_report)?;
-    let mut shown = list::gentlest::GentlestView {
+    let shown = list::gentlest::GentlestView {
         file: &file,
         drive: drive.map(|drive| drive.name()),
         request: &request,
         gentlest: &gentlest,
         broken: broken.as_ref(),
         checks: &checks,
-        written: Vec::new(),
     };
-    if let Some(path) = &options.report {
-        let page = page::gentlest_page(&shown, motion).map_err(core_report)?;
-        files.add(path, page.as_bytes())?;
-        written.push(format!("report written to {}", plain::path(path)));
+    let mut answer = list::gentlest::answer(&shown);
+    let page = || page::gentlest_page(&shown, motion).map_err(core_report);
+    let workbook = || Ok(answer.clone());
+    written.extend(documents::write(&options.documents, files, page, workbook)?);
+    for line in written {
+        answer.sentence(line);
     }
-    files.finish()?;
-    shown.written = written;
-    print_answer(&list::gentlest::answer(&shown), options.format)?;
+    print_answer(&answer, options.format)?;
     let mut violated = checks
         .iter()
         .filter(|check| check.verdict == RuleVerdict::Fail && check.id.follows_motion());

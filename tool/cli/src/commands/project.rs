@@ -1,6 +1,6 @@
 //! `jred project`: several axes, their parts and their supply.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use indicatif::ProgressBar;
 use miette::{Result, miette};
@@ -8,9 +8,9 @@ use miette::{Result, miette};
 use crate::busy;
 use crate::commands::bus::{Bar, bounded, common};
 use crate::commands::core_error::{core_report, duty_report};
-use crate::commands::{Completion, print, print_answer, read_warned};
+use crate::commands::{Completion, documents, print, print_answer, read_warned};
 use crate::options::project::Project as Options;
-use crate::output;
+use crate::output::{self, Files};
 use jred_analysis::duty::Duty;
 use jred_analysis::warnings::warnings;
 use jred_file::model::machine::MachineFile;
@@ -50,7 +50,7 @@ struct Prepared {
 pub(super) fn run(options: &Options) -> Result<Completion> {
     let name = read::name(&options.file);
     let project = read::project(&name, &read::text(&options.file)?)?;
-    output::check([("--report", &options.report)])?;
+    output::check(options.documents.files())?;
     let count: usize = project.axes.iter().map(|axis| axis.quantity as usize).sum();
     bounded(count, &options.sampling)?;
     let catalogue = options.catalogue.open()?;
@@ -62,7 +62,7 @@ pub(super) fn run(options: &Options) -> Result<Completion> {
     let supply = supplies(&project, &mut files)?;
     let each = files
         .into_iter()
-        .map(|(file, path)| prepared(path, file, &catalogue, options));
+        .map(|(file, path)| prepared(&path, file, &catalogue, options));
     let each = each.collect::<Result<Vec<Prepared>>>()?;
     let selections: Vec<Selection> = (each.iter())
         .map(|axis| {
@@ -95,9 +95,10 @@ pub(super) fn run(options: &Options) -> Result<Completion> {
         };
         axes.push(view(axis, own, selection, asked.as_ref(), source, &supply)?);
     }
-    let bus = match project.common_bus {
-        true => Some(on_bus(&project, &axes, &supply, &catalogue)?),
-        false => None,
+    let bus = if project.common_bus {
+        Some(on_bus(&project, &axes, &supply, &catalogue)?)
+    } else {
+        None
     };
     let chosen = bus.as_ref().and_then(|bus| bus.chosen.as_ref());
     let resistor = chosen.and_then(|key| catalogue.resistors.iter().find(|r| r.key == *key));
@@ -109,10 +110,10 @@ pub(super) fn run(options: &Options) -> Result<Completion> {
         date: &date,
     };
     let mut answer = shown.answer();
-    if let Some(path) = &options.report {
-        let page = page::project_page(&shown).map_err(core_report)?;
-        output::write(path, page.as_bytes())?;
-        answer.sentence(format!("document written to {}", plain::path(path)));
+    let page = || page::project_page(&shown).map_err(core_report);
+    let workbook = || Ok(shown.answer());
+    for line in documents::write(&options.documents, Files::default(), page, workbook)? {
+        answer.sentence(line);
     }
     match options.format.of_answer() {
         Some(format) => print_answer(&answer, format)?,
@@ -136,7 +137,7 @@ fn sized<'a>(view: &'a AxisView<'a>) -> SizedAxis<'a> {
 }
 
 /// The machine file of an axis, in the surroundings of the project unless it has its own.
-fn read_axis(path: &PathBuf, axis: &ProjectAxis, project: &Project) -> Result<MachineFile> {
+fn read_axis(path: &Path, axis: &ProjectAxis, project: &Project) -> Result<MachineFile> {
     if !path.exists() {
         return Err(miette!(
             help = "the path counts from the folder of the project file: correct `machine` of this [[axis]]",
@@ -162,9 +163,10 @@ fn supplies(project: &Project, files: &mut [(MachineFile, PathBuf)]) -> Result<S
     let own = files
         .iter()
         .map(|(file, _)| (&file.site, file.name.clone()));
-    let [own, shared] = match given {
-        true => common(std::iter::once((&project.site, project.name.clone())))?,
-        false => common(own)?,
+    let [own, shared] = if given {
+        common(std::iter::once((&project.site, project.name.clone())))?
+    } else {
+        common(own)?
     };
     for (file, _) in files {
         if file.site.supply.given && voltage(&file.site) != voltage(&own) {
@@ -201,7 +203,7 @@ fn words(site: &Site) -> String {
 }
 
 fn prepared(
-    path: PathBuf,
+    path: &Path,
     file: MachineFile,
     catalogue: &Catalogue,
     options: &Options,
@@ -211,8 +213,8 @@ fn prepared(
     let duty = Duty::new(&file, file.required_motion()?, options.sampling.sampling())
         .map_err(duty_report)?;
     Ok(Prepared {
-        name: plain::path(&path),
-        text: read::text(&path)?,
+        name: plain::path(path),
+        text: read::text(path)?,
         cycle: Cycle::new(&duty),
         duty,
         motors: catalogue.prepare(&file.site),

@@ -3,9 +3,9 @@
 use miette::{Result, miette};
 
 use crate::commands::core_error::core_report;
-use crate::commands::{Completion, print_answer, quantity, warn};
+use crate::commands::{Completion, documents, print_answer, quantity, warn};
 use crate::options;
-use crate::output;
+use crate::output::{self, Files};
 use crate::terminal;
 use jred::machine::Reducible as _;
 use jred_analysis::checked;
@@ -28,7 +28,7 @@ use jred_report::table::output::Format;
 /// Bad input, or a file that cannot be written.
 pub(super) fn run(options: &options::Reduce) -> Result<Completion> {
     let file = checked::read(&options.file)?;
-    output::check([("--report", &options.report)])?;
+    output::check(options.documents.files())?;
     variator::refuse(&file, "reduce")?;
     if options.over == Over::Time {
         if options.speed.is_some() {
@@ -75,11 +75,6 @@ pub(super) fn run(options: &options::Reduce) -> Result<Completion> {
     if let Some(state) = state {
         warn(&file, state)?;
     }
-    if let Some(path) = &options.report {
-        let name = read::name(&options.file);
-        let page = page::mechanism_page(&name, &file, state).map_err(core_report)?;
-        output::write(path, page.as_bytes())?;
-    }
     let missing = match &at {
         Some(at) => reduce::not_contained_at(&file, &request, at),
         None => reduce::not_contained(&file, &request),
@@ -100,8 +95,13 @@ pub(super) fn run(options: &options::Reduce) -> Result<Completion> {
         not_contained: &missing,
     };
     let mut answer = view.answer();
-    if let Some(path) = &options.report {
-        answer.sentence(format!("report written to {}", plain::path(path)));
+    let page = || {
+        let name = read::name(&options.file);
+        page::mechanism_page(&name, &file, state).map_err(core_report)
+    };
+    let workbook = || Ok(answer.clone());
+    for line in documents::write(&options.documents, Files::default(), page, workbook)? {
+        answer.sentence(line);
     }
     print_answer(&answer, options.format)
 }

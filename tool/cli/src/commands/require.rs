@@ -5,13 +5,12 @@ use std::path::Path;
 use miette::{Result, miette};
 
 use crate::commands::core_error::duty_report;
-use crate::commands::{Completion, print_answer, read_warned};
+use crate::commands::{Completion, documents, print_answer, read_warned};
 use crate::options::require::Require;
-use crate::output;
+use crate::output::{self, Files};
 use crate::terminal;
 use jred_analysis::duty::Duty;
 use jred_file::model::variator;
-use jred_file::plain;
 use jred_file::read;
 use jred_file::units::RPM;
 use jred_report::list::require::RequirementView;
@@ -32,7 +31,7 @@ pub(super) fn run(options: &Require) -> Result<Completion> {
         file.rules = read::rules_based_on(&file.rules, read::rule_set(set, Path::new(""))?)?;
     }
     variator::refuse(&file, "require")?;
-    output::check([("--report", &options.report)])?;
+    output::check(options.documents.files())?;
     let motion = file.required_motion()?;
     let duty =
         Duty::new(&file, motion, options.course.with(&options.accuracy)).map_err(duty_report)?;
@@ -61,12 +60,10 @@ pub(super) fn run(options: &Require) -> Result<Completion> {
         requirements: &requirements,
     };
     let mut answer = shown.answer();
-    if let Some(path) = &options.report {
-        output::write(path, page::require_page(&shown).as_bytes())?;
-        answer.sentence(format!(
-            "request for quotation written to {}",
-            plain::path(path)
-        ));
+    let page = || Ok(page::require_page(&shown));
+    let workbook = || Ok(answer.clone());
+    for line in documents::write(&options.documents, Files::default(), page, workbook)? {
+        answer.sentence(line);
     }
     print_answer(&answer, options.format)?;
     Ok(if requirements.iter().any(|found| found.possible) {

@@ -5,9 +5,11 @@ use std::path::PathBuf;
 use miette::{Report, Result, miette};
 
 use crate::commands::core_error::core_report;
-use crate::commands::{Completion, drive_asked, envelope, print_answer, rate, warn_of_motion};
+use crate::commands::{
+    Completion, documents, drive_asked, envelope, print_answer, rate, warn_of_motion,
+};
 use crate::options::simulate::Simulate;
-use crate::output;
+use crate::output::{self, Files};
 use jred_analysis::checked;
 use jred_analysis::reduce::{Sets, add_columns};
 use jred_analysis::simulate::{
@@ -37,7 +39,7 @@ pub(super) fn run(options: &Simulate) -> Result<Completion> {
     let file = checked::read_over_turns(path)?;
     let others = read_all(others)?;
     let chosen = drive_asked(options.drive.as_deref(), &options.catalogue, &file)?;
-    output::check([("--plot", &options.plot)])?;
+    output::check(options.documents.files())?;
     let own = file.simulation.as_ref().ok_or_else(|| {
         let torque = if options.drive.is_some() {
             " and output_step (--drive gives the torque)"
@@ -105,9 +107,9 @@ pub(super) fn run(options: &Simulate) -> Result<Completion> {
         stops: stops.as_deref(),
         drive: driven.as_ref().map(|(name, loads)| (name.as_str(), loads)),
     };
-    if let Some(path) = &options.plot {
-        output::write(path, page::simulation_page(&shown).as_bytes())?;
-    }
+    let page = || Ok(page::simulation_page(&shown));
+    let workbook = || Ok(shown.answer());
+    documents::write(&options.documents, Files::default(), page, workbook)?;
     let done = print_answer(&shown.answer(), options.format)?;
     // The rows up to that point are written before the reason.
     match &found.ended {

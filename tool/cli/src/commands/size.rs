@@ -7,9 +7,9 @@ use miette::{Report, Result, miette};
 use crate::commands::core_error::{core_report, duty_report};
 use crate::commands::gentlest::report;
 use crate::commands::vary::catalogue;
-use crate::commands::{Completion, print, print_answer};
+use crate::commands::{Completion, documents, print, print_answer};
 use crate::options::{MotionChoice, Size, SizeFormat};
-use crate::output;
+use crate::output::{self, Files};
 use crate::terminal;
 use jred_analysis::checked;
 use jred_analysis::duty::Duty;
@@ -52,7 +52,8 @@ pub fn size(options: &Size) -> Result<Completion> {
     let mut filter = options.search.filter();
     filter.drive.clone_from(&options.drive);
     let mut catalogue = catalogue(&options.supply, &filter)?;
-    output::check([("--report", &options.report), ("--meter", &options.meter)])?;
+    let files = options.documents.files();
+    output::check(files.into_iter().chain([("--meter", &options.meter)]))?;
     let objectives = options.pareto.as_ref().map_or(&[][..], |o| &o.0);
     options.search.check(&catalogue, objectives)?;
     fit_input(&mut catalogue, &file)?;
@@ -113,27 +114,18 @@ pub fn size(options: &Size) -> Result<Completion> {
         explanation: explanation.as_ref(),
         list: extent(options, explanation.is_some()),
     };
-    if let Some(path) = &options.report {
-        let source = Source {
-            name: &read::name(&options.file),
-            text: &read::text(&options.file)?,
-            date: &output::today(),
-            parts: &catalogue,
-        };
-        let unasked = listing::Listing {
-            asked: None,
-            ..shown
-        };
-        let page = page::page(&source, unasked).map_err(core_report)?;
-        let page = page.ok_or_else(|| none_left(options, catalogue.count(), &[]))?;
-        output::write(path, page.as_bytes())?;
-    }
+    let page = || {
+        let page = document(options, shown, &catalogue)?;
+        page.ok_or_else(|| none_left(options, catalogue.count(), &[]))
+    };
+    let workbook = || Ok(shown.answer_with_values());
+    let written = documents::write(&options.documents, Files::default(), page, workbook)?;
     let Some(format) = options.format.of_answer() else {
         return aas(options, shown, &catalogue);
     };
     let mut answer = shown.answer(format);
-    if let Some(path) = &options.report {
-        answer.sentence(format!("report written to {}", plain::path(path)));
+    for line in written {
+        answer.sentence(line);
     }
     if let Some(path) = options.meter.as_ref().filter(|_| meter) {
         let path = plain::path(path);
@@ -145,6 +137,21 @@ pub fn size(options: &Size) -> Result<Completion> {
     } else {
         Completion::Holds
     })
+}
+
+/// The document; `None` without a drive.
+fn document(options: &Size, shown: listing::Listing, parts: &Catalogue) -> Result<Option<String>> {
+    let source = Source {
+        name: &read::name(&options.file),
+        text: &read::text(&options.file)?,
+        date: &output::today(),
+        parts,
+    };
+    let unasked = listing::Listing {
+        asked: None,
+        ..shown
+    };
+    page::page(&source, unasked).map_err(core_report)
 }
 
 /// Prints the chosen drive as submodel of the asset administration shell.

@@ -3,9 +3,9 @@
 use miette::{Result, miette};
 
 use crate::commands::simulate::{read_all, starts};
-use crate::commands::{Completion, print_answer, rate};
+use crate::commands::{Completion, documents, print_answer, rate};
 use crate::options;
-use crate::output;
+use crate::output::{self, Files};
 use jred_analysis::checked;
 use jred_analysis::simulate::CoupledMachines;
 use jred_analysis::steady::{self, Level, MeanSpeed, SteadyRequest};
@@ -14,7 +14,6 @@ use jred_file::model::characteristic::Characteristic;
 use jred_file::model::machine::MachineFile;
 use jred_file::model::simulation::Simulation;
 use jred_file::model::variator;
-use jred_file::plain;
 use jred_file::text::key::SPEED;
 use jred_report::list;
 use jred_report::page;
@@ -31,7 +30,7 @@ pub fn steady(options: &options::Steady) -> Result<Completion> {
         return Err(miette!("no machine file is given"));
     };
     let (file, others) = (checked::read_over_turns(path)?, read_all(others)?);
-    output::check([("--report", &options.report)])?;
+    output::check(options.documents.files())?;
     variator::refuse(&file, "steady")?;
     let simulation = simulation(options, &file)?;
     let starts = starts(&others, &options.phase)?;
@@ -51,17 +50,17 @@ pub fn steady(options: &options::Steady) -> Result<Completion> {
         found.map_err(|why| list::steady::problem(&why))
     };
     let steady = solve(&request)?;
-    if let Some(path) = &options.report {
+    let mut answer = list::steady::answer(&machines, &steady);
+    let page = || {
         let finer = SteadyRequest {
             positions: request.positions.max(DRAWN),
             ..request.clone()
         };
-        let page = page::steady_page(&machines, &solve(&finer)?);
-        output::write(path, page.as_bytes())?;
-    }
-    let mut answer = list::steady::answer(&machines, &steady);
-    if let Some(path) = &options.report {
-        answer.sentence(format!("report written to {}", plain::path(path)));
+        Ok(page::steady_page(&machines, &solve(&finer)?))
+    };
+    let workbook = || Ok(answer.clone());
+    for line in documents::write(&options.documents, Files::default(), page, workbook)? {
+        answer.sentence(line);
     }
     print_answer(&answer, options.format)
 }

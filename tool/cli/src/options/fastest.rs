@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use super::documents::Documents;
 use super::gentlest::EndAcceleration;
 use super::plan::PlanFile;
 use super::search::SizingOptions;
@@ -133,9 +134,9 @@ pub struct Fastest {
     /// Unit of the cam table's master, which makes one turn during the motion; the derivatives are with respect to it.
     #[arg(long, value_name = "UNIT", value_parser = word::<Master>(), default_value_t)]
     pub master: Master,
-    /// Write a report as one self-contained HTML page: phase plane with the limit that binds, motion and torque over the time.
-    #[arg(long, value_name = "HTML", value_parser = super::output_file())]
-    pub report: Option<PathBuf>,
+    /// Documents.
+    #[command(flatten)]
+    pub documents: Documents,
     /// Plan for firmware.
     #[command(flatten)]
     pub plan: PlanFile,

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::catalogue::CatalogueFiles;
+use super::documents::Documents;
 use super::output_file;
 use super::plan::PlanFile;
 use super::sampling::SamplingOptions;
@@ -52,9 +53,9 @@ pub struct Gentlest {
     /// Unit of the cam table's master, which makes one turn during the motion; the derivatives are with respect to it.
     #[arg(long, value_name = "UNIT", value_parser = word::<Master>(), default_value_t)]
     pub master: Master,
-    /// Write a report as one self-contained HTML page: the motion and its torque, with that of the file and the best laws.
-    #[arg(long, value_name = "HTML", value_parser = output_file())]
-    pub report: Option<PathBuf>,
+    /// Documents.
+    #[command(flatten)]
+    pub documents: Documents,
     /// Plan for firmware.
     #[command(flatten)]
     pub plan: PlanFile,

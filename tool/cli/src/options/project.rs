@@ -6,7 +6,7 @@ use clap::Args;
 
 use super::SizeFormat;
 use super::catalogue::CatalogueFiles;
-use super::output_file;
+use super::documents::Documents;
 use super::sampling::SamplingOptions;
 use super::word::word;
 
@@ -24,9 +24,9 @@ pub struct Project {
     /// Sampling of the motions.
     #[command(flatten)]
     pub sampling: SamplingOptions,
-    /// Write the document: all axes with inputs, drawings, drives, bill of materials and supply as one HTML page.
-    #[arg(long, value_name = "HTML", value_parser = output_file())]
-    pub report: Option<PathBuf>,
+    /// Documents.
+    #[command(flatten)]
+    pub documents: Documents,
     /// Output format; CSV contains the bill of materials; aas has one submodel for each axis.
     #[arg(long, value_parser = word::<SizeFormat>(), default_value_t)]
     pub format: SizeFormat,

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use super::documents::Documents;
 use super::sampling::{Accuracy, Steps};
 use super::search::{efficiency, ratio};
 use super::share;
@@ -46,9 +47,9 @@ pub struct Require {
     /// Error of the integrals.
     #[command(flatten)]
     pub accuracy: Accuracy,
-    /// Write the request for quotation as one self-contained HTML page.
-    #[arg(long, value_name = "HTML", value_parser = super::output_file())]
-    pub report: Option<PathBuf>,
+    /// Documents.
+    #[command(flatten)]
+    pub documents: Documents,
     /// Output format.
     #[arg(long, value_parser = word::<Format>(), default_value_t)]
     pub format: Format,
@@ -83,9 +84,10 @@ fn ratios(text: &str) -> Result<RatioList, String> {
         }
     };
     let mut list: Vec<Option<f64>> = Vec::new();
-    let (separator, decimal) = match text.contains(';') {
-        true => (';', text.replace(',', ".")),
-        false => (',', text.to_owned()),
+    let (separator, decimal) = if text.contains(';') {
+        (';', text.replace(',', "."))
+    } else {
+        (',', text.to_owned())
     };
     for ratio in decimal.split(separator).map(one) {
         let ratio = ratio?;

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::catalogue::CatalogueFiles;
+use super::documents::Documents;
 use super::word::word;
 use jred_report::table::output::Format;
 
@@ -44,7 +45,7 @@ pub struct Simulate {
     /// Output format.
     #[arg(long, value_parser = word::<Format>(), default_value_t)]
     pub format: Format,
-    /// Write plots of the motion, of the motor and of the energies, and of the columns added, as one self-contained HTML page.
-    #[arg(long, value_name = "HTML", value_parser = super::output_file())]
-    pub plot: Option<PathBuf>,
+    /// Documents.
+    #[command(flatten)]
+    pub documents: Documents,
 }

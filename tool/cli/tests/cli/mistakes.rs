@@ -69,7 +69,7 @@ fn what_a_command_needs_is_named() {
 fn wrong_command_lines() {
     let press = format!("'{}'", press_file().display());
     let cases = "
-        => Usage
+        => jred new slider-crank | jred --help
         weigh PRESS => unrecognized subcommand | Usage
         size => <FILE>
         size PRESS --fromat csv => --fromat | --format
@@ -160,7 +160,7 @@ fn output_that_cannot_be_written() {
     let nowhere = folder.path("no such folder/out.html");
     for command in [
         &["size", "--report"] as &[&str],
-        &["simulate", "--plot"],
+        &["simulate", "--report"],
         &["export", "--torque-error", "1 N m", "--out"],
     ] {
         let mut arguments = command.to_vec();
@@ -178,7 +178,7 @@ fn the_machine_file_is_never_overwritten() {
     let mut lost = Vec::new();
     for options in [
         &["size", "--report"] as &[&str],
-        &["simulate", "--plot"],
+        &["simulate", "--report"],
         &["export", "--torque-error", "1 N m", "--out"],
     ] {
         let file = folder.file("machine.toml", press_text());

@@ -17,7 +17,7 @@ fn page(arguments: &[&str]) -> String {
     check_self_contained(&page);
     check_nesting(&page);
     assert!(page.len() < 1_500_000, "{}", page.len());
-    assert!(page.contains("@page { size: A4"));
+    assert!(page.contains("size: A4; margin"));
     page
 }
 

@@ -68,7 +68,7 @@ fn of_mechanisms_and_simulations() {
             "report-linkage",
             "reduce linkage-press.toml --report out.html",
         ),
-        ("report-simulation", "simulate press.toml --plot out.html"),
+        ("report-simulation", "simulate press.toml --report out.html"),
     ] {
         desk.run(command);
         let html = std::fs::read_to_string(desk.0.path("out.html")).unwrap();

@@ -23,7 +23,7 @@ pub(super) fn of_stage(
         element.arm = section.table("driven")?.si("radius")?;
         element.carried = section.si("belt_mass")?;
     }
-    element.name += &format!("drive train (stage {})", number + 1);
+    element.name = format!("{} drive train (stage {})", element.name, number + 1);
     element.stage = Some(number);
     element.on_input = number == 0;
     Ok(Some(element))
@@ -54,7 +54,7 @@ pub(super) fn of_mechanism(
         // The load slides along x by r·φ.
         _ => frames.get(1).map_or(1.0, |frame| frame.x.d1),
     };
-    element.name += "mechanism";
+    element.name += " mechanism";
     Ok(Some(element))
 }
 
@@ -108,7 +108,7 @@ fn limited(section: &Section, kind: &str) -> Result<Option<DriveElement>> {
     let limits: Vec<(Rule, f64)> = given.collect();
     let is_silent = limits.is_empty() && kind == ElementKind::Screw;
     Ok((!is_silent).then(|| DriveElement {
-        name: format!("{word} of the "),
+        name: format!("{word} of the"),
         stage: None,
         on_input: true,
         arm: 1.0,

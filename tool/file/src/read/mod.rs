@@ -210,6 +210,13 @@ fn loaded(
     Ok(machine)
 }
 
+/// `title`, or the name of the file.
+fn title(root: &Section, name: &str) -> Result<String> {
+    let own = || Path::new(name).file_name().map(plain::path);
+    let title = root.text("title")?.map(str::to_owned);
+    Ok(title.or_else(own).unwrap_or_else(|| name.to_owned()))
+}
+
 fn machine(name: &str, text: &str, files: &dyn Files) -> Result<UncheckedFile> {
     if text.len() as u64 > MAX_SIZE {
         let why = file::too_large(&file::size(text.len() as u64), MAX_SIZE);
@@ -224,12 +231,7 @@ fn machine(name: &str, text: &str, files: &dyn Files) -> Result<UncheckedFile> {
         ));
     }
     let root = Section::described(String::new(), 0..0, tree.get_ref(), (&MACHINE, false));
-    let title = match root.text("title")? {
-        Some(title) => title.to_owned(),
-        None => Path::new(name)
-            .file_name()
-            .map_or_else(|| name.to_owned(), plain::path),
-    };
+    let title = title(&root, name)?;
     let gravity = gravity(&root)?;
     let section = root.table("mechanism")?;
     let (mechanism, flywheel, element) = mechanism::read(&section, gravity, files)?;

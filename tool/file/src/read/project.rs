@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::{document, supply, surroundings};
+use super::{document, supply, surroundings, title};
 use crate::keys::PROJECT;
 use crate::model::project::{Project, ProjectAxis};
 use crate::model::site::Site;
@@ -29,14 +29,7 @@ fn parse(name: &str, text: &str) -> Result<Project> {
         );
     }
     let root = Section::described(String::new(), 0..0, tree.get_ref(), (&PROJECT, false));
-    let title = root.text("title")?.map_or_else(
-        || {
-            Path::new(name)
-                .file_name()
-                .map_or_else(|| name.to_owned(), plain::path)
-        },
-        str::to_owned,
-    );
+    let title = title(&root, name)?;
     let common_bus = root.word("bus")? == 0;
     let document = document::read(&root)?;
     let mut site = Site::default();

@@ -170,7 +170,9 @@ impl Parts {
             .map_or(0, |(at, _)| at);
         for label in std::mem::take(&mut self.places) {
             let start = boundary(text, label.offset().min(last));
-            let end = boundary(text, (label.offset() + label.len()).min(text.len()));
+            // Of a very long value the beginning is marked.
+            let end = label.offset() + label.len().min(MAX_LINE);
+            let end = boundary(text, end.min(text.len()));
             if !text.is_empty() {
                 self.places.push(LabeledSpan::new(
                     label.label().map(ToOwned::to_owned),

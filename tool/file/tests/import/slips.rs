@@ -220,7 +220,7 @@ fn cells_that_are_no_numbers() {
             comma.replace("2,2", "2,0,2,0"),
             [
                 "row 3 has 4 values",
-                "decimals have a point: write them so, or save the file with semicolons",
+                "with commas between the cells decimals have a point",
             ],
         ),
         (

@@ -165,6 +165,7 @@ fn a_proposal_is_a_value_of_its_key() {
         "header:",
         "counts_per_turn:",
         "lift_within:",
+        "lift_speed:",
         "accelerate:",
         "decelerate:",
         "duration:",

@@ -268,6 +268,10 @@ fn patterns_accept_what_people_write() {
             assert_eq!(both(text, kind), [true; 2], "\"{text}\" is {}", kind.name);
         }
     }
+}
+
+#[test]
+fn patterns_refuse_what_the_reader_refuses() {
     let bad: [(&Kind, &[&str]); 6] = [
         (
             &LENGTH,

@@ -54,10 +54,11 @@ impl Cap {
     /// The cap that is lowered to satisfy a rule. `heat`: the rules of the motor's heat are included.
     const fn of(rule: Rule, heat: bool) -> Option<Self> {
         match rule {
-            Rule::PeakTorque | Rule::PeakCurrent => Some(Self::MotorTorque),
             Rule::GearboxPeak | Rule::GearboxCubicMean => Some(Self::GearboxTorque),
-            // With a gearbox or without one.
-            Rule::BeltTension
+            // Forces behind the motor, with a gearbox or without one.
+            Rule::PeakTorque
+            | Rule::PeakCurrent
+            | Rule::BeltTension
             | Rule::BeltForce
             | Rule::BeltPretension
             | Rule::ScrewForce

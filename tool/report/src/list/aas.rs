@@ -106,7 +106,7 @@ fn collection(name: &str, elements: Vec<Value>) -> Value {
     made
 }
 
-fn entity(name: &str, statements: Vec<Value>) -> Value {
+fn entity(name: &str, statements: &[Value]) -> Value {
     json!({ "modelType": "Entity", "idShort": name, "semanticId": semantic(name), "entityType": "CoManagedEntity", "statements": statements })
 }
 
@@ -208,7 +208,7 @@ impl SizedAxis<'_> {
         overall.extend(number("InternalMomentOfIntertia", rotor));
         overall.extend(number("MassInertiaRatio", duty.inertia_ratio.max));
         overall.extend(number("EnergyConsumtionPerCycle", energy));
-        let mut elements = vec![entity("OverallSystem", overall)];
+        let mut elements = vec![entity("OverallSystem", &overall)];
         let (mut main, mut other) = (0, 0);
         for item in judged.bill() {
             match item.part {
@@ -218,13 +218,13 @@ impl SizedAxis<'_> {
                     other += 1;
                     let mut statements = named(&item);
                     statements.push(property("QuantityOfParts", "xs:integer", "1"));
-                    elements.push(entity(&format!("OtherComponent{other}"), statements));
+                    elements.push(entity(&format!("OtherComponent{other}"), &statements));
                 }
                 _ => {
                     main += 1;
                     elements.push(entity(
                         &format!("MainComponent{main}"),
-                        self.component(&item),
+                        &self.component(&item),
                     ));
                 }
             }

@@ -110,18 +110,14 @@ impl FastestView<'_> {
         input_kind(self.file).vocabulary()
     }
 
-    /// The duration, the load of the drive, then each move; `written` lists the written files. The course, which only CSV and JSON contain, is not
-    /// computed for text.
+    /// The duration, the load of the drive, then each move. The course, which only CSV and JSON contain, is not computed for text.
     ///
     /// # Errors
     /// The mechanism cannot be placed somewhere.
-    pub fn answer(&self, format: Format, written: &[String]) -> Result<Answer<'static>, Error> {
+    pub fn answer(&self, format: Format) -> Result<Answer<'static>, Error> {
         let title = format!("{}: fastest motion with {}", self.file.title, self.drive);
         let mut answer = Answer::new(self.file.title.clone(), &self.data()).titled(title);
         self.describe(&mut answer);
-        for line in written {
-            answer.sentence(line);
-        }
         if format != Format::Table {
             answer.course(Cow::Owned(self.course()?));
         }

@@ -40,8 +40,6 @@ pub struct GentlestView<'a> {
     pub broken: Option<&'a ContactLimits>,
     /// The rules of the drive in the gentlest motion; empty without a drive.
     pub checks: &'a [Check],
-    /// The written files.
-    pub written: Vec<String>,
 }
 
 fn words(shown: &GentlestView) -> &'static Vocabulary {
@@ -146,9 +144,6 @@ pub fn answer(shown: &GentlestView) -> Answer<'static> {
         whole: 1,
         ..Reading::default()
     });
-    for line in &shown.written {
-        answer.sentence(line);
-    }
     answer
 }
 

@@ -74,6 +74,19 @@ impl<'a> Listing<'a> {
         answer
     }
 
+    /// The whole answer for reading, with the values of its CSV.
+    pub fn answer_with_values(self) -> Answer<'a> {
+        let mut answer = comma::answer(self);
+        let list = List {
+            full: true,
+            ..self.list
+        };
+        if let Some(shown) = self.shown() {
+            Self { list, ..self }.read(&mut answer, &shown);
+        }
+        answer
+    }
+
     /// The requested drive, the best one, or the closest one if none is suitable.
     pub fn shown(&self) -> Option<Candidate<'a>> {
         let first = self

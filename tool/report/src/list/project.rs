@@ -279,9 +279,10 @@ impl<'a> ProjectView<'a> {
             return;
         };
         let count = counted(bus.axes.len(), "drive", "drives");
-        let phases = match bus.only_in_step {
-            true => "at the phases of the project",
-            false => "at the worst phases",
+        let phases = if bus.only_in_step {
+            "at the phases of the project"
+        } else {
+            "at the worst phases"
         };
         answer.heading(format!("Common DC bus of {count}, {phases}"));
         bus::blocks(bus, answer);

@@ -293,7 +293,7 @@ pub fn fastest_page(view: &list::fastest::FastestView) -> Result<String, Error> 
             "The motion in minimum time within the limits of the drive, {}",
             view.drive
         ),
-        &view.answer(Format::Table, &[])?,
+        &view.answer(Format::Table)?,
         sections,
     ))
 }

@@ -10,7 +10,7 @@ use super::thinned::kept;
 use crate::plot::{Axes, Axis};
 use jred_analysis::duty::Duty;
 use jred_file::model::machine::MachineFile;
-use jred_file::model::motion::Measure;
+use jred_file::model::motion::{Measure, ToolCoordinate};
 use jred_file::model::schedule::ScheduleInstant;
 use jred_file::model::site::ToolPlace;
 
@@ -36,7 +36,7 @@ impl Tool {
         }
         let prescribed = file.motion.as_ref().and_then(|motion| motion.tool());
         if let Some(Measure::Position { link, at, .. } | Measure::Path { link, at }) =
-            prescribed.map(|tool| tool.measure())
+            prescribed.map(ToolCoordinate::measure)
         {
             let name = mechanism.link_names().get(link)?.clone();
             return Some(Self { name, link, at });
@@ -99,8 +99,8 @@ impl Course {
             return None;
         }
         let mut way = far.map(|c| c / length);
-        // Along +x or +y, whichever is closer.
-        let larger = if way[0].abs() >= way[1].abs() { 0 } else { 1 };
+        // Along the nearer of +x and +y.
+        let larger = usize::from(way[0].abs() < way[1].abs());
         if way[larger] < 0.0 {
             way = way.map(|c| -c);
         }
@@ -132,9 +132,10 @@ pub(super) fn tool(file: &MachineFile, duty: &Duty) -> Result<Option<Section>, E
         [_, y] if y > 1.0 - 1e-9 => "y".to_owned(),
         [x, y] => format!("the line at {:.1}° to x", y.atan2(x).to_degrees()),
     };
-    let curved = match is_straight {
-        true => String::new(),
-        false => " Its path is curved: these are the components along that line.".to_owned(),
+    let curved = if is_straight {
+        ""
+    } else {
+        " Its path is curved: these are the components along that line."
     };
     let what = [
         ("position [mm]", 1e3, "Position"),
@@ -172,6 +173,7 @@ pub(super) fn tool(file: &MachineFile, duty: &Duty) -> Result<Option<Section>, E
             y,
         };
         let chart = Chart::new(ChartKind::Plane, &axes, &[line("", points.collect())]);
+        let chart = chart.with_times(0, course.rows.iter().map(|(t, _)| *t));
         Figure::live(&chart, format!("{caption}, over the stroke."))
     }));
     Ok(Some(Section {

@@ -335,3 +335,23 @@ fn colours_are_far_apart() {
         }
     }
 }
+
+/// On paper each colour of a solid curve but the first has dashes, no two the same in one width.
+#[test]
+fn curves_differ_on_paper_without_colours() {
+    let style = include_str!("../../templates/print.css");
+    let mut looks = Vec::new();
+    for colour in &PALETTE[1..] {
+        let rule = style
+            .split(&format!("path[stroke=\"{colour}\"]"))
+            .nth(1)
+            .unwrap();
+        let look = rule.split(['{', '}']).nth(1).unwrap();
+        assert!(look.contains("stroke-dasharray") && look.contains("stroke-width"));
+        looks.push(look);
+    }
+    looks.sort_unstable();
+    looks.dedup();
+    assert_eq!(looks.len(), PALETTE.len() - 1);
+    assert_eq!(style.matches("path[stroke=").count(), looks.len());
+}

@@ -1,5 +1,6 @@
-//! Columns, rows and sheets as aligned tables, CSV or JSON.
+//! Columns, rows and sheets as aligned tables, CSV, JSON or cells of a spreadsheet.
 
+pub(crate) mod grid;
 pub(crate) mod json;
 pub mod output;
 pub mod reading;

@@ -147,6 +147,26 @@ impl Reading {
         (0..self.columns.len()).map(column).collect()
     }
 
+    /// Least width on paper in characters: numbers and words are not broken, bars and texts of several words are not too narrow.
+    pub(crate) fn least_width(&self) -> usize {
+        const BAR: usize = 7;
+        const TEXT: usize = 18;
+        const GAP: usize = 2;
+        let length = |text: &str| text.chars().count();
+        let longest = |text: &str| text.split_whitespace().map(length).max().unwrap_or(0);
+        let numbers = self.are_numbers();
+        let bar = |k| usize::from(self.kind(k) == Some(ColumnKind::Share)) * BAR;
+        let heads = self.columns.iter().enumerate();
+        let mut widths: Vec<usize> = heads.map(|(k, head)| longest(head).max(bar(k))).collect();
+        for row in self.cells() {
+            for ((cell, width), is_number) in row.iter().zip(&mut widths).zip(&numbers) {
+                let most = if *is_number { usize::MAX } else { TEXT };
+                *width = longest(cell).max(length(cell).min(most)).max(*width);
+            }
+        }
+        widths.iter().map(|width| width + GAP).sum()
+    }
+
     /// Header and rows, every digit.
     pub(crate) fn csv(&self) -> String {
         let header = self.columns.iter().map(|name| Cell::from(name.as_str()));

@@ -156,7 +156,8 @@ impl BusAnalysis {
             let change = Change::at_least("brake_resistor.resistance", least, "Ohm");
             return (!self.fails(BusQuantity::Voltage)).then(|| Cure::of(vec![change]));
         }
-        if let Some(need) = self.need {
+        // Bounds allow a larger resistance below: the voltage may rise to its limit.
+        if let Some(need) = self.need.filter(|need| !need.pulse.is_nan()) {
             return need.is_possible().then(|| Cure::resistor(&need));
         }
         if self.data.regenerative || self.data.conflict().is_some() {
@@ -296,10 +297,8 @@ impl Cure {
             need.peak,
             "W",
         ));
-        if !need.pulse.is_nan() {
-            let energy = "brake_resistor.pulse_energy";
-            changes.push(Change::at_least(energy, need.pulse, "W s"));
-        }
+        let energy = "brake_resistor.pulse_energy";
+        changes.push(Change::at_least(energy, need.pulse, "W s"));
         Self::of(changes)
     }
 }

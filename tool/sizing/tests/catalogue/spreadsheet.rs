@@ -171,7 +171,7 @@ fn headers_and_numbers_as_makers_print_them() {
             let read = Catalogue::load(Some(&file), None);
             let motor = read.map_err(|e| format!("{header}: {e:?}")).unwrap().motors[0].clone();
             let near = |found: f64, due: f64| {
-                assert!((found / due - 1.0).abs() < 1e-7, "{header} {row}: {found}")
+                assert!((found / due - 1.0).abs() < 1e-7, "{header} {row}: {found}");
             };
             near(motor.rotor_inertia, 8.5e-4);
             near(motor.rated_torque.unwrap(), 8.0);

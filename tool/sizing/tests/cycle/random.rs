@@ -123,6 +123,7 @@ fn instant(t: f64, weight: f64, [alpha, torque, speed]: [f64; 3]) -> Instant {
         alpha,
         direction: speed,
         inertia: 1.0,
+        joint_friction: 0.0,
         terms: TorqueTerms::default(),
         input_torque: torque,
         input_speed: speed,

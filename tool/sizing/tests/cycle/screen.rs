@@ -237,20 +237,20 @@ fn random_cycles_are_screened_as_in_full() {
     let cases = (duty(), ranges, 0usize..3, -20.0..70.0f64, loads);
     let sets = sets();
     let seen = Cell::new([0; 2]);
-    type Loads = (usize, f64);
-    let check = |(mut duty, tens, set, ambient, loads): (Duty, [f64; 2], usize, f64, Loads)| {
-        duty.mechanics.elements = elements(loads);
-        let cycle = Cycle::new(&scaled(duty, tens.map(|x| 10f64.powf(x))));
-        let mut site = Site::default();
-        site.surroundings.ambient = ambient;
-        let [fit, refused] = compare(&catalogue, &cycle, &site, &sets[set]);
-        let [many_fit, many_refused] = seen.get();
-        seen.set([
-            many_fit + usize::from(fit > FIRST),
-            many_refused + usize::from(refused > FIRST),
-        ]);
-        Ok(())
-    };
+    let check =
+        |(mut duty, tens, set, ambient, loads): (Duty, [f64; 2], usize, f64, (usize, f64))| {
+            duty.mechanics.elements = elements(loads);
+            let cycle = Cycle::new(&scaled(duty, tens.map(|x| 10f64.powf(x))));
+            let mut site = Site::default();
+            site.surroundings.ambient = ambient;
+            let [fit, refused] = compare(&catalogue, &cycle, &site, &sets[set]);
+            let [many_fit, many_refused] = seen.get();
+            seen.set([
+                many_fit + usize::from(fit > FIRST),
+                many_refused + usize::from(refused > FIRST),
+            ]);
+            Ok(())
+        };
     runner(48).run(&cases, check).unwrap();
     let [many_fit, many_refused] = seen.get();
     assert!(

@@ -1,7 +1,7 @@
 //! Forces and speeds of the belts, screws and pinions between motor and machine.
 
 use jred::machine::{Body, Mechanism as _};
-use jred::mechanism::TrainOutput;
+use jred::mechanism::{Stage, TrainOutput};
 
 use crate::duty::Instant;
 use jred_file::model::drive_element::{DriveElement, ElementKind};
@@ -88,7 +88,7 @@ pub(in crate::duty) fn force(
     let Some((delivered, stage)) = delivered.get(number).zip(stages.get(number)) else {
         return 0.0;
     };
-    let behind: f64 = stages.iter().skip(number + 1).map(|s| s.ratio()).product();
+    let behind: f64 = stages.iter().skip(number + 1).map(Stage::ratio).product();
     let flows_back = delivered * instant.direction * behind < 0.0;
     let loss = match element.kind {
         ElementKind::Belt(_) if !flows_back => stage.efficiency(),

@@ -11,6 +11,7 @@ use jred_file::model::rule::Rule;
 use jred_file::number::rounding::short;
 use jred_sizing::judge::Assessment;
 use jred_sizing::judge::bill::{BillItem, Part};
+use jred_sizing::judge::check::Check;
 
 /// A part as it is ordered.
 #[derive(Serialize, JsonSchema)]
@@ -54,34 +55,22 @@ pub(crate) fn bill(answer: &mut Answer, judged: &Assessment) {
     let figure = |value: Option<f64>| value.map_or("–".to_owned(), short);
     let row = |item: &BillItem| {
         let is_own = item.part != Part::Brake;
-        let own = |value: Option<f64>| match is_own {
-            true => figure(value),
-            false => String::new(),
+        let own = |text: String| if is_own { text } else { String::new() };
+        let [mass, price] = [item.mass, item.price].map(|value| own(figure(value)));
+        let order = if is_own {
+            format!("{} {}", item.maker, item.model)
+        } else {
+            "with the motor".to_owned()
         };
-        let order = match is_own {
-            true => format!("{} {}", item.maker, item.model),
-            false => "with the motor".to_owned(),
-        };
-        let key = match is_own {
-            true => marks::key(item.key, item.from_maker),
-            false => String::new(),
-        };
+        let key = own(marks::key(item.key, item.from_maker));
         let decided = item
             .decided
             .map_or("no rule is checked".to_owned(), |check| {
                 format!("{} {}", check.rule, check.against())
             });
-        let used = item.decided.map_or(String::new(), |check| check.used());
+        let used = item.decided.map_or(String::new(), Check::used);
         let part = item.part.name().to_owned();
-        [
-            part,
-            order,
-            key,
-            own(item.mass),
-            own(item.price),
-            decided,
-            used,
-        ]
+        [part, order, key, mass, price, decided, used]
     };
     let sum = |of: fn(&BillItem) -> Option<f64>| figure(bill.iter().map(of).sum());
     let total = [

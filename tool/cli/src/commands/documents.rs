@@ -1,0 +1,48 @@
+//! Documents of an answer: page, PDF and workbook.
+
+use miette::Result;
+
+use crate::browser;
+use crate::busy;
+use crate::options::documents::Documents;
+use crate::output::Files;
+use jred_file::plain;
+use jred_report::answer::Answer;
+
+/// Writes the requested documents with the other files of a result. Returns sentences about them.
+///
+/// # Errors
+/// Those of page and answer; a file that cannot be written. If no browser prints the page, the other files are written nevertheless.
+pub(super) fn write<'a>(
+    options: &Documents,
+    mut files: Files,
+    page: impl FnOnce() -> Result<String>,
+    answer: impl FnOnce() -> Result<Answer<'a>>,
+) -> Result<Vec<String>> {
+    let is_page = options.report.is_some() || options.pdf.is_some();
+    let page = if is_page { page()? } else { String::new() };
+    let page = options.paper.unwrap_or_default().page(page);
+    if let Some(path) = &options.report {
+        files.add(path, page.as_bytes())?;
+    }
+    if let Some(path) = &options.xlsx {
+        files.add(path, &answer()?.workbook()?)?;
+    }
+    let printed = options.pdf.as_ref().map(|path| {
+        busy::begin("printing the page");
+        let pdf = browser::pdf(&page, path)?;
+        files.add(path, &pdf)
+    });
+    files.finish()?;
+    printed.transpose()?;
+    let written = [
+        ("report", &options.report),
+        ("PDF", &options.pdf),
+        ("workbook", &options.xlsx),
+    ];
+    let written = written.into_iter().filter_map(|(what, path)| {
+        let path = plain::path(path.as_ref()?);
+        Some(format!("{what} written to {path}"))
+    });
+    Ok(written.collect())
+}
