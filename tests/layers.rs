@@ -233,7 +233,7 @@ const TOOL: [(&str, &[&str]); 8] = [
     (
         "report",
         &[
-            "table", "answer", "list", "schemas", "plot", "drawing", "page",
+            "units", "table", "answer", "list", "schemas", "plot", "drawing", "page",
         ],
     ),
     (

@@ -7,6 +7,7 @@ use jred_cli::commands::{Completion, run};
 use jred_cli::options::Cli;
 use jred_cli::terminal;
 use jred_file::plain;
+use jred_report::units::show_in;
 
 fn main() -> ExitCode {
     let words = std::env::args_os().map(|word| word.to_string_lossy().into_owned());
@@ -24,6 +25,7 @@ fn main() -> ExitCode {
         // Exits with 2 on a wrong command line, with 0 after a help text.
         parsed => parsed.unwrap_or_else(|error| error.exit()),
     };
+    show_in(cli.units.unwrap_or_default());
     match run(&cli.command) {
         Ok(Completion::Holds) => ExitCode::SUCCESS,
         Ok(Completion::Violated) => ExitCode::from(1),

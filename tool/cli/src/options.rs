@@ -26,6 +26,7 @@ use self::word::word;
 use jred_analysis::reduce::Over;
 use jred_report::list::inspection::AnswerFormat;
 use jred_report::table::output::Format;
+use jred_report::units::UnitSystem;
 
 /// Reduced inertia, drive sizing, simulation and firmware tables for machines whose inertia depends on the angle.
 #[derive(Debug, Parser)]
@@ -34,6 +35,9 @@ pub struct Cli {
     /// The command to run.
     #[command(subcommand)]
     pub command: Command,
+    /// Units in which quantities are printed: SI if not given. Files and options may have either.
+    #[arg(long, global = true, value_parser = word::<UnitSystem>())]
+    pub units: Option<UnitSystem>,
 }
 
 impl Cli {

@@ -15,6 +15,7 @@ use crate::busy;
 use crate::output::stdout;
 use jred_file::plain;
 use jred_report::table::screen::Screen;
+use jred_report::units;
 
 /// Prints to stdout; a closed pipe (`jred … | head`) is not an error.
 ///
@@ -105,7 +106,7 @@ pub fn warn(line: &str) {
     static SAID: Mutex<BTreeSet<String>> = Mutex::new(BTreeSet::new());
     let mut said = SAID.lock().unwrap_or_else(PoisonError::into_inner);
     if said.insert(line.to_owned()) {
-        say(&format!("warning: {line}"));
+        say(&format!("warning: {}", units::text(line)));
     }
 }
 

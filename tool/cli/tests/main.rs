@@ -35,5 +35,6 @@ mod sensitivity_commands;
 mod size_json;
 mod split;
 mod support;
+mod units;
 mod vary;
 mod wording;

@@ -17,6 +17,7 @@ use crate::table::json::array_parts;
 use crate::table::output::{self, Format};
 use crate::table::reading::Reading;
 use crate::table::screen::Screen;
+use crate::units;
 use jred_file::number::columns::Columns;
 use schema::Data;
 
@@ -35,6 +36,21 @@ pub(crate) enum Block {
     Warning(String),
     /// Lines to copy, as they are.
     Code(String),
+}
+
+impl Block {
+    /// The block in the units of results. Lines to copy stay as they are.
+    pub(crate) fn shown(&self) -> Self {
+        let text = |words: &str| units::text(words).into_owned();
+        match self {
+            Self::Heading(words) => Self::Heading(text(words)),
+            Self::Fact(name, words) => Self::Fact(text(name), text(words)),
+            Self::Table(table) => Self::Table(table.shown().into_owned()),
+            Self::Sentence(words) => Self::Sentence(text(words)),
+            Self::Warning(words) => Self::Warning(text(words)),
+            Self::Code(_) => self.clone(),
+        }
+    }
 }
 
 /// The answer of a command.
@@ -148,6 +164,11 @@ impl<'a> Answer<'a> {
         self.blocks.push(Block::Code(code.into()));
     }
 
+    /// The blocks in the units of results.
+    pub(crate) fn shown(&self) -> Vec<Block> {
+        self.blocks.iter().map(Block::shown).collect()
+    }
+
     /// The data as an object, whose arrays are made one item at a time.
     fn json(&self) -> impl Iterator<Item = String> {
         let entry = |(k, (key, value)): (usize, (&String, &Value))| {
@@ -179,7 +200,8 @@ impl<'a> Answer<'a> {
             }
             (None, Format::Table) => once(self.text(screen)),
             (course, Format::Csv) => match (&self.csv, course) {
-                (Some(csv), _) => csv.0(),
+                (Some(csv), _) if units::is_si() => csv.0(),
+                (Some(csv), _) => once(units::table(csv.0().collect())),
                 (None, Some(course)) => output::parts(course, format, ""),
                 (None, None) => once(self.tables_as_csv()),
             },
@@ -189,7 +211,7 @@ impl<'a> Answer<'a> {
     /// The first table with all digits.
     fn tables_as_csv(&self) -> String {
         let mut tables = self.blocks.iter().filter_map(|block| match block {
-            Block::Table(table) => Some(table.csv()),
+            Block::Table(table) => Some(units::table(table.csv())),
             _ => None,
         });
         tables.next().unwrap_or_default()

@@ -8,6 +8,7 @@ use crate::commands::core_error::duty_report;
 use crate::commands::{Completion, print_answer, read_warned};
 use crate::options::require::Require;
 use crate::output;
+use crate::terminal;
 use jred_analysis::duty::Duty;
 use jred_file::model::variator;
 use jred_file::plain;
@@ -78,14 +79,20 @@ pub(super) fn run(options: &Require) -> Result<Completion> {
 /// The ratios that are asked for.
 fn ratios(options: &Require, inquiry: &Inquiry) -> Result<Vec<Option<f64>>> {
     if let Some(list) = &options.ratios {
-        let gears = list.0.iter().any(Option::is_some);
+        if let Some(text) = &list.doubtful {
+            terminal::warn(&format!(
+                "--ratios {text} names two ratios; write {} if it is one",
+                text.replace(',', ".")
+            ));
+        }
+        let gears = list.ratios.iter().any(Option::is_some);
         if gears && input_kind(inquiry.file) == MotorKind::Linear {
             return Err(miette!(
                 help = "leave out --ratios, or add a [[drive_train]] with a rotating input",
                 "the drive link slides: a linear motor has no gear ratio"
             ));
         }
-        return Ok(list.0.clone());
+        return Ok(list.ratios.clone());
     }
     let most = options.max_speed.unwrap_or(USUAL_SPEED);
     let ratios = inquiry.usual_ratios(most, options.within);

@@ -19,7 +19,7 @@ use jred_report::table::output::Format;
 pub struct Require {
     /// Machine file, with a `[motion]`.
     pub file: PathBuf,
-    /// Gear ratios, e.g. "7, 10, 25"; 1 is direct coupling. If not given: the usual ratios of planetary gearboxes in the range of --within.
+    /// Gear ratios, e.g. "7, 10, 25"; 1 is direct coupling. A comma separates two ratios; with semicolons between them, "3,5; 7,5", it is a decimal sign. If not given: the usual ratios of planetary gearboxes in the range of --within.
     #[arg(long, value_name = "RATIOS", allow_hyphen_values = true, value_parser = ratios)]
     pub ratios: Option<RatioList>,
     /// Only the usual ratios in this range, e.g. "3..10"; a direct drive has 1.
@@ -56,7 +56,12 @@ pub struct Require {
 
 /// Gear ratios, one of which may be direct coupling.
 #[derive(Clone, Debug)]
-pub struct RatioList(pub Vec<Option<f64>>);
+pub struct RatioList {
+    /// The ratios; `None` is direct coupling.
+    pub ratios: Vec<Option<f64>>,
+    /// Two ratios that can be meant as one with a decimal comma, as written: "3,5".
+    pub doubtful: Option<String>,
+}
 
 /// Most ratios of a list.
 const MOST: usize = 50;
@@ -78,7 +83,11 @@ fn ratios(text: &str) -> Result<RatioList, String> {
         }
     };
     let mut list: Vec<Option<f64>> = Vec::new();
-    for ratio in text.split(',').map(one) {
+    let (separator, decimal) = match text.contains(';') {
+        true => (';', text.replace(',', ".")),
+        false => (',', text.to_owned()),
+    };
+    for ratio in decimal.split(separator).map(one) {
         let ratio = ratio?;
         if !list.contains(&ratio) {
             list.push(ratio);
@@ -87,7 +96,15 @@ fn ratios(text: &str) -> Result<RatioList, String> {
     if list.len() > MOST {
         return Err(format!("{} ratios; at most {MOST} are listed", list.len()));
     }
-    Ok(RatioList(list))
+    // In a list people mostly leave a blank behind the comma, or name more than two.
+    let is_digits = |part: &str| part.bytes().all(|c| c.is_ascii_digit());
+    let doubtful = text
+        .split_once(',')
+        .is_some_and(|(whole, rest)| is_digits(whole) && is_digits(rest));
+    Ok(RatioList {
+        ratios: list,
+        doubtful: doubtful.then(|| text.to_owned()),
+    })
 }
 
 fn allowance(text: &str) -> Result<f64, String> {

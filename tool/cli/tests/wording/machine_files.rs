@@ -67,7 +67,7 @@ fn quantities() {
         length = "30 mm" => length = "30"
         length = "30 mm" => length = "30 kg"
         length = "30 mm" => length = "30 bananas"
-        length = "30 mm" => length = "30 inch"
+        length = "30 mm" => length = "30 inches"
         length = "30 mm" => length = "30 mm/s/s"
         length = "30 mm" => length = "1,5 mm"
         length = "30 mm" => length = "1 m + 2 m"

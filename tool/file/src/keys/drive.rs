@@ -76,6 +76,7 @@ pub(crate) static DRIVE_TRAIN: KeyTable = KeyTable::of("drive_train", &[&[
     key("inertia", quantity(&INERTIA).not_negative(), "of the screw, or of the pinion").only(LINEAR_STAGE),
     may("mass", quantity(&MASS).not_negative(), "of the nut, or of the rack").or("0").only(LINEAR_STAGE),
     EFFICIENCY.only(&["belt", "ball-screw", "rack"]),
+    may("sense", ValueForm::Words(&["as-built", "forward"]), "forward: the output counts as turning with the input, whatever the sign of the ratio").or("as-built"),
     may("branch", ValueForm::Tables(&BRANCH, [0, 8], "combine branches: refer their inertias and torques to one shaft"), "8 in all: shafts [beside the chain](#branch)"),
 ]]).by("type").elsewhere(&[("efficiency", "in a gear train each stage has its own efficiency")]);
 

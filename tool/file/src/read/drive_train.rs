@@ -42,6 +42,9 @@ pub(super) fn read(root: &Section, drive: DriveLink) -> Result<DriveTrain> {
                 3 => stages.push(stage::screw(&section)?),
                 _ => stages.push(stage::rack(&section)?),
             }
+            if section.word("sense")? == 1 {
+                stage::forward(&mut stages[before..])?;
+            }
             if let Some(item) = section.get("branch") {
                 for own in section.tables("branch")? {
                     names.add(&own)?;

@@ -97,6 +97,17 @@ pub(super) fn with_load(mut stages: Vec<StageEntry>, inertia: f64) -> Result<Vec
     Ok(stages)
 }
 
+/// Lets the outputs of the stages turn as their inputs do: the sign of their ratios does not matter.
+pub(super) fn forward(stages: &mut [StageEntry]) -> Result<()> {
+    for entry in stages {
+        let stage = &entry.stage;
+        entry.stage = Stage::new(stage.ratio().abs(), stage.inertias())
+            .and_then(|forward| forward.with_efficiency(stage.efficiency()))
+            .map_err(Problem::of)?;
+    }
+    Ok(())
+}
+
 /// The stage of a table with `type = "ball-screw"`: 2π/lead (rad of the screw per m of the nut).
 pub(super) fn screw(section: &Section) -> Result<StageEntry> {
     let lead = section.si("lead")?;

@@ -8,8 +8,8 @@ use csv::{Error, ErrorKind, Position, Reader, ReaderBuilder, StringRecord, Trim}
 
 use super::problem::{Problem, Result};
 use crate::plain;
-use crate::units::Fault;
 use crate::units::kind::Kind;
+use crate::units::{Fault, unit};
 
 /// A table, read row by row.
 #[derive(Debug)]
@@ -128,29 +128,28 @@ impl<'t> CsvTable<'t> {
             ErrorKind::UnequalLengths {
                 expected_len, len, ..
             } => {
-                let count =
-                    |n: u64, one: &str| format!("{n} {one}{}", if n == 1 { "" } else { "s" });
-                let message = format!(
-                    "row {} has {}, but the header has {}",
-                    self.rows,
-                    count(*len, "value"),
-                    count(*expected_len, "column")
-                );
                 let separator = match self.separator {
                     ';' => "semicolon",
                     '\t' => "tab",
                     _ => "comma",
                 };
-                let decimals = if self.separator == ',' && len > expected_len {
-                    "; where cells are separated by commas decimals have a point: write them so, or save the file with semicolons between \
-                     the cells"
-                } else {
-                    ""
-                };
-                let help = format!(
-                    "every row must have as many cells as the header: separate the values as the header does, quote those that \
-                     contain a {separator}{decimals}"
+                let message = format!(
+                    "row {} has {len} values, but the header has {expected_len} columns",
+                    self.rows
                 );
+                let help = if self.separator == ',' && len > expected_len {
+                    let header: Vec<&str> = self.header.iter().collect();
+                    format!(
+                        "with commas between the cells decimals have a point: write 3.5 for 3,5; or separate all cells by semicolons and keep the \
+                         decimal commas, with the header \"{}\"; quote a text that contains a comma",
+                        plain::cut(&header.join(";"))
+                    )
+                } else {
+                    format!(
+                        "every row must have as many cells as the header: separate the values as the header does, quote those that contain a \
+                         {separator}"
+                    )
+                };
                 (message, help)
             }
             _ => (
@@ -162,12 +161,6 @@ impl<'t> CsvTable<'t> {
         Problem::new(message)
             .at(line_from(self.text, from), "this row")
             .help(help)
-    }
-
-    /// Number of lines to the end of the header.
-    pub fn header_lines(&self) -> usize {
-        let above = self.text.get(..header_place(self.text).start);
-        above.unwrap_or_default().matches('\n').count() + 1
     }
 
     /// Line number of the current row in the text.
@@ -286,9 +279,31 @@ fn line_from(text: &str, from: usize) -> Range<usize> {
     start..start + line.map_or(0, str::len)
 }
 
-/// Name and unit of a title `name [unit]`; `None` without a unit.
+/// A number; its decimal sign can be a comma if cells are not separated by commas.
+pub fn number_of(field: &str, separator: char) -> Option<f64> {
+    let number = if separator != ',' && field.contains(',') && !field.contains('.') {
+        field.replacen(',', ".", 1).parse()
+    } else {
+        field.parse()
+    };
+    number.ok().filter(|value: &f64| value.is_finite())
+}
+
+/// Whether a text is a unit of a column.
+pub fn is_unit(text: &str) -> bool {
+    unit::read_listed(unit::power_of_ten(&unit::tidy(text)).1).is_ok()
+}
+
+/// Name and unit of a title `name [unit]` or `name (unit)`; `None` without a unit.
 pub fn name_and_unit(title: &str) -> (&str, Option<&str>) {
-    let split = title.strip_suffix(']').and_then(|t| t.rsplit_once('['));
+    let within = |open, close| {
+        title
+            .strip_suffix(close)
+            .and_then(|t: &str| t.rsplit_once(open))
+    };
+    // Round brackets without a unit belong to the name.
+    let round = within('(', ')').filter(|(_, unit)| is_unit(unit));
+    let split = within('[', ']').or(round);
     split.map_or((title, None), |(name, unit)| {
         (name.trim_end(), Some(unit.trim()))
     })

@@ -68,7 +68,7 @@ kinds! {
     LENGTH "a length" "120 mm" "mm" "m, cm, mm, µm" 1e-6 1e3;
     ALTITUDE "an altitude" "1400 m" "m" "m, km" 1e-6 1e5;
     MASS "a mass" "3.5 kg" "kg" "kg, g, t" 1e-9 1e6;
-    INERTIA "a moment of inertia" "2.4 kg cm^2" "kg m^2" "kg m^2, kg cm^2, g mm^2" 1e-12 1e8;
+    INERTIA "a moment of inertia" "2.4 kg cm^2" "kg m^2" "kg m^2, kg cm^2, g mm^2, lbf in s^2" 1e-12 1e8;
     ANGLE "an angle" "90 deg" "deg" "deg, rad, arcmin" 1e-9 1e7;
     ANGULAR_SPEED "an angular speed" "1450 rpm" "rpm" "rpm, rad/s, deg/s" 1e-6 1e6;
     ANGULAR_ACCELERATION "an angular acceleration" "120 rad/s^2" "rad/s^2" "rad/s^2, deg/s^2" 1e-9 1e9;
@@ -89,7 +89,7 @@ kinds! {
     CAPACITANCE "a capacitance" "470 uF" "uF" "F, mF, uF" 1e-9 1e3;
     POWER "a power" "200 W" "W" "W, kW" 1e-6 1e9;
     ENERGY "an energy" "2 kW s" "W s" "W s, kW s" 1e-9 1e12;
-    TEMPERATURE "a temperature" "40 degC" "degC" "degC" 1e-9 1e3;
+    TEMPERATURE "a temperature" "40 degC" "degC" "degC, degF" 1e-9 1e3;
     INERTIA_SLOPE "a moment of inertia per angle" "0.01 kg m^2/rad" "kg m^2/rad" "kg m^2/rad, kg cm^2/deg" 1e-12 1e10;
     DENSITY "a density" "7850 kg/m^3" "kg/m^3" "kg/m^3, kg/dm^3, g/cm^3" 1e-3 1e6;
     MASS_SLOPE "a mass per length" "2 kg/m" "kg/m" "kg/m, kg/mm" 1e-12 1e10;
@@ -117,8 +117,9 @@ kinds! {
 }
 
 /// Names of quantities that users write but no key accepts.
-const OTHERS: [(&str, Dimension); 2] = [
+const OTHERS: [(&str, Dimension); 3] = [
     ("an area", dimension("m^2")),
+    ("a pressure", dimension("N/m^2")),
     ("a mass times length", dimension("kg m")),
 ];
 

@@ -69,6 +69,10 @@ pub fn read(text: &str) -> Result<Literal, String> {
         return Ok(Literal::plain(number));
     }
     let unit = unit::read(rest).map_err(words)?;
+    // Its number is not proportional to the temperature, so ranges and factors would be wrong.
+    if unit.zero != 0.0 {
+        return Err(format!("is in {}; write it in degC", unit.text));
+    }
     let dimension = unit.dimension;
     Ok(Literal {
         number,

@@ -18,7 +18,7 @@ pub struct Quantity {
 impl Quantity {
     /// The value `si` in the unit in which the quantity was written, for messages.
     pub fn in_its_unit(&self, si: f64) -> String {
-        format!("{} {}", figure(si / self.unit.scale), self.unit.text)
+        format!("{} {}", figure(self.unit.number(si)), self.unit.text)
     }
 }
 
@@ -37,12 +37,12 @@ pub fn read(text: &str, kind: &Kind) -> Result<Quantity, Fault> {
     let (number, rest) = split_number(&tidy, kind)?;
     if rest.is_empty() {
         if kind.dimension == SHARE.dimension {
-            return finish(number, plain(), kind);
+            return finish(number, Unit::plain(), kind);
         }
         return Err(no_unit(&number, kind));
     }
     let unit = unit::read(rest).map_err(|fault| converted(fault, &number, rest, kind))?;
-    let unit = per_minute(unit, &[kind]);
+    let unit = meant(unit, &[kind])?;
     let units = || {
         let (name, example, units) = (kind.name, kind.example, kind.units);
         format!("write {name} such as \"{example}\"; possible units: {units}")
@@ -53,14 +53,22 @@ pub fn read(text: &str, kind: &Kind) -> Result<Quantity, Fault> {
     finish(number, unit, kind)
 }
 
-/// Reads a unit of one of the `kinds`, and returns the index of the kind. An empty text is the unit of a share.
+/// Reads a unit of one of the `kinds`, and returns the index of the kind. An empty text is the unit of a share. A header can have a power of ten:
+/// "10^-4 kg m^2".
 ///
 /// # Errors
 /// No unit, one that cannot be read, or one of another kind.
 pub fn unit_of(text: &str, kinds: &[&Kind]) -> Result<(Unit, usize), Fault> {
-    let unit = match text {
-        "" => plain(),
-        text => per_minute(unit::read_listed(text)?, kinds),
+    let tidy = unit::tidy(text);
+    let (power, rest) = unit::power_of_ten(&tidy);
+    let unit = match rest {
+        "" => Unit::plain(),
+        rest => meant(unit::read_listed(rest)?, kinds)?,
+    };
+    let unit = Unit {
+        text: text.to_owned(),
+        scale: unit.scale * 10f64.powi(power),
+        ..unit
     };
     if let Some(fault) = misfit(&unit, text, kinds, || possible_units(kinds)) {
         return Err(match text {
@@ -73,16 +81,28 @@ pub fn unit_of(text: &str, kinds: &[&Kind]) -> Result<(Unit, usize), Fault> {
     Ok((unit, kind))
 }
 
+/// The unit with the meaning that fits the kinds: a pound is a mass or a force, and "1/min" may count turns.
+///
+/// # Errors
+/// Both a mass and a force are possible.
+fn meant(unit: Unit, kinds: &[&Kind]) -> Result<Unit, Fault> {
+    let fits = |unit: &Unit| kinds.iter().any(|kind| kind.is_measured_by(unit.dimension));
+    match unit.as_force().filter(fits) {
+        Some(_) if fits(&unit) => Err(Fault::new(
+            format!("has the unit \"{}\", a mass or a force", unit.text),
+            "write \"lbm\" for a mass, \"lbf\" or \"ozf\" for a force",
+        )),
+        Some(force) => Ok(force),
+        None => Ok(per_minute(unit, kinds)),
+    }
+}
+
 /// "1/min" and "min^-1" count turns if an angular speed is expected, as on name plates.
 fn per_minute(unit: Unit, kinds: &[&Kind]) -> Unit {
     let asked = |of: &Kind| kinds.iter().any(|kind| kind.dimension == of.dimension);
-    let counts = matches!(unit.text.as_str(), "1/min" | "min^-1" | "min⁻¹");
+    let counts = matches!(unit.text.as_str(), "1/min" | "min^-1" | "min-1" | "min⁻¹");
     if counts && asked(&ANGULAR_SPEED) && !asked(&CUTOFF) {
-        return Unit {
-            scale: RPM,
-            dimension: ANGULAR_SPEED.dimension,
-            ..unit
-        };
+        return Unit::new(unit.text, RPM, ANGULAR_SPEED.dimension);
     }
     unit
 }
@@ -117,26 +137,20 @@ pub fn no_unit(number: &str, kind: &Kind) -> Fault {
     .label("no unit")
 }
 
-/// The unit of a plain number.
-fn plain() -> Unit {
-    let dimension = SHARE.dimension;
-    Unit {
-        text: String::new(),
-        scale: 1.0,
-        dimension,
-    }
-}
-
 /// A share written as a plain number.
 ///
 /// # Errors
 /// A number that is not finite or far too large.
 pub fn share(number: String) -> Result<Quantity, Fault> {
-    finish(number, plain(), &SHARE)
+    finish(number, Unit::plain(), &SHARE)
 }
 
 fn finish(number: String, unit: Unit, kind: &Kind) -> Result<Quantity, Fault> {
-    let si = scaled(&number, unit.scale);
+    let si = if unit.zero == 0.0 {
+        scaled(&number, unit.scale)
+    } else {
+        number.parse().map_or(f64::NAN, |number| unit.si(number))
+    };
     if !si.is_finite() {
         return Err(not_finite(kind));
     }

@@ -1,7 +1,8 @@
 //! Units as written: words with powers and at most one "/"; and cures for those that cannot be read.
 
 use super::fault::{Fault, closest};
-use super::word::{Dimension, EVERY, LISTED, Product, WORDS, Word};
+use super::kind::SHARE;
+use super::word::{Dimension, EVERY, FALL, GRAVITY, LISTED, Product, WEIGHED, WORDS, Word, raised};
 use crate::plain;
 
 /// A unit as read.
@@ -13,12 +14,54 @@ pub struct Unit {
     pub scale: f64,
     /// Its dimension.
     pub dimension: Dimension,
+    /// The number that is zero in SI: 32 for °F.
+    pub zero: f64,
+    /// Power of its pounds and ounces, which can be masses or forces.
+    pub(super) pounds: i8,
+}
+
+impl Unit {
+    /// A unit of this size and dimension.
+    pub(super) fn new(text: impl Into<String>, scale: f64, dimension: Dimension) -> Self {
+        Self {
+            text: text.into(),
+            scale,
+            dimension,
+            zero: 0.0,
+            pounds: 0,
+        }
+    }
+
+    /// The unit of a plain number.
+    pub fn plain() -> Self {
+        Self::new("", 1.0, SHARE.dimension)
+    }
+
+    /// The value (SI) of a number of this unit.
+    pub fn si(&self, number: f64) -> f64 {
+        (number - self.zero) * self.scale
+    }
+
+    /// The number of this unit with the value `si`.
+    pub fn number(&self, si: f64) -> f64 {
+        si / self.scale + self.zero
+    }
+
+    /// The unit with its pounds and ounces as forces: "lb in" is a torque. `None` if it has none.
+    pub(super) fn as_force(&self) -> Option<Self> {
+        (self.pounds != 0).then(|| Self {
+            scale: self.scale * raised(GRAVITY, self.pounds.into()),
+            dimension: self.dimension.times(FALL, self.pounds),
+            pounds: 0,
+            ..self.clone()
+        })
+    }
 }
 
 /// Units that are not accepted, and what to write instead.
-const FOREIGN: [(&[&str], &str); 17] = [
+const FOREIGN: [(&[&str], &str); 11] = [
     (&["h", "hr", "hour"], "1 h = 3600 s"),
-    (&["sec", "second", "seconds"], "seconds are \"s\""),
+    (&["second", "seconds"], "seconds are \"s\""),
     (
         &[
             "turns",
@@ -34,23 +77,17 @@ const FOREIGN: [(&[&str], &str); 17] = [
     ),
     (&["grad", "gon"], "1 gon = 0.9 deg"),
     (&["degrees", "Deg", "DEG", "Grad"], "degrees are \"deg\""),
-    (&["in", "inch", "inches", "\""], "1 in = 25.4 mm"),
-    (&["ft", "foot", "feet"], "1 ft = 304.8 mm"),
+    (&["inches", "\""], "inches are \"in\""),
+    (&["foot", "feet"], "feet are \"ft\""),
     (&["nm", "NM"], "newton metres are \"N m\""),
-    (&["lb", "lbs", "lbm"], "1 lb = 0.45359237 kg"),
-    (&["lbf"], "1 lbf = 4.4482216 N"),
-    (&["oz"], "1 oz = 28.349523 g"),
-    (&["ozf"], "1 ozf = 0.27801385 N"),
-    (&["kp", "kgf"], "1 kgf = 9.80665 N"),
-    (&["daN"], "1 daN = 10 N"),
     (
         &["J", "kJ"],
         "1 J = 1 N m = 1 W s; a torque is in \"N m\", an energy in \"W s\"",
     ),
     (&["percent", "pct"], "per cent is \"%\""),
     (
-        &["degF", "°F", "Fahrenheit", "fahrenheit"],
-        "a temperature in °F less 32, times 5/9, is one in \"degC\"",
+        &["Fahrenheit", "fahrenheit"],
+        "a temperature in °F is in \"degF\"",
     ),
 ];
 
@@ -77,6 +114,31 @@ pub fn read_listed(text: &str) -> Result<Unit, Fault> {
 /// Reads a unit that no file can have, for example "lb in^2", to convert it in a message.
 pub(super) fn read_every(text: &str) -> Option<Unit> {
     of_words(&spaced(text, EVERY), text, EVERY).ok()
+}
+
+/// A power of ten before or behind a unit in a header, and the unit: "x10-4 kgm2" is −4 and "kgm2".
+pub fn power_of_ten(tidy: &str) -> (i32, &str) {
+    // Others are refused as units: 10E-4 is 1e-3, but mostly 1e-4 is meant.
+    let exponent = |text: &str| {
+        let power = text
+            .strip_prefix('^')
+            .or_else(|| text.starts_with('-').then_some(text))?;
+        power.parse().ok().filter(|power: &i32| power.abs() <= 12)
+    };
+    let text = tidy.trim_start_matches(['x', '*']);
+    if let Some(rest) = text.strip_prefix("10").or_else(|| text.strip_prefix("1e")) {
+        let end = rest.find(|c: char| !(c.is_ascii_digit() || "^-".contains(c)));
+        let (power, unit) = rest.split_at(end.unwrap_or(rest.len()));
+        if let Some(power) = exponent(power) {
+            return (power, unit.trim_start_matches([' ', '*']));
+        }
+    }
+    let behind = tidy.rsplit_once(['x', '*', ' ']);
+    let behind = behind.and_then(|(unit, power)| {
+        let power = exponent(power.strip_prefix("10")?)?;
+        Some((power, unit.trim_end_matches([' ', '*', 'x'])))
+    });
+    behind.unwrap_or((0, tidy))
 }
 
 /// The words of units in machine files, with their dimensions.
@@ -119,14 +181,20 @@ fn slip(word: &str, known: &'static [Word]) -> Option<&'static str> {
 }
 
 fn of_words(text: &str, written: &str, words: &'static [Word]) -> Result<Unit, Fault> {
-    let mut product = Product::ONE;
-    for (word, power) in factors(text, words)? {
-        product = product.times(word, power);
+    let (mut product, mut pounds) = (Product::ONE, 0);
+    let factors = factors(text, words)?;
+    for (word, power) in &factors {
+        product = product.times(word, *power);
+        if WEIGHED.contains(&word.text) {
+            pounds += power;
+        }
     }
+    // In a product a degree is a difference of temperatures.
+    let is_fahrenheit = matches!(factors[..], [(Word { text: "degF", .. }, 1)]);
     Ok(Unit {
-        text: written.to_owned(),
-        scale: product.scale(),
-        dimension: product.dimension,
+        zero: if is_fahrenheit { 32.0 } else { 0.0 },
+        pounds,
+        ..Unit::new(written, product.scale(), product.dimension)
     })
 }
 
@@ -271,8 +339,10 @@ fn split(letters: &str, most: usize, known: &'static [Word]) -> Option<Vec<&'sta
     words.sort_by_key(|word| std::cmp::Reverse(word.len()));
     words.into_iter().find_map(|word| {
         let rest = letters.strip_prefix(word)?;
-        // In "Nmm", the millimetre is one word.
-        if word.ends_with("Nm") && rest.starts_with('m') {
+        // In "Nmm", the millimetre is one word, in "lbft" the foot.
+        let torn = word.ends_with("Nm") && rest.starts_with('m')
+            || matches!(word, "lbf" | "ozf") && rest.starts_with('t');
+        if torn {
             return None;
         }
         let rest = split(rest, most, known)?;
@@ -280,7 +350,8 @@ fn split(letters: &str, most: usize, known: &'static [Word]) -> Option<Vec<&'sta
     })
 }
 
-/// Unifies equivalent signs: · and × to *, also a point between letters, superscripts to ^, − to -, µ to u, ° to deg.
+/// Unifies equivalent signs: · and × to *, also a point or a hyphen between letters, superscripts and "-" before a power to ^, − to -, µ to u, ° to
+/// deg.
 pub fn tidy(text: &str) -> String {
     const SUPERSCRIPTS: &str = "⁰¹²³⁴⁵⁶⁷⁸⁹";
     let mut tidy = String::with_capacity(text.len());
@@ -289,7 +360,10 @@ pub fn tidy(text: &str) -> String {
     while let Some(c) = chars.next() {
         let between =
             |next: Option<&char>| before.is_alphabetic() && next.is_some_and(|c| c.is_alphabetic());
-        let multiplies = c == '.' && between(chars.peek());
+        let multiplies = matches!(c, '.' | '-') && between(chars.peek());
+        // The "e" of "1e-3" is no unit.
+        let inverts = c == '-' && before.is_alphabetic() && !matches!(before, 'e' | 'E');
+        let inverts = inverts && chars.peek().is_some_and(char::is_ascii_digit);
         before = c;
         let digit = SUPERSCRIPTS.chars().position(|s| s == c);
         let was_raised = std::mem::replace(&mut raised, digit.is_some() || c == '⁻');
@@ -299,7 +373,8 @@ pub fn tidy(text: &str) -> String {
         match c {
             '⁻' | '−' => tidy.push('-'),
             '·' | '⋅' | '×' | '∙' | '•' => tidy.push('*'),
-            '.' if multiplies => tidy.push('*'),
+            '.' | '-' if multiplies => tidy.push('*'),
+            '-' if inverts => tidy.push_str("^-"),
             'µ' | 'μ' => tidy.push('u'),
             '°' => tidy.push_str("deg"),
             '\u{2126}' | '\u{3a9}' => tidy.push_str("Ohm"),

@@ -25,7 +25,7 @@ pub struct Dimension {
 
 impl Dimension {
     /// This dimension times a power of another one.
-    const fn times(self, other: Self, power: i8) -> Self {
+    pub(super) const fn times(self, other: Self, power: i8) -> Self {
         const fn sum(one: i8, other: i8, power: i8) -> i8 {
             one.saturating_add(other.saturating_mul(power))
         }
@@ -85,6 +85,7 @@ const MASS: Dimension = powers([0, 1, 0, 0, 0, 0]);
 const TIME: Dimension = powers([0, 0, 1, 0, 0, 0]);
 const FORCE: Dimension = powers([1, 1, -2, 0, 0, 0]);
 const TORQUE: Dimension = powers([2, 1, -2, 0, 0, 0]);
+const PRESSURE: Dimension = powers([-1, 1, -2, 0, 0, 0]);
 const ANGLE: Dimension = powers([0, 0, 0, 1, 0, 0]);
 const ANGULAR_SPEED: Dimension = powers([0, 0, -1, 1, 0, 0]);
 const FREQUENCY: Dimension = powers([0, 0, -1, 0, 0, 0]);
@@ -99,7 +100,8 @@ const TEMPERATURE: Dimension = powers([0, 0, 0, 0, 0, 1]);
 
 /// All unit words: those of machine files, then those of data sheets only, then those that are only converted. A degree Celsius is as large as a
 /// kelvin; the zero of the scale is left to the reader of a temperature. An alternating current is given as its RMS value or its peak. A horsepower
-/// "hp" is the mechanical one, 550 ft·lbf/s; "PS" is the metric one, 75 kgf·m/s.
+/// "hp" is the mechanical one, 550 ft·lbf/s; "PS" is the metric one, 75 kgf·m/s. The pound "lb" and the ounce "oz" are masses; a
+/// [`Unit`](super::unit::Unit) can take them as forces.
 pub(super) const EVERY: &[Word] = &[
     ten("mm", -3, LENGTH),
     ten("m", 0, LENGTH),
@@ -155,35 +157,39 @@ pub(super) const EVERY: &[Word] = &[
     sized("turn", TAU, ANGLE),
     sized("rev", TAU, ANGLE),
     sized("hp", HORSEPOWER, POWER),
+    sized("HP", HORSEPOWER, POWER),
     sized("PS", 735.498_75, POWER),
+    sized("in", INCH, LENGTH),
+    sized("inch", INCH, LENGTH),
+    sized("ft", FOOT, LENGTH),
+    sized("lb", POUND, MASS),
+    sized("lbs", POUND, MASS),
+    sized("lbm", POUND, MASS),
+    sized("oz", POUND / 16.0, MASS),
+    sized("slug", SLUG, MASS),
+    sized("lbf", POUND_FORCE, FORCE),
+    sized("ozf", POUND_FORCE / 16.0, FORCE),
+    sized("kgf", GRAVITY, FORCE),
+    sized("kp", GRAVITY, FORCE),
+    ten("daN", 1, FORCE),
+    sized("psi", PSI, PRESSURE),
+    sized("degF", 5.0 / 9.0, TEMPERATURE),
+    ten("sec", 0, TIME),
     // Of data sheets only.
     ten("J", 0, TORQUE),
     ten("kJ", 3, TORQUE),
-    ten("sec", 0, TIME),
     sized("krpm", 1e3 * RPM, ANGULAR_SPEED),
     ten("ohm", 0, RESISTANCE),
     ten("Arms", 0, CURRENT),
     sized("Apeak", 1.0 / SQRT_2, CURRENT),
     // Only converted in messages.
     sized("h", 3600.0, TIME),
-    sized("in", INCH, LENGTH),
-    sized("inch", INCH, LENGTH),
-    sized("ft", 12.0 * INCH, LENGTH),
-    sized("lb", POUND, MASS),
-    sized("lbs", POUND, MASS),
-    sized("lbm", POUND, MASS),
-    sized("oz", POUND / 16.0, MASS),
-    sized("lbf", POUND * GRAVITY, FORCE),
-    sized("ozf", POUND / 16.0 * GRAVITY, FORCE),
-    sized("kgf", GRAVITY, FORCE),
-    sized("kp", GRAVITY, FORCE),
-    ten("daN", 1, FORCE),
     sized("gon", 0.9 * DEGREE, ANGLE),
 ];
 
 /// Number of words at the end of the list that are only converted, and of those for data sheets only before them.
-const CONVERTED: usize = 14;
-const OF_DATA_SHEETS: usize = 7;
+const CONVERTED: usize = 2;
+const OF_DATA_SHEETS: usize = 6;
 
 /// The words of data sheets and machine files.
 pub(super) const LISTED: &[Word] = EVERY.split_at(EVERY.len() - CONVERTED).0;
@@ -191,10 +197,22 @@ pub(super) const LISTED: &[Word] = EVERY.split_at(EVERY.len() - CONVERTED).0;
 /// The words of machine files.
 pub(super) const WORDS: &[Word] = LISTED.split_at(LISTED.len() - OF_DATA_SHEETS).0;
 
-/// The inch (m), the pound (kg) and the standard gravity (m/s²); all exact.
+/// The inch and the foot (m), the pound (kg) and the standard gravity (m/s²); all exact.
 const INCH: f64 = 0.0254;
+const FOOT: f64 = 0.3048;
 const POUND: f64 = 0.453_592_37;
-const GRAVITY: f64 = 9.80665;
+pub(super) const GRAVITY: f64 = 9.80665;
+
+/// The words that are a mass on scales and a force in "lb in".
+pub(super) const WEIGHED: [&str; 3] = ["lb", "lbs", "oz"];
+
+/// The dimension of gravity.
+pub(super) const FALL: Dimension = powers([1, 0, -2, 0, 0, 0]);
+
+/// The pound-force (N), lb·g_n; the slug (kg), lbf·s²/ft; the pound-force per square inch (Pa).
+const POUND_FORCE: f64 = 4.448_221_615_260_5;
+const SLUG: f64 = 14.593_902_937_206_364;
+const PSI: f64 = 6_894.757_293_168_362;
 
 /// 550 ft·lbf/s in W.
 const HORSEPOWER: f64 = 745.699_871_582_270_2;
@@ -229,7 +247,7 @@ impl Product {
 }
 
 /// x^power.
-const fn raised(x: f64, power: i32) -> f64 {
+pub(super) const fn raised(x: f64, power: i32) -> f64 {
     let (mut product, mut left) = (1.0, power.unsigned_abs());
     while left > 0 {
         product *= x;

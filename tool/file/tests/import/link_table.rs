@@ -237,3 +237,51 @@ fn the_edges_of_a_cam_stay() {
     assert!(own.len() > 2);
     assert_eq!(edges(&table, &[("loads.csv", &csv)]), own);
 }
+
+/// A force over the way of the slider that is largest at its end: of a spring that the slider meets at 340 mm, F = −20 N/mm·(x − 340 mm). It need not
+/// end at zero where the way ends, and a table that ends a little before keeps its last value.
+#[test]
+fn a_table_up_to_the_end_of_the_way_may_end_with_a_force() {
+    let load = "on = \"slider\"\nangle = \"0 deg\"\noutside = \"zero\"\n\
+                over = { point = \"slider\", along = \"x\" }";
+    let rows = |places: &[f64]| {
+        let rows = places
+            .iter()
+            .map(|x| format!("{x},{}\n", -20.0 * (x - 340.0)));
+        format!("x [mm],Force [N]\n{}", rows.collect::<String>())
+    };
+    let whole = with(load, &rows(&[340.0, 350.0, 360.0, 370.0, 380.0, 390.0]));
+    let short = with(load, &rows(&[340.0, 350.0, 360.0, 370.0, 380.0, 389.5]));
+    let mut held = 0;
+    for phi in places().chain([0.01, 0.05, -0.03]) {
+        let [x, way] = slider(phi);
+        let force = -20e3 * (x - 0.34).max(0.0);
+        let process = |file: &MachineFile| file.machine.reduction(phi).unwrap().process;
+        assert!(
+            (process(&whole) - force * way).abs() < 1e-9,
+            "{phi}: {force}"
+        );
+        let force = force.max(-20e3 * 0.0495);
+        assert!(
+            (process(&short) - force * way).abs() < 1e-9,
+            "{phi}: {force}"
+        );
+        held += usize::from(x > 0.3895);
+    }
+    assert!(held > 3);
+    let refused = |places: &[f64]| {
+        let load = format!("[[load]]\ntable = \"loads.csv\"\n{load}\n");
+        let text = oblique_slider_crank("4 kg", &load);
+        format!(
+            "{:?}",
+            parse(&text, &[("loads.csv", &rows(places))]).unwrap_err()
+        )
+    };
+    let early = refused(&[340.0, 350.0, 360.0, 370.0, 380.0]);
+    assert!(
+        early.contains("a jump") && early.contains("390 mm"),
+        "{early}"
+    );
+    let late = refused(&[350.0, 360.0, 370.0, 380.0, 390.0]);
+    assert!(late.contains("a jump") && late.contains("210 mm"), "{late}");
+}

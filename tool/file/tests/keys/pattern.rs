@@ -4,7 +4,7 @@
 //! accepts a few more, such as "kg m^2/s^2" for a torque.
 
 use jred_file::units::Dimension;
-use jred_file::units::kind::{ANGULAR_SPEED, Kind, SHARE, TEMPERATURE};
+use jred_file::units::kind::{ANGULAR_SPEED, FORCE, Kind, SHARE, TEMPERATURE};
 use jred_file::units::unit::{all_words, read};
 
 const SIGN: &str = "[+−-]?";
@@ -12,7 +12,7 @@ const NO_MINUS: &str = "\\+?";
 const NUMBER: &str = "(?:[0-9]+\\.?[0-9]*|\\.[0-9]+)(?:[eE][+−-]?[0-9]+| *[*·⋅×∙•] *10 *(?:\\^ *[+−-]?[0-9]+|⁻?[⁰¹²³⁴⁵⁶⁷⁸⁹]+))?";
 /// Between number and unit, and between the words of a unit.
 const GAP: &str = "[ *·⋅×∙•]*";
-const BETWEEN: &str = "[ *·⋅×∙•.]*";
+const BETWEEN: &str = "[ *·⋅×∙•.-]*";
 
 /// A text that is a quantity of one of the kinds, without a minus if `unsigned`.
 pub(super) fn quantity(kinds: &[&Kind], unsigned: bool) -> String {
@@ -53,7 +53,7 @@ fn units_of(kind: &Kind) -> Vec<String> {
     let units = forms.iter().map(|form| written(form, free));
     let mut units: Vec<_> = units.filter(|unit| !unit.is_empty()).collect();
     if kind.dimension == ANGULAR_SPEED.dimension {
-        units.push("RPM|Rpm|(?:U|r|turns|1) */ *min|min *(?:\\^ *-1|⁻¹)".to_owned());
+        units.push("RPM|Rpm|(?:U|r|turns|1) */ *min|min(?: *\\^ *-1|-1| *⁻¹)".to_owned());
     }
     units
 }
@@ -79,10 +79,15 @@ fn word(of: Dimension) -> String {
     let words = all_words().filter(|(text, dimension)| {
         *dimension == of && (of != TEMPERATURE.dimension || *text != "K")
     });
+    // A pound or an ounce is a force, too.
+    let weights = ["lbs", "lb", "oz"].map(|text| (text, of));
+    let weights = weights.into_iter().filter(|_| of == FORCE.dimension);
+    let words = words.chain(weights);
     let words: Vec<_> = words
         .map(|(text, _)| match text {
             "deg" => "deg|°".to_owned(),
             "degC" => "degC|°C".to_owned(),
+            "degF" => "degF|°F".to_owned(),
             "arcmin" => "arcmin".to_owned(),
             _ if text.ends_with("Ohm") => text.replace("Ohm", "(?:Ohm|\u{2126}|\u{3a9})"),
             _ => match text.strip_prefix('u') {

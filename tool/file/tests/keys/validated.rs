@@ -195,6 +195,8 @@ fn patterns_accept_what_people_write() {
                 ".5 um",
                 "2*10^-3 m",
                 "−4 cm",
+                "3 in",
+                "1.5 ft",
             ],
         ),
         (
@@ -207,11 +209,25 @@ fn patterns_accept_what_people_write() {
                 "1.2e3 m N",
                 "3 N.m",
                 "4×10^2 mNm",
+                "12 lb in",
+                "12 in-lb",
+                "12 oz-in",
+                "3 ft lbf",
+                "3 kgf m",
             ],
         ),
         (
             &INERTIA,
-            &["2.4 kg cm^2", "2 kgcm2", "3 kg·m²", "5 g mm ^2", "7 m^2 kg"],
+            &[
+                "2.4 kg cm^2",
+                "2 kgcm2",
+                "3 kg·m²",
+                "5 g mm ^2",
+                "7 m^2 kg",
+                "2 lb in s^2",
+                "2 oz-in-s²",
+                "2 lb in^2",
+            ],
         ),
         (
             &ANGULAR_SPEED,
@@ -220,6 +236,7 @@ fn patterns_accept_what_people_write() {
                 "60 RPM",
                 "60 1/min",
                 "60 min^-1",
+                "60 min-1",
                 "60 min⁻¹",
                 "3 rad/s",
                 "9 deg / s",
@@ -240,7 +257,10 @@ fn patterns_accept_what_people_write() {
             ],
         ),
         (&SHARE, &["97 %", "97%", "0.97", "1e-2"]),
-        (&TEMPERATURE, &["40 degC", "40 °C", "-5 C"]),
+        (
+            &TEMPERATURE,
+            &["40 degC", "40 °C", "-5 C", "104 degF", "104 °F"],
+        ),
         (&ANGLE, &["30 deg", "30°", "2 rev", "4 arcmin", "1 mrad"]),
     ];
     for (kind, texts) in good {
@@ -252,14 +272,15 @@ fn patterns_accept_what_people_write() {
         (
             &LENGTH,
             &[
-                "80", "80 kg", "80 mm 5", "80 Mm", "80,5 mm", "mm", "80 mm^2", "1 1 mm", "", "3 in",
+                "80", "80 kg", "80 mm 5", "80 Mm", "80,5 mm", "mm", "80 mm^2", "1 1 mm", "",
+                "3 inches",
             ],
         ),
         (&TORQUE, &["12 N", "12 N m^2", "12 N/m", "12 J", "12 nm"]),
         (&ANGULAR_SPEED, &["60 Hz", "60 1/s", "60 rad", "60 rad/s^2"]),
         (&TEMPERATURE, &["300 K", "40", "40 F"]),
         (&SHARE, &["97 percent", "97 deg"]),
-        (&FORCE, &["12 kg", "12 N m", "1/2 N", "12 kp"]),
+        (&FORCE, &["12 kg", "12 N m", "1/2 N", "12 psi"]),
     ];
     for (kind, texts) in bad {
         for text in texts {

@@ -23,7 +23,7 @@ impl Answer<'_> {
         let mut text = String::new();
         screen.fill(&mut text, "", INDENT, &self.title);
         text.push('\n');
-        for (k, block) in self.blocks.iter().enumerate() {
+        for (k, block) in self.shown().iter().enumerate() {
             match block {
                 Block::Heading(heading) => {
                     if k > 0 {

@@ -3,6 +3,7 @@
 use super::sketch::{BodyPart, Sketch};
 use crate::plot::WIDTH;
 use crate::plot::svg::{Anchor, Ink, Svg};
+use crate::units;
 use jred_file::number::rounding::rounded;
 
 /// Margin around the drawing (px) for bearings, blocks and labels.
@@ -109,6 +110,7 @@ impl View {
                 &ink,
             );
             let words = format!("{} mm", rounded(length * 1e3));
+            let words = units::text(&words);
             let middle = [0.5 * (14.0 + end), base - 7.0];
             svg.text(
                 middle,

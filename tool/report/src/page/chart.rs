@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use crate::plot::{Axes, Series, Style, colour, dashes, lines, lines_two_axes};
+use crate::plot::{Axes, Series, Style, colour, dashes, in_units, lines, lines_two_axes};
 
 /// A chart.
 pub(super) struct Chart {
@@ -38,7 +38,9 @@ impl Chart {
     pub(super) fn new(form: ChartKind, axes: &Axes, series: &[Series]) -> Self {
         Self {
             svg: lines(axes, series),
-            data: data(form, axes, "", series, &[]),
+            data: in_units(axes, series, None, |axes, left, right| {
+                data(form, axes, left, right)
+            }),
         }
     }
 
@@ -46,7 +48,9 @@ impl Chart {
     pub(super) fn two_axes(axes: &Axes, left: &[Series], label: &str, right: &[Series]) -> Self {
         Self {
             svg: lines_two_axes(axes, left, label, right),
-            data: data(ChartKind::Course, axes, label, left, right),
+            data: in_units(axes, left, Some((label, right)), |axes, left, right| {
+                data(ChartKind::Course, axes, left, right)
+            }),
         }
     }
 
@@ -65,13 +69,8 @@ impl Chart {
 }
 
 /// Series with the same abscissae share one list of them.
-fn data(
-    form: ChartKind,
-    axes: &Axes,
-    right_label: &str,
-    left: &[Series],
-    right: &[Series],
-) -> Value {
+fn data(form: ChartKind, axes: &Axes, left: &[Series], second: Option<(&str, &[Series])>) -> Value {
+    let (right_label, right) = second.unwrap_or_default();
     let mut places: Vec<Value> = Vec::new();
     let mut one = |index: usize, series: &Series, right: bool| {
         let style = match series.style {

@@ -32,7 +32,7 @@ struct Page<'a> {
     last: usize,
     symbol: &'static str,
     unit: &'static str,
-    blocks: &'a [Block],
+    blocks: Vec<Block>,
     sections: Vec<Section>,
 }
 
@@ -111,7 +111,7 @@ pub fn mechanism_page(
         last: drawing::PICTURES - 1,
         symbol: source.coordinate.symbol(),
         unit: source.coordinate.unit(),
-        blocks: &check.blocks,
+        blocks: check.shown(),
         sections,
     };
     // Rendering into a string fails only for a wrong template, which the tests show.

@@ -4,6 +4,7 @@ use askama::Template;
 
 use crate::answer::{Answer, Block};
 use crate::plot::{Axes, Axis, lines};
+use crate::units;
 use jred_file::model::machine::MachineFile;
 use jred_file::number::columns::{Column, ColumnQuantity, Columns};
 
@@ -47,7 +48,7 @@ impl Section {
         let mut answer = Answer::words("");
         write(&mut answer);
         Self {
-            blocks: answer.blocks,
+            blocks: answer.shown(),
             ..Self::new(heading, Vec::new())
         }
     }
@@ -55,8 +56,11 @@ impl Section {
 
 impl Figure {
     pub(super) fn new(svg: String, caption: impl Into<String>) -> Self {
-        let (caption, data) = (caption.into(), String::new());
-        Self { svg, data, caption }
+        Self {
+            svg,
+            data: String::new(),
+            caption: units::text(&caption.into()).into_owned(),
+        }
     }
 
     /// A chart that the page's script draws once more.
@@ -80,7 +84,7 @@ pub(super) struct Page<'a> {
     pub(super) file: &'a str,
     /// Class of the first blocks; empty: they have none.
     pub(super) class: &'static str,
-    pub(super) blocks: &'a [Block],
+    pub(super) blocks: Vec<Block>,
     pub(super) sections: Vec<Section>,
 }
 
@@ -98,7 +102,7 @@ impl<'a> Page<'a> {
             version: env!("CARGO_PKG_VERSION"),
             file: &file.name,
             class: "",
-            blocks: &answer.blocks,
+            blocks: answer.shown(),
             sections,
         }
     }

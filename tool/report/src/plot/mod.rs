@@ -4,6 +4,7 @@ use legend::Legend;
 use scale::{Span, nice_step, range, usable};
 use svg::{Anchor, Ink, Svg};
 
+use crate::units;
 use jred_file::model::coordinate::Coordinate;
 
 mod legend;
@@ -93,13 +94,56 @@ impl<'a> Axis<'a> {
 /// Draws curves and clouds of dots over one pair of axes.
 #[must_use]
 pub fn lines(axes: &Axes, series: &[Series]) -> String {
-    draw(axes, series, None)
+    in_units(axes, series, None, draw)
 }
 
 /// Draws `left` and `right` with a vertical axis each. Both axes have the same number of intervals and share the grid.
 #[must_use]
 pub fn lines_two_axes(axes: &Axes, left: &[Series], right_label: &str, right: &[Series]) -> String {
-    draw(axes, left, Some((right_label, right)))
+    in_units(axes, left, Some((right_label, right)), draw)
+}
+
+/// The curves of a second vertical axis, with its label.
+type Second<'a, 'b> = Option<(&'a str, &'a [Series<'b>])>;
+
+/// Calls `draw` with axes and curves in the units of results: a label with a unit converts the numbers along its axis.
+pub(crate) fn in_units<T>(
+    axes: &Axes,
+    left: &[Series],
+    second: Second,
+    draw: impl FnOnce(&Axes, &[Series], Second) -> T,
+) -> T {
+    if units::is_si() {
+        return draw(axes, left, second);
+    }
+    let (right_label, right) = second.unwrap_or_default();
+    let [x, y, y2] = [axes.x.label, axes.y, right_label].map(units::title);
+    let names = |series: &[Series]| -> Vec<String> {
+        let names = series.iter().map(|curve| units::title(curve.name));
+        names.map(|(name, _)| name.into_owned()).collect()
+    };
+    let all = [names(left), names(right)];
+    let of = |own: Option<&units::Conversion>, x: f64| own.map_or(x, |own| own.of(x));
+    let [first, others] =
+        [(left, &all[0], y.1), (right, &all[1], y2.1)].map(|(curves, names, own)| {
+            let curves = curves.iter().zip(names).map(|(curve, name)| Series {
+                name,
+                points: (curve.points.iter())
+                    .map(|point| (of(x.1, point.0), of(own, point.1)))
+                    .collect(),
+                style: curve.style,
+            });
+            curves.collect::<Vec<_>>()
+        });
+    let axes = Axes {
+        title: axes.title,
+        x: Axis {
+            label: &x.0,
+            ..axes.x
+        },
+        y: &y.0,
+    };
+    draw(&axes, &first, second.map(|_| (&*y2.0, &*others)))
 }
 
 /// A vertical axis with its wrapped name and its numbers.

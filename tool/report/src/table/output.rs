@@ -4,6 +4,7 @@ use comfy_table::{CellAlignment, ContentArrangement, LineStyle, TableStyle};
 use serde_json::{Map, Value, json};
 
 use super::json::split_at_entry;
+use crate::units;
 use jred_file::number::columns::{ColumnQuantity, Columns};
 use jred_file::number::csv;
 use jred_file::number::rounding::rounded;
@@ -30,6 +31,18 @@ const PART: usize = 4096;
 
 /// The same in parts of some thousand rows; the text of a million rows is many times larger than the rows.
 pub fn parts<'c>(
+    columns: &'c Columns,
+    format: Format,
+    title: &str,
+) -> Box<dyn Iterator<Item = String> + 'c> {
+    if format != Format::Json && !units::is_si() {
+        let shown = units::columns(columns);
+        return Box::new(std::iter::once(rendered(&shown, format, title).collect()));
+    }
+    rendered(columns, format, title)
+}
+
+fn rendered<'c>(
     columns: &'c Columns,
     format: Format,
     title: &str,

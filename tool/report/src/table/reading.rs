@@ -1,10 +1,13 @@
 //! A table of mixed cells, numbers and words, for reading.
 
+use std::borrow::Cow;
+
 use comfy_table::{CellAlignment, ColumnConstraint, ContentArrangement};
 
 use super::rows::csv_line;
 use super::screen::Screen;
 use crate::table::output::text_table;
+use crate::units;
 use jred_file::model::rules::RuleVerdict;
 use jred_file::number::rounding::significant;
 use jred_sizing::cell::Cell;
@@ -47,6 +50,37 @@ pub struct Reading {
 }
 
 impl Reading {
+    /// The table in the units of results. A row without units in the header may have one in its first cell.
+    pub(crate) fn shown(&self) -> Cow<'_, Self> {
+        if units::is_si() {
+            return Cow::Borrowed(self);
+        }
+        let titles: Vec<_> = self.columns.iter().map(|name| units::title(name)).collect();
+        let rows = self.rows.iter().map(|row| {
+            let label = match row.first() {
+                Some(Cell::Text(words)) => units::title(words),
+                _ => ("".into(), None),
+            };
+            let cells = row.iter().enumerate().map(|(k, cell)| {
+                let own = titles.get(k).and_then(|(_, own)| *own).or(label.1);
+                match (cell, own) {
+                    (Cell::Number(x), Some(own)) => Cell::Number(own.of(*x)),
+                    (Cell::Text(_), _) if k == 0 && label.1.is_some() => {
+                        Cell::Text(label.0.to_string())
+                    }
+                    (Cell::Text(words), own) => Cell::Text(units::cell(words, own)),
+                    _ => cell.clone(),
+                }
+            });
+            cells.collect()
+        });
+        Cow::Owned(Self {
+            rows: rows.collect(),
+            columns: titles.iter().map(|(name, _)| name.to_string()).collect(),
+            ..self.clone()
+        })
+    }
+
     /// The rows as text for reading.
     pub(crate) fn cells(&self) -> impl Iterator<Item = Vec<String>> {
         self.rows.iter().map(|row| {

@@ -3,6 +3,7 @@
 use serde_json::{Map, Value};
 
 use crate::table::output::text_table;
+use crate::units;
 use jred_file::number::csv;
 use jred_file::number::rounding::rounded;
 use jred_sizing::cell::Cell;
@@ -140,15 +141,19 @@ pub fn csv_line(cells: impl Iterator<Item = Cell>) -> String {
 
 /// Rows as a table for reading.
 pub fn table(columns: &[String], rows: &[(u64, Vec<Cell>)]) -> String {
-    let names = columns.iter().cloned();
+    let titles: Vec<_> = columns.iter().map(|name| units::title(name)).collect();
+    let names = titles.iter().map(|(name, _)| name.to_string());
     let header: Vec<String> = std::iter::once("row".to_owned()).chain(names).collect();
     let mut table = text_table(&header);
     for (index, cells) in rows {
-        let texts = cells.iter().map(|cell| match cell {
-            Cell::Empty => String::new(),
-            Cell::Number(x) if x.is_infinite() => csv::number(*x),
-            Cell::Number(x) => rounded(*x),
-            Cell::Text(text) => text.clone(),
+        let texts = cells.iter().enumerate().map(|(k, cell)| {
+            let own = titles.get(k).and_then(|(_, own)| *own);
+            match cell {
+                Cell::Empty => String::new(),
+                Cell::Number(x) if x.is_infinite() => csv::number(*x),
+                Cell::Number(x) => rounded(own.map_or(*x, |own| own.of(*x))),
+                Cell::Text(text) => units::cell(text, own),
+            }
         });
         table.add_row(std::iter::once(index.to_string()).chain(texts));
     }

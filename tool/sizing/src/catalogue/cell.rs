@@ -15,6 +15,8 @@ pub(super) struct TableCell<'t> {
     pub(super) text: &'t str,
     /// The unit, if the cell is a number.
     pub(super) unit: Option<&'t Unit>,
+    /// The separator of the cells: if it is no comma, the decimal sign may be one.
+    pub(super) separator: char,
 }
 
 /// Splits "3.2 N m" into number and unit.
@@ -37,8 +39,12 @@ pub(super) fn number_and_unit(text: &str, holds: CellContent) -> Result<(String,
 fn quantity(text: &str, holds: CellContent) -> Result<(f64, MotorScope), Fault> {
     let (number, unit) = number_and_unit(text, holds)?;
     match number.parse::<f64>() {
-        Ok(value) if (value * unit.si).abs() > unit.range[1] => {
-            let most = format!("{} {}", figure(unit.range[1] / unit.si), unit.text);
+        Ok(value) if unit.measure.si(value).abs() > unit.range[1] => {
+            let most = format!(
+                "{} {}",
+                figure(unit.measure.number(unit.range[1])),
+                unit.text
+            );
             Err(Fault::new(
                 "is too large for any drive",
                 format!(
@@ -47,7 +53,7 @@ fn quantity(text: &str, holds: CellContent) -> Result<(f64, MotorScope), Fault> 
                 ),
             ))
         }
-        Ok(value) if value.is_finite() => Ok((value * unit.si, unit.motors)),
+        Ok(value) if value.is_finite() => Ok((unit.measure.si(value), unit.motors)),
         _ => Err(Fault::new("is not a finite number", NUMBER_CURE)),
     }
 }

@@ -4,6 +4,7 @@ use jred_file::plain;
 use jred_file::units::Fault;
 use jred_file::units::kind as units;
 use jred_file::units::quantity::unit_of;
+use jred_file::units::unit;
 
 /// A table of the catalogue.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -59,8 +60,8 @@ pub(super) enum MotorScope {
 #[derive(Debug)]
 pub(super) struct Unit {
     pub(super) text: String,
-    /// Its SI value.
-    pub(super) si: f64,
+    /// Its value in SI.
+    pub(super) measure: unit::Unit,
     pub(super) motors: MotorScope,
     /// The smallest positive and the largest value (SI). Others are mistakes and lead to infinite figures.
     pub(super) range: [f64; 2],
@@ -108,27 +109,28 @@ impl CellContent {
             let shown = plain::cut(text);
             Err(Fault::new(format!("has the unit \"{shown}\""), cure))
         };
-        let (si, motors, range) = match self {
+        let plain = unit::Unit::plain;
+        let (measure, motors, range) = match self {
             Self::Hourly if ["/h", "1/h", "per hour"].contains(&text) => {
-                (1.0, MotorScope::Any, PLAIN)
+                (plain(), MotorScope::Any, PLAIN)
             }
             Self::Hourly => return foreign("write cycles per hour: \"1000/h\""),
-            Self::Of([]) if text.is_empty() => (1.0, MotorScope::Any, PLAIN),
+            Self::Of([]) if text.is_empty() => (plain(), MotorScope::Any, PLAIN),
             Self::Of([]) => return foreign("write it without a unit"),
             Self::Of(kinds) => {
-                let (unit, kind) = unit_of(text, kinds)?;
+                let (measure, kind) = unit_of(text, kinds)?;
                 let motors = [MotorScope::Rotary, MotorScope::Linear]
                     .into_iter()
                     .nth(kind);
                 let motors = motors.filter(|_| kinds.len() > 1);
                 let range = kinds.get(kind).map_or(PLAIN, |k| [k.smallest, k.largest]);
-                (unit.scale, motors.unwrap_or(MotorScope::Any), range)
+                (measure, motors.unwrap_or(MotorScope::Any), range)
             }
         };
         let text = text.to_owned();
         Ok(Unit {
             text,
-            si,
+            measure,
             motors,
             range,
         })

@@ -164,7 +164,7 @@ impl Value<'_> {
 }
 
 fn scale(holds: CellContent, unit: &str) -> f64 {
-    holds.unit(unit).map_or(1.0, |unit| unit.si)
+    holds.unit(unit).map_or(1.0, |unit| unit.measure.scale)
 }
 
 fn yes(is: bool) -> Value<'static> {

@@ -5,6 +5,7 @@ use std::ops::Range;
 
 use jred_file::number::rounding::figure;
 use jred_file::plain;
+use jred_file::text::csv;
 use jred_file::text::problem::Problem;
 use jred_file::units::quantity::possible_units;
 
@@ -222,7 +223,12 @@ impl<'t> CatalogueRow<'t> {
         least: f64,
         label: &'static str,
     ) -> Result<Option<f64>, Problem> {
-        let Some(TableCell { text, unit }) = self.cells.cell(column) else {
+        let Some(TableCell {
+            text,
+            unit,
+            separator,
+        }) = self.cells.cell(column)
+        else {
             return Ok(None);
         };
         if let Some(unit) = unit
@@ -245,15 +251,14 @@ impl<'t> CatalogueRow<'t> {
                 ),
             ));
         }
-        let value = text.parse::<f64>().ok().filter(|value| value.is_finite());
-        match value {
-            Some(value) if value > least => {
-                let scale = unit.map_or(1.0, |unit| unit.si);
+        let si = |value: f64| unit.map_or(value, |unit| unit.measure.si(value));
+        match csv::number_of(text, separator) {
+            Some(value) if si(value) > least => {
                 self.plausible(column, value, unit, least >= 0.0)?;
-                Ok(Some(value * scale))
+                Ok(Some(si(value)))
             }
             _ => {
-                let cure = if text.contains(',') {
+                let cure = if text.contains(',') && !text.contains('.') {
                     format!("{NUMBER_CURE}: \"{}\"", plain::cut(text).replace(',', "."))
                 } else {
                     match self.form() {
@@ -284,10 +289,11 @@ impl<'t> CatalogueRow<'t> {
             Some(unit) => unit.range,
             None => PLAIN,
         };
-        let (scale, text) = unit.map_or((1.0, ""), |unit| (unit.si, unit.text.as_str()));
+        let text = unit.map_or("", |unit| unit.text.as_str());
+        let si = unit.map_or(value, |unit| unit.measure.si(value));
         let shown = |value: f64| format!("{} {text}", figure(value)).trim_end().to_owned();
         let fault = |what: &str, bound: &str, limit: f64| {
-            let limit = shown(limit / scale);
+            let limit = shown(unit.map_or(limit, |unit| unit.measure.number(limit)));
             self.fault(
                 column,
                 &format!(
@@ -299,10 +305,12 @@ impl<'t> CatalogueRow<'t> {
                 format!("{bound} {limit} is accepted: check the number and its unit"),
             )
         };
-        match value * scale {
-            si if si > largest => Err(fault("large", "at most", largest)),
-            si if above_zero && si < smallest => Err(fault("small", "at least", smallest)),
-            _ => Ok(()),
+        if si > largest {
+            Err(fault("large", "at most", largest))
+        } else if above_zero && si < smallest {
+            Err(fault("small", "at least", smallest))
+        } else {
+            Ok(())
         }
     }
 

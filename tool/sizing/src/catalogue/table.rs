@@ -108,6 +108,7 @@ impl Cells for CatalogueTable<'_> {
         (!text.is_empty()).then_some(TableCell {
             text,
             unit: Some(unit),
+            separator: self.csv.separator(),
         })
     }
 

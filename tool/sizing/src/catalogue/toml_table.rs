@@ -34,6 +34,7 @@ impl Cells for TomlRow {
         (!found.text.is_empty()).then_some(TableCell {
             text: &found.text,
             unit: found.unit.as_ref(),
+            separator: ',',
         })
     }
 

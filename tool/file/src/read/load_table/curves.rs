@@ -1,5 +1,7 @@
 //! The rows of a load table, and the curves through them.
 
+use jred::Domain;
+
 use super::Target;
 use crate::model::coordinate::Coordinate;
 use crate::model::virtual_link::{Direction, LinkCurve, LoadTable, TableVariable, VirtualLink};
@@ -25,6 +27,9 @@ const GAP: f64 = 20.0;
 
 /// Share of a column's largest value by which a smooth curve may exceed all its rows: through a step it exceeds them by 11 %.
 const SWING: f64 = 0.1;
+
+/// Share of its last step by which a table may miss the end of the stroke: people round it.
+const REST: f64 = 0.1;
 
 type Result<T> = std::result::Result<T, CsvFault>;
 
@@ -93,7 +98,6 @@ pub(super) fn read(text: &str, target: &Target) -> Result<Vec<VirtualLink>> {
     let format = Format {
         known: &known,
         ignored: |_| false,
-        of_log: false,
         example,
         min_rows: MIN_POINTS,
     };
@@ -106,8 +110,7 @@ pub(super) fn read(text: &str, target: &Target) -> Result<Vec<VirtualLink>> {
             ))
     };
     if columns.get(POSITION).is_none() {
-        let message = "the column for the position is missing";
-        return Err(columns.lacks(message, text, example).into());
+        return Err(header("the column for the position is missing".into()).into());
     }
     let has = |column: usize| columns.get(column).is_some();
     for (column, name) in [(PAYLOAD, "Payload"), (TORQUE_COLUMN, "Torque")] {
@@ -146,8 +149,7 @@ pub(super) fn read(text: &str, target: &Target) -> Result<Vec<VirtualLink>> {
     };
     let stand_ins = rows.stand_ins()?;
     if stand_ins.is_empty() {
-        let message = "there is no column other than the position";
-        return Err(columns.lacks(message, text, example).into());
+        return Err(header("there is no column other than the position".into()).into());
     }
     Ok(stand_ins)
 }
@@ -293,15 +295,41 @@ impl Sheet<'_> {
         })
     }
 
-    /// Checks that rows over a part of the range begin and end with zero.
+    /// Whether the first and the last row reach the end of the stroke or way, up to [`REST`], over which the row's value acts.
+    fn reaches(&self) -> [bool; 2] {
+        match (self.target.rows.domain, self.positions.x()) {
+            (Domain::Stroke { from, to }, [first, second, .., before, last]) => {
+                let rest = [first - from, to - last];
+                let step = [second - first, last - before];
+                [0, 1].map(|end| rest[end] <= REST * step[end])
+            }
+            _ => [false; 2],
+        }
+    }
+
+    /// Checks that rows over a part of the range begin and end with zero, unless they reach the end of the stroke.
     fn check_ends(&self, column: usize, values: &[f64]) -> Result<()> {
         let last = values.len().saturating_sub(1);
-        for (row, value) in [(0, values.first()), (last, values.last())] {
-            if self.target.rows.partly && value.is_some_and(|value| *value != 0.0) {
+        let ends = [(0, values.first()), (last, values.last())];
+        for ((row, value), reaches) in ends.into_iter().zip(self.reaches()) {
+            if self.target.rows.partly && !reaches && value.is_some_and(|value| *value != 0.0) {
+                let to_end = match self.target.rows.domain {
+                    Domain::Turn => String::new(),
+                    Domain::Stroke { from, to } => {
+                        let end = if row == 0 { from } else { to };
+                        let end = self.columns.shown(POSITION, end);
+                        format!(
+                            "; or give rows up to the end of the way of {}, {end}, where a force need not be zero",
+                            self.target.rows.of
+                        )
+                    }
+                };
                 return Err(self
                     .columns
                     .problem(column, row, "is next to the end of the table, outside of which it is zero: a jump")
-                    .help("begin and end the rows with zero: add a row where it has fallen to nothing")
+                    .help(format!(
+                        "begin and end the rows with zero: add a row where it has fallen to nothing{to_end}"
+                    ))
                     .into());
             }
         }
@@ -312,11 +340,14 @@ impl Sheet<'_> {
     fn smooth(&self, column: usize, values: &[f64]) -> Result<Spline> {
         self.check_ends(column, values)?;
         self.check_gaps(column, values)?;
+        let rests = [values.first(), values.last()]
+            .iter()
+            .all(|end| *end == Some(&0.0));
         let way = match &self.target.way {
             Some((_, FitMethod::Monotone)) => {
                 return Ok(self.positions.curve(values, FitMethod::Monotone)?);
             }
-            _ if self.target.rows.partly => FitMethod::Level,
+            _ if self.target.rows.partly && rests => FitMethod::Level,
             _ => FitMethod::Interpolating,
         };
         let curve = self.positions.curve(values, way)?;
