@@ -1,10 +1,12 @@
 //! Data of other programs: reduced curves, tables of loads, recorded motions.
 
+mod cams;
 mod curves;
 mod faults;
 mod forms;
 mod link_table;
 mod recordings;
+mod slips;
 
 use crate::reading::parse_with as parse;
 use jred_file::model::machine::MachineFile;

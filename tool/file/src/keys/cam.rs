@@ -6,7 +6,7 @@ use super::inner;
 use super::motion::{LAWS, LAYOUT, SHARES};
 use super::parts::{LINK, SWING};
 use crate::text::key::{ValueForm, Key, ValueRange, POSITION, KeyTable, key, may, of_axis, pair, quantity};
-use crate::units::kind::{ANGLE, CAM_ACCELERATION, CAM_TURNING, CAM_VELOCITY, FORCE, INERTIA, LENGTH, MASS, SHARE, STIFFNESS, TORQUE, TORSION_STIFFNESS};
+use crate::units::kind::{ANGLE, ANGULAR_SPEED, CAM_ACCELERATION, CAM_TURNING, CAM_VELOCITY, FORCE, INERTIA, LENGTH, MASS, SHARE, STIFFNESS, TORQUE, TORSION_STIFFNESS};
 
 /// The laws of a cam: those from rest to rest, and further ones.
 pub(crate) const CAM_LAWS: [&str; 12] = [
@@ -72,6 +72,7 @@ pub(crate) static DISC_CAM: KeyTable = KeyTable::of("disc-cam", &[&[
         .such_as(" once for each rise = \"…\", return = \"…\" and dwell = \"…\""),
     may("lift", ValueForm::File, "relative to the machine file: the [lift over the angle](#table), instead of segments"),
     may("lift_within", of_axis(POSITION).positive(), "how far the program may miss the table (0.1 % of the stroke)"),
+    may("lift_speed", quantity(&ANGULAR_SPEED).positive(), "of the cam for which the table gives velocities and accelerations over the time"),
     LAYOUT[0].meaning("titles of the [columns](import.md#csv) `angle`, `lift`, `slope`, `bend`"),
     LAYOUT[1], LAYOUT[2], LAYOUT[3],
     SWING.meaning("rising, less than a turn: only of a cam with `closure = \"form\"` (full turn)"),

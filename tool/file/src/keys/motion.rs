@@ -95,9 +95,12 @@ const OF_PROFILE: &[Key] = &with([
     may("smoothing", quantity(&CUTOFF).positive(), "at which the amplitude is halved"),
     may("close_within", of_axis(POSITION).positive(), "how far a cycle may miss its end (1e-5 of a turn or of the stroke)"),
     may("master_speed", quantity(&ANGULAR_SPEED).positive(), "of the master of an [electronic cam](import.md#master)"),
+    may("master_time", quantity(&TIME).positive(), "instead: in which the master passes its table"),
     LAYOUT[0].meaning("titles of the [columns](import.md#csv) `time`, `position`, `speed`, `acceleration`, `master`, `slope`, `bend`"),
     LAYOUT[1], LAYOUT[2], LAYOUT[3],
 ], PROFILE);
+
+const MASTER: &[(&[&str], &str)] = &[(&["master_speed", "master_time"], "give the speed of the master, or the time in which it passes its table")];
 
 const TOOL: &[(&str, &str)] = &[
     ("point", "a motion of the tool is written of = { point = \"slider\", along = \"x\" }"),
@@ -113,12 +116,12 @@ pub(crate) static MOTION: KeyTable = KeyTable::of("motion", &[&[
     START,
     key("speed", of_axis(SPEED), "not zero; negative is clockwise").only(&["constant-speed"]),
     OF_SEGMENTS,
-], OF_PROFILE]).by("type").elsewhere(TOOL);
+], OF_PROFILE]).by("type").either(MASTER).elsewhere(TOOL);
 
 /// The motion of a second axis.
 pub(super) static OF_CARRIAGE: KeyTable = KeyTable::of("carriage.motion", &[&[
     key("type", ValueForm::Words(&["cycle", "point-to-point", "profile"]), "").such_as("\"cycle\""),
     START,
     OF_SEGMENTS,
-], OF_PROFILE]).by("type").elsewhere(TOOL);
+], OF_PROFILE]).by("type").either(MASTER).elsewhere(TOOL);
 

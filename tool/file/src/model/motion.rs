@@ -24,7 +24,7 @@ mod tool;
 
 pub use course::SegmentCourse;
 pub use limits::{MoveLimits, TooShort, change, fastest};
-pub use nodes::{Node, step_at};
+pub use nodes::{Node, NodeCurve, step_at};
 pub use noise::Noise;
 pub use outlier::Outlier;
 pub use overshoot::Overshoot;
@@ -210,6 +210,15 @@ impl Motion {
     /// A motion through at least two nodes, in the order of their times, the first at t = 0. Where speeds and accelerations are rounding, it is at
     /// rest.
     pub fn nodes(nodes: &[Node], cyclic: bool) -> Self {
+        Self::through(nodes, NodeCurve::Speeds, cyclic)
+    }
+
+    /// The motion of an electronic cam through its points, with polynomials of fifth degree between them; else as [`nodes`](Self::nodes).
+    pub fn cam(points: &[Node], cyclic: bool) -> Self {
+        Self::through(points, NodeCurve::Positions, cyclic)
+    }
+
+    fn through(nodes: &[Node], curve: NodeCurve, cyclic: bool) -> Self {
         let piece = |run: Vec<Node>| {
             let [start, end] = [run.first(), run.last()].map(|node| node.map_or(0.0, |n| n.t));
             MotionPiece {
@@ -217,7 +226,7 @@ impl Motion {
                 of_drive: false,
                 start,
                 duration: end - start,
-                kind: PieceKind::Nodes(run),
+                kind: PieceKind::Nodes { nodes: run, curve },
             }
         };
         Self {
@@ -284,10 +293,12 @@ impl Motion {
                     let place = |k: u32| piece.duration * f64::from(k) / f64::from(RECORDED);
                     (1..RECORDED).for_each(|k| reach(place(k)));
                 }
-                PieceKind::Nodes(nodes) => {
+                PieceKind::Nodes { nodes, curve } => {
+                    let parts = curve.turns();
                     for pair in nodes.windows(2) {
                         let [from, to] = [&pair[0], &pair[1]].map(|node| node.t - piece.start);
-                        [from.midpoint(to), to].into_iter().for_each(&mut reach);
+                        let place = |k: u32| from + (to - from) * f64::from(k) / f64::from(parts);
+                        (1..=parts).map(place).for_each(&mut reach);
                     }
                 }
                 PieceKind::Move(_) => {}
@@ -353,9 +364,8 @@ impl Motion {
                 // It has one direction.
                 PieceKind::Move(_) => 1,
                 PieceKind::Polynomial { .. } => TURNS,
-                PieceKind::Positions { .. } | PieceKind::Speeds { .. } | PieceKind::Nodes(_) => {
-                    TURNS_OF_ROWS
-                }
+                PieceKind::Positions { .. } | PieceKind::Speeds { .. } => TURNS_OF_ROWS,
+                PieceKind::Nodes { curve, .. } => curve.turns(),
             };
             let mut ends = vec![piece.start.max(from)];
             piece.rows_between([from, to], &mut ends);

@@ -21,7 +21,7 @@ mod form;
 mod states;
 
 use closing::{CLOSURE, check_speed_closes, closed};
-use form::{ACCELERATION, POSITION, SPEED, TIME_COLUMN, read_columns};
+use form::{ACCELERATION, BEND, POSITION, SPEED, TIME_COLUMN, read_columns};
 
 /// A time step this many times the median step is a gap in the recording.
 const GAP: f64 = 20.0;
@@ -44,8 +44,9 @@ struct ProfileKeys {
     smoothing: Option<Value>,
     /// Distance by which a cycle may miss its start.
     close_within: Option<Value>,
-    /// Speed of the master of an electronic cam.
+    /// Speed of the master of an electronic cam, or the time in which it passes the table.
     master_speed: Option<Value>,
+    master_time: Option<Value>,
 }
 
 /// The motion of the file named in `section`.
@@ -63,8 +64,10 @@ pub(super) fn read(
         smoothing: section.given("smoothing")?,
         close_within: section.given("close_within")?,
         master_speed: section.given("master_speed")?,
+        master_time: section.given("master_time")?,
     };
-    let layout = Layout::read(section)?;
+    let speed = request.master_speed.as_ref().map(|speed| speed.si);
+    let layout = Layout::read(section)?.at_speed("master_speed", speed);
     section.finish()?;
     let file = CsvFile::open(&item, "profile.csv", files)?;
     let columns = read_columns(&file.text, drive.coordinate, &layout, &request);
@@ -156,18 +159,23 @@ fn curve(
     };
     let mut advance = 0.0;
     let motion = if columns.get(POSITION).is_some() && columns.get(SPEED).is_some() {
+        let of_cam = columns.get(BEND).is_some();
         let nodes = if let Some(accelerations) = columns.get(ACCELERATION) {
-            states::nodes(columns, &times, accelerations)?
+            states::nodes(columns, &times, accelerations, of_cam)?
         } else {
             let slopes = states::slopes(columns, &times, request.cyclic).map_err(unmade)?;
-            states::nodes(columns, &times, &slopes)?
+            states::nodes(columns, &times, &slopes, of_cam)?
         };
         if let ([first, .., last], true) = (nodes.as_slice(), request.cyclic) {
             check_speed_closes(columns, columns.get(SPEED).unwrap_or_default())?;
             let way = [first.phi, last.phi - first.phi];
             closed(way, most(CLOSURE * span), columns, prescribed, repeats)?;
         }
-        Motion::nodes(&nodes, request.cyclic)
+        if of_cam {
+            Motion::cam(&nodes, request.cyclic)
+        } else {
+            Motion::nodes(&nodes, request.cyclic)
+        }
     } else if let Some(positions) = columns.get(POSITION) {
         let (first, last) = (
             positions.first().copied().unwrap_or_default(),

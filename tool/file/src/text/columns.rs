@@ -1,8 +1,12 @@
 //! CSV files of other programs: columns of numbers with units in the header. A comma can be the decimal point if it does not separate cells. Every
 //! fault is shown in the CSV file.
 
+mod cell;
+mod derivative;
 mod header;
 mod layout;
+mod rows;
+mod structured_text;
 
 use std::ops::Range;
 use std::result::Result;
@@ -10,13 +14,14 @@ use std::sync::Arc;
 
 use ::csv::StringRecord;
 
-use super::csv::{CsvTable, name_and_unit, number_of};
+use super::csv::{CsvTable, header_place, name_and_unit};
 use super::file::Files;
 use super::item::Item;
 use super::problem::{self, Problem};
 use crate::number::rounding::figure;
 use crate::plain;
 use crate::units::kind::Kind;
+use cell::unquoted;
 use header::check_first_lines;
 use layout::Title;
 
@@ -71,6 +76,8 @@ pub(crate) struct Format<'f> {
     pub(crate) known: &'f [ColumnSpec],
     /// Whether a column with this other name is ignored.
     pub(crate) ignored: fn(&str) -> bool,
+    /// Whether a column is ignored whose unit none of these columns can have: a log has more than the motion, but a force that is not read is a fault.
+    pub(crate) of_log: bool,
     /// A header to suggest.
     pub(crate) example: &'f str,
     /// Smallest number of rows.
@@ -119,6 +126,8 @@ pub(crate) struct Columns {
     headers: Vec<(String, f64)>,
     /// Places of the rows.
     places: Vec<Range<usize>>,
+    /// Titles of the columns that are passed over without being named in the machine file.
+    passed_over: Vec<String>,
 }
 
 impl Columns {
@@ -132,20 +141,48 @@ impl Columns {
         self.places.len()
     }
 
+    /// The problem of a column that the header lacks: the header that is expected, and the columns that are passed over.
+    pub(crate) fn lacks(&self, message: &str, text: &str, example: &str) -> Problem {
+        let titles = self.passed_over.iter().map(|title| plain::cut(title));
+        let titles: Vec<String> = titles.collect();
+        let passed = match titles.as_slice() {
+            [] => String::new(),
+            titles => format!("; not read: {}", problem::quoted(titles)),
+        };
+        let help = format!("the first line gives column names with units: {example}{passed}");
+        Problem::new(message)
+            .at(header_place(text), "header")
+            .help(help)
+    }
+
+    /// Checks the number of rows of the file `text`.
+    pub(crate) fn check_rows(&self, least: usize, text: &str) -> problem::Result<()> {
+        let rows = self.rows();
+        if rows >= least {
+            return Ok(());
+        }
+        let end = text.trim_end().len();
+        let noun = if rows == 1 { "row" } else { "rows" };
+        Err(Problem::new(format!(
+            "the file has {rows} {noun}, but needs at least {least}"
+        ))
+        .at(end..end, "ends here")
+        .help("add a row for each point"))
+    }
+
     /// The place of row `row`, counted from 0.
     pub(crate) fn place(&self, row: usize) -> Range<usize> {
         self.places.get(row).cloned().unwrap_or_default()
     }
 
-    /// Adds the column `index` computed from column `from`: its values (SI). It is shown with the header of `from`, in a unit of the size `scale`.
-    pub(crate) fn derive(&mut self, index: usize, (from, scale): (usize, f64), values: Vec<f64>) {
-        let header = self
-            .headers
-            .get(from)
-            .map_or_else(String::new, |(header, _)| header.clone());
+    /// Adds the column `index`, the column `from` times a factor (SI). It is shown with header and values of `from`.
+    pub(crate) fn derive(&mut self, index: usize, from: usize, factor: f64) {
+        let values = self.get(from).unwrap_or_default();
+        let values = values.iter().map(|value| value * factor).collect();
+        let header = self.headers.get(from).cloned().unwrap_or_default();
         if let (Some(own), Some(place)) = (self.headers.get_mut(index), self.values.get_mut(index))
         {
-            *own = (header, scale);
+            *own = (header.0, header.1 * factor);
             *place = Some(values);
         }
     }
@@ -192,9 +229,12 @@ impl Columns {
 pub(crate) fn read(text: &str, format: &Format, layout: &Layout) -> Result<Columns, CsvFault> {
     let whole = text;
     let text = &*layout.without_skipped(text);
-    let mut table = match &layout.titles {
-        Some((titles, _)) => CsvTable::titled(text, titles),
-        None => CsvTable::read(text)?,
+    let points = structured_text::points(text)?;
+    let text = points.as_deref().unwrap_or(text);
+    let mut table = match (&layout.titles, &points) {
+        (Some((titles, _)), _) => CsvTable::titled(text, titles),
+        (None, Some(_)) => CsvTable::titled(text, &structured_text::TITLES.map(str::to_owned)),
+        (None, None) => CsvTable::read(text)?,
     };
     let titles = table
         .header()
@@ -203,7 +243,7 @@ pub(crate) fn read(text: &str, format: &Format, layout: &Layout) -> Result<Colum
     let titles: Vec<Title> = titles
         .map(|title| title.underscored(format.known))
         .collect();
-    if layout.titles.is_none() && !titles.is_empty() {
+    if layout.titles.is_none() && points.is_none() && !titles.is_empty() {
         check_first_lines(text, &titles, format, layout)?;
     }
     let mut first = table.advance().transpose()?;
@@ -226,70 +266,28 @@ pub(crate) fn read(text: &str, format: &Format, layout: &Layout) -> Result<Colum
     }
     let titles = units.unwrap_or(titles);
     let columns = header::columns(&table, &titles, format, layout)?;
-    let mut values: Vec<Option<Vec<f64>>> = vec![None; format.known.len()];
     let mut headers = vec![(String::new(), 1.0); format.known.len()];
     for (column, title) in columns.iter().zip(&titles) {
         if let Some((index, unit, scale)) = column {
-            values[*index] = Some(Vec::new());
             let unit = unit.as_ref().filter(|unit| *unit != "1");
             let unit = unit.map_or_else(String::new, |unit| format!(" [{unit}]"));
             headers[*index] = (format!("{}{unit}", title.name), *scale);
         }
     }
-    let mut places = Vec::new();
-    while first.is_some() {
-        let (number, place) = (places.len() + 1, table.row_place());
-        for ((field, column), title) in table.row().iter().zip(&columns).zip(&titles) {
-            let Some((index, _, scale)) = column else {
-                continue;
-            };
-            let (index, scale) = (*index, *scale);
-            let field = unquoted(field);
-            let fault = |what: &str| {
-                let [field, name] = [field, title.whole.as_str()].map(plain::cut);
-                let message = if field.is_empty() {
-                    format!("row {number}: the column \"{name}\" is empty")
-                } else {
-                    format!("row {number}: \"{field}\" in the column \"{name}\" is {what}")
-                };
-                Problem::new(message).at(place.clone(), "this row")
-            };
-            let value = number_of(field, table.separator()).ok_or_else(|| {
-                fault("not a finite number")
-                    .help("write plain numbers with a decimal point and no units, such as 12.5; leave no cell empty")
-            })? * scale;
-            let kind = format.known[index].kind;
-            if value.abs() > kind.largest {
-                return Err(fault(&format!("too large for {}", kind.name))
-                    .help(format!(
-                        "at most {} {} is accepted: check the number and the unit in the header",
-                        figure(kind.largest / scale),
-                        title.whole
-                    ))
-                    .into());
-            }
-            values[index].get_or_insert_default().push(value);
-        }
-        places.push(place);
-        first = table.advance().transpose()?;
-    }
-    if places.len() < format.min_rows {
-        let end = whole.trim_end().len();
-        return Err(Problem::new(format!(
-            "the file has {} {}, but needs at least {}",
-            places.len(),
-            if places.len() == 1 { "row" } else { "rows" },
-            format.min_rows
-        ))
-        .at(end..end, "ends here")
-        .help("add a row for each point")
-        .into());
-    }
-    Ok(Columns {
+    let (values, places) = rows::read(table, first.is_some(), &columns, &titles, format)?;
+    let passed = titles.iter().zip(&columns);
+    let passed = passed.filter(|(title, column)| column.is_none() && !title.whole.is_empty());
+    let columns = Columns {
         values,
         headers,
         places,
-    })
+        passed_over: match layout.mapped {
+            Some(_) => Vec::new(),
+            None => passed.map(|(title, _)| title.whole.clone()).collect(),
+        },
+    };
+    columns.check_rows(format.min_rows, whole)?;
+    Ok(columns)
 }
 
 /// Whether a file has the column `known`: by its name, or by name and unit if `other` can have the same name.
@@ -342,12 +340,4 @@ fn units_below(titles: &[Title], row: &StringRecord) -> Option<Vec<Title>> {
         ..title.clone()
     };
     Some(titles.iter().zip(units).map(with_unit).collect())
-}
-
-/// A field without its quotes, which a blank before them made part of it.
-fn unquoted(field: &str) -> &str {
-    let inner = field
-        .strip_prefix('"')
-        .and_then(|field| field.strip_suffix('"'));
-    inner.map_or(field, str::trim)
 }

@@ -128,28 +128,29 @@ impl<'t> CsvTable<'t> {
             ErrorKind::UnequalLengths {
                 expected_len, len, ..
             } => {
+                let count =
+                    |n: u64, one: &str| format!("{n} {one}{}", if n == 1 { "" } else { "s" });
+                let message = format!(
+                    "row {} has {}, but the header has {}",
+                    self.rows,
+                    count(*len, "value"),
+                    count(*expected_len, "column")
+                );
                 let separator = match self.separator {
                     ';' => "semicolon",
                     '\t' => "tab",
                     _ => "comma",
                 };
-                let message = format!(
-                    "row {} has {len} values, but the header has {expected_len} columns",
-                    self.rows
-                );
-                let help = if self.separator == ',' && len > expected_len {
-                    let header: Vec<&str> = self.header.iter().collect();
-                    format!(
-                        "with commas between the cells decimals have a point: write 3.5 for 3,5; or separate all cells by semicolons and keep the \
-                         decimal commas, with the header \"{}\"; quote a text that contains a comma",
-                        plain::cut(&header.join(";"))
-                    )
+                let decimals = if self.separator == ',' && len > expected_len {
+                    "; where cells are separated by commas decimals have a point: write them so, or save the file with semicolons between \
+                     the cells"
                 } else {
-                    format!(
-                        "every row must have as many cells as the header: separate the values as the header does, quote those that contain a \
-                         {separator}"
-                    )
+                    ""
                 };
+                let help = format!(
+                    "every row must have as many cells as the header: separate the values as the header does, quote those that \
+                     contain a {separator}{decimals}"
+                );
                 (message, help)
             }
             _ => (
@@ -161,6 +162,12 @@ impl<'t> CsvTable<'t> {
         Problem::new(message)
             .at(line_from(self.text, from), "this row")
             .help(help)
+    }
+
+    /// Number of lines to the end of the header.
+    pub fn header_lines(&self) -> usize {
+        let above = self.text.get(..header_place(self.text).start);
+        above.unwrap_or_default().matches('\n').count() + 1
     }
 
     /// Line number of the current row in the text.

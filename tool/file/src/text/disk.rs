@@ -24,7 +24,7 @@ impl Files for Path {
     }
 
     fn text(&self, file: &str, limit: u64) -> std::result::Result<String, Fault> {
-        read(&self.join(file), limit)
+        decoded(bytes_of(&self.join(file), limit)?)
     }
 }
 
@@ -40,7 +40,11 @@ impl Files for PathBuf {
 
 /// The text of the file at `path`, of at most `limit` bytes.
 pub(crate) fn read(path: &Path, limit: u64) -> std::result::Result<String, Fault> {
-    let bytes = bytes(path, limit).map_err(|error| match error.kind() {
+    utf8(bytes_of(path, limit)?)
+}
+
+fn bytes_of(path: &Path, limit: u64) -> std::result::Result<Vec<u8>, Fault> {
+    bytes(path, limit).map_err(|error| match error.kind() {
         ErrorKind::NotFound => Fault::new(
             "no such file",
             format!(
@@ -56,8 +60,7 @@ pub(crate) fn read(path: &Path, limit: u64) -> std::result::Result<String, Fault
         ErrorKind::FileTooLarge => Fault::new(error.to_string(), LARGE),
         ErrorKind::TimedOut => Fault::new(error.to_string(), SLOW),
         _ => Fault::new(error.to_string(), format!("check {}", absolute(path))),
-    })?;
-    utf8(bytes)
+    })
 }
 
 /// Cure for an endless pipe or device.
@@ -171,6 +174,35 @@ pub fn read_under(metadata: &Metadata) -> Option<PathBuf> {
 fn known(identity: &Identity) -> Option<PathBuf> {
     let files = FILES.lock().unwrap_or_else(PoisonError::into_inner);
     files.get(identity).cloned()
+}
+
+/// The text of another program's file. Besides UTF-8 it can be UTF-16 with a byte order mark, or Latin-1 without control characters: spreadsheets
+/// save text files in both.
+fn decoded(bytes: Vec<u8>) -> std::result::Result<String, Fault> {
+    let wide = match bytes.as_slice() {
+        [0xff, 0xfe, rest @ ..] => Some((rest, u16::from_le_bytes as fn([u8; 2]) -> u16)),
+        [0xfe, 0xff, rest @ ..] => Some((rest, u16::from_be_bytes as fn([u8; 2]) -> u16)),
+        _ => None,
+    };
+    if let Some((rest, unit)) = wide {
+        let units: Vec<u16> = rest
+            .as_chunks::<2>()
+            .0
+            .iter()
+            .map(|pair| unit(*pair))
+            .collect();
+        return String::from_utf16(&units).map_err(|_| {
+            Fault::new(
+                "it begins as UTF-16 text, but is none",
+                "save it as UTF-8 text",
+            )
+        });
+    }
+    let is_printed = |byte: &u8| matches!(byte, b'\t' | b'\n' | b'\r' | 0x20..=0x7e | 0xa0..);
+    if std::str::from_utf8(&bytes).is_err() && bytes.iter().all(is_printed) {
+        return Ok(bytes.into_iter().map(char::from).collect());
+    }
+    utf8(bytes)
 }
 
 /// The text of a file.

@@ -112,6 +112,14 @@ fn tables_of_loads_that_cannot_be_meant_are_refused() {
         read(&format!("Position [deg],Thrust [N]\n{}", rows("2")), ""),
         &["is a force", "must be a torque"],
     );
+    // A force is not passed over, as a current beside a motion is.
+    refused(
+        read(
+            &format!("Position [deg],Torque [N m],Force x [N]\n{}", rows("2,3")),
+            "",
+        ),
+        &["unknown column \"Force x [N]\""],
+    );
     refused(
         read("Position [deg]\n0\n90\n180\n270\n300\n", ""),
         &["no column other than the position"],

@@ -132,7 +132,7 @@ fn wrong_profiles_are_shown_in_the_csv_file() {
         (
             turn("t [s];phi [deg]", |_| None),
             "",
-            &["row 1 has 1 values", "2 columns", "as the header does"],
+            &["row 1 has 1 value,", "2 columns", "as the header does"],
         ),
         (
             turn("t [s],phi [dge]", |_| None),

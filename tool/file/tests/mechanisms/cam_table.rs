@@ -83,7 +83,9 @@ fn worst(csv: &str, law: Law) -> ([f64; 3], f64) {
         .split("by up to ")
         .nth(1)
         .unwrap()
-        .trim_end_matches(" um");
+        .split(" um")
+        .next()
+        .unwrap();
     (worst, said.parse::<f64>().unwrap() * 1e-6 / RISE)
 }
 
@@ -108,6 +110,88 @@ fn a_cam_from_its_lift() {
         assert!(said < 1e-4, "{law:?}: {said:e}");
         assert!(off[0] < 1.05 * said + spline, "{law:?}: {off:?} {said:e}");
         assert!(off[1] < 3e-3 && off[2] < 0.2, "{law:?}: {off:?}");
+    }
+}
+
+/// What the program is off the velocities and accelerations of the table, as it says it: against the law, at the rows.
+#[test]
+fn derivatives_of_the_table_are_compared() {
+    let said = |csv: &str, more: &str| {
+        let file = cam(csv, more).unwrap();
+        let facts = file.machine.mechanism().facts();
+        let fact = facts
+            .iter()
+            .find(|fact| fact.label == "lift from the table");
+        fact.unwrap().text.clone()
+    };
+    let share = |text: &str, name: &str| -> Option<f64> {
+        let (_, rest) = text.split_once(&format!("its {name} by up to "))?;
+        rest.split(' ').next()?.parse().ok()
+    };
+    let law = Law::Cycloidal;
+    let csv = table(1.0, law, true);
+    let text = said(&csv, "");
+    let [v, a] = ["velocities", "accelerations"].map(|name| share(&text, name).unwrap());
+    let file = cam(&csv, "").unwrap();
+    let rows = (0..360).map(|k| f64::from(k).to_radians());
+    let (mut most, mut off) = ([0.0_f64; 2], [0.0_f64; 2]);
+    for phi in rows {
+        let y = file
+            .machine
+            .mechanism()
+            .frames(phi)
+            .unwrap()
+            .get(1)
+            .unwrap()
+            .y;
+        let [_, slope, bend] = exact(phi, law);
+        for (k, (found, due)) in [(y.d1, slope), (y.d2, bend)].into_iter().enumerate() {
+            most[k] = most[k].max(due.abs());
+            off[k] = off[k].max((found - due).abs());
+        }
+    }
+    for (said, (off, most)) in [v, a].into_iter().zip(off.into_iter().zip(most)) {
+        let due = 100.0 * off / most;
+        assert!((said / due - 1.0).abs() < 0.02, "{said} % {due} %");
+    }
+    // Velocities alone are compared, too, and over the time at the speed of the cam: 60 rpm.
+    let alone: Vec<String> = csv
+        .lines()
+        .map(|line| line.rsplit_once(',').unwrap().0.to_owned() + "\n")
+        .collect();
+    let text = said(&alone.concat(), "");
+    assert!(
+        share(&text, "velocities").unwrap() < 1.0 && share(&text, "accelerations").is_none(),
+        "{text}"
+    );
+    let mut timed = "phi [deg],s [mm],v [mm/s],a [mm/s^2]\n".to_owned();
+    for k in 0..=360 {
+        let [s, v, a] = exact(f64::from(k).to_radians(), law).map(|x| x * 1e3);
+        writeln!(timed, "{k},{s:e},{:e},{:e}", v * TAU, a * TAU * TAU).unwrap();
+    }
+    let text = said(&timed, "lift_speed = \"60 rpm\"\n");
+    assert!(
+        (share(&text, "accelerations").unwrap() / a - 1.0).abs() < 0.02,
+        "{text}"
+    );
+    let report = cam(&timed, "").map(|_| ()).unwrap_err();
+    assert!(
+        report.contains("is over the time") && report.contains("lift_speed = \"60 rpm\""),
+        "{report}"
+    );
+    // A velocity by the degree that is said to be by the radian, and the other way round.
+    for (wrong, ratio) in [
+        (csv.replace("s' [mm/rad]", "s' [mm/deg]"), "57.3 times"),
+        (
+            csv.replace("s'' [mm/rad^2]", "s'' [mm/deg^2]"),
+            "3282 times",
+        ),
+    ] {
+        let report = cam(&wrong, "").map(|_| ()).unwrap_err();
+        assert!(
+            report.contains("is not the derivative of") && report.contains(ratio),
+            "{report}"
+        );
     }
 }
 

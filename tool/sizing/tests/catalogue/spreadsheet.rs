@@ -195,11 +195,7 @@ fn a_decimal_comma_between_commas_is_refused_with_its_cure() {
     let quoted = fault(format!("{HEADER}\nm1,M,X,8,2000,36,\"8,5\",S\n"));
     assert!(quoted.contains("\\\"8.5\\\""), "{quoted}");
     let bare = fault(format!("{HEADER}\nm1,M,X,8,2000,36,8,5,S\n"));
-    assert!(bare.contains("write 3.5 for 3,5"), "{bare}");
-    assert!(
-        bare.contains("key;maker;model;rated_torque [N m]"),
-        "{bare}"
-    );
+    assert!(bare.contains("decimals have a point"), "{bare}");
     let thousands = fault(semicolons(HEADER) + "\nm1;M;X;8;2.000,5;36;8,5;S\n");
     assert!(
         thousands.contains("no separator for thousands"),

@@ -19,6 +19,25 @@ pub struct Node {
     pub alpha: [f64; 2],
 }
 
+/// The curve between two nodes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NodeCurve {
+    /// The speed is the cubic through speeds and accelerations: of a computed or recorded motion, whose positions may be rounded.
+    Speeds,
+    /// The position is the quintic through positions, speeds and accelerations, and the speed its derivative: of an electronic cam.
+    Positions,
+}
+
+impl NodeCurve {
+    /// Parts between two nodes, in each of which the motion turns back at most once, except for rounding: the points of a cam may be few.
+    pub(super) const fn turns(self) -> u32 {
+        match self {
+            Self::Speeds => 4,
+            Self::Positions => 16,
+        }
+    }
+}
+
 /// Relative difference of two speeds that is rounding: a sweep through short cells accumulates some forty rounding errors. And of two times.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
 const OF_TIME: f64 = 16.0 * f64::EPSILON;
@@ -103,24 +122,40 @@ impl Node {
         }
     }
 
-    /// The same; in the half closer to this node the speed is computed backwards from here, so that just before a stop its sign is that of the motion
-    /// and not of rounding.
-    pub fn at_share(&self, before: &Self, u: f64) -> State<f64> {
-        let state = self.after(before, u);
-        if u <= 0.5 {
+    /// The same with this curve; in the half closer to this node the speed is computed backwards from here, so that just before a stop its sign is
+    /// that of the motion and not of rounding.
+    pub fn at_share(&self, before: &Self, u: f64, curve: NodeCurve) -> State<f64> {
+        let mut state = self.after(before, u);
+        if u <= 0.5 && curve == NodeCurve::Speeds {
             return state;
         }
-        let Step { bend, missed, .. } = Step::between(before, self);
+        let step = Step::between(before, self);
         let back = 1.0 - u;
-        let curved = 0.5 * bend - missed * (3.0 - 2.0 * back);
-        let omega = self.omega - back * (self.alpha[0] * self.step - back * curved);
-        State { omega, ..state }
+        if u > 0.5 {
+            let curved = 0.5 * step.bend - step.missed * (3.0 - 2.0 * back);
+            state.omega = self.omega - back * (self.alpha[0] * self.step - back * curved);
+        }
+        if curve == NodeCurve::Positions {
+            let [by_step, rest] = [1.0 / self.step, step.rest()];
+            state.omega += rest * by_step * 30.0 * (u * back).powi(2);
+            state.alpha += rest * by_step * by_step * 60.0 * u * back * (back - u);
+        }
+        state
     }
 
     /// The jerk (rad/s³, or m/s³) at a share of the step from the node before.
     pub fn jerk_after(&self, before: &Self, u: f64) -> f64 {
         let step = Step::between(before, self);
         (step.bend + step.felt() * 6.0 * (1.0 - 2.0 * u)) / (self.step * self.step)
+    }
+
+    /// The same with this curve.
+    pub fn jerk_at_share(&self, before: &Self, u: f64, curve: NodeCurve) -> f64 {
+        let rest = match curve {
+            NodeCurve::Speeds => 0.0,
+            NodeCurve::Positions => Step::between(before, self).rest(),
+        };
+        self.jerk_after(before, u) + rest * 60.0 * (1.0 - 6.0 * u * (1.0 - u)) / self.step.powi(3)
     }
 
     /// Errors of the step from the node before: of the position (rad, or m), and of the speed (rad/s, or m/s).

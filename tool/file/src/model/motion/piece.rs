@@ -2,7 +2,7 @@
 
 use jred::machine::motion::{Move, Polynomial, State};
 
-use super::nodes::{Node, step_at};
+use super::nodes::{Node, NodeCurve, step_at};
 use crate::number::spline::Spline;
 
 #[derive(Clone, Debug)]
@@ -40,7 +40,10 @@ pub(super) enum PieceKind {
         standstill: f64,
     },
     /// At least two, at the times of the motion.
-    Nodes(Vec<Node>),
+    Nodes {
+        nodes: Vec<Node>,
+        curve: NodeCurve,
+    },
 }
 
 impl MotionPiece {
@@ -52,7 +55,7 @@ impl MotionPiece {
     pub(super) const fn is_recorded(&self) -> bool {
         matches!(
             self.kind,
-            PieceKind::Positions { .. } | PieceKind::Speeds { .. } | PieceKind::Nodes(_)
+            PieceKind::Positions { .. } | PieceKind::Speeds { .. } | PieceKind::Nodes { .. }
         )
     }
 
@@ -64,7 +67,7 @@ impl MotionPiece {
                 let within = [from - self.start, to - self.start];
                 rows.extend(curve.knots_between(within).map(|knot| self.start + knot));
             }
-            PieceKind::Nodes(nodes) => {
+            PieceKind::Nodes { nodes, .. } => {
                 let first = nodes.partition_point(|node| node.t <= from);
                 let after = nodes.iter().skip(first).map(|node| node.t);
                 rows.extend(after.take_while(|t| *t < to));
@@ -83,9 +86,9 @@ impl MotionPiece {
             }
             PieceKind::Positions { curve, .. } => Some(curve.at(t)[3]),
             PieceKind::Speeds { curve, .. } => Some(curve.at(t)[2]),
-            PieceKind::Nodes(nodes) => {
+            PieceKind::Nodes { nodes, curve } => {
                 let ([before, after], share) = step_at(nodes, self.start + t)?;
-                Some(after.jerk_after(before, share))
+                Some(after.jerk_at_share(before, share, *curve))
             }
         }
     }
@@ -129,9 +132,9 @@ impl MotionPiece {
                     alpha,
                 }
             }
-            PieceKind::Nodes(nodes) => step_at(nodes, self.start + t)
+            PieceKind::Nodes { nodes, curve } => step_at(nodes, self.start + t)
                 .map_or(State::default(), |([before, after], share)| {
-                    after.at_share(before, share)
+                    after.at_share(before, share, *curve)
                 }),
         }
     }

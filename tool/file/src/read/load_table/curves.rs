@@ -98,6 +98,7 @@ pub(super) fn read(text: &str, target: &Target) -> Result<Vec<VirtualLink>> {
     let format = Format {
         known: &known,
         ignored: |_| false,
+        of_log: false,
         example,
         min_rows: MIN_POINTS,
     };
@@ -110,7 +111,8 @@ pub(super) fn read(text: &str, target: &Target) -> Result<Vec<VirtualLink>> {
             ))
     };
     if columns.get(POSITION).is_none() {
-        return Err(header("the column for the position is missing".into()).into());
+        let message = "the column for the position is missing";
+        return Err(columns.lacks(message, text, example).into());
     }
     let has = |column: usize| columns.get(column).is_some();
     for (column, name) in [(PAYLOAD, "Payload"), (TORQUE_COLUMN, "Torque")] {
@@ -149,7 +151,8 @@ pub(super) fn read(text: &str, target: &Target) -> Result<Vec<VirtualLink>> {
     };
     let stand_ins = rows.stand_ins()?;
     if stand_ins.is_empty() {
-        return Err(header("there is no column other than the position".into()).into());
+        let message = "there is no column other than the position";
+        return Err(columns.lacks(message, text, example).into());
     }
     Ok(stand_ins)
 }

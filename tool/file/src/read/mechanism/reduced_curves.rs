@@ -197,6 +197,7 @@ fn read_columns(
     let format = |known: &'static [ColumnSpec], example: &'static str| Format {
         known,
         ignored: of_reduce,
+        of_log: false,
         example,
         min_rows: MIN_POINTS,
     };
@@ -223,15 +224,8 @@ fn read_columns(
     let columns = columns::read(text, &format, layout)?;
     for (index, what) in [(POSITION, "position"), (INERTIA_COLUMN, "reduced inertia")] {
         if columns.get(index).is_none() {
-            return Err(
-                Problem::new(format!("the column for the {what} is missing"))
-                    .at(csv::header_place(text), "header")
-                    .help(format!(
-                        "the first line gives column names with units: {}",
-                        format.example
-                    ))
-                    .into(),
-            );
+            let message = format!("the column for the {what} is missing");
+            return Err(columns.lacks(&message, text, format.example).into());
         }
     }
     if slides && turn {

@@ -19,28 +19,28 @@ pub(super) const ACCELERATION: usize = 3;
 /// Columns of an electronic cam: the master's angle, and the derivatives with respect to it.
 const MASTER: usize = 4;
 const SLOPE: usize = 5;
-const BEND: usize = 6;
+pub(super) const BEND: usize = 6;
 
 /// The columns of a drive link that turns or swings.
 const ANGLES: [ColumnSpec; 7] = [
     known(&["t", "time"], &TIME),
-    known(&["phi", "φ", "psi", "ψ", "angle", "position"], &ANGLE),
+    known(&["phi", "φ", "psi", "ψ", "angle", "dY", "position"], &ANGLE),
     known(&["omega", "ω", "n", "speed"], &ANGULAR_SPEED),
     known(&["alpha", "α", "acceleration"], &ANGULAR_ACCELERATION),
-    known(&["master"], &ANGLE),
-    known(&["phi'", "psi'", "slope"], &SHARE),
-    known(&["phi''", "psi''", "bend"], &CAM_TURNING),
+    known(&["dX", "master"], &ANGLE),
+    known(&["phi'", "psi'", "dV", "slope"], &SHARE),
+    known(&["phi''", "psi''", "dA", "bend"], &CAM_TURNING),
 ];
 
 /// The columns of a drive link that slides.
 const LENGTHS: [ColumnSpec; 7] = [
     known(&["t", "time"], &TIME),
-    known(&["s", "x", "y", "position"], &LENGTH),
+    known(&["s", "x", "y", "dY", "position"], &LENGTH),
     known(&["v", "speed"], &VELOCITY),
     known(&["a", "acceleration"], &LINEAR_ACCELERATION),
-    known(&["master"], &ANGLE),
-    known(&["s'", "x'", "y'", "slope"], &CAM_VELOCITY),
-    known(&["s''", "x''", "y''", "bend"], &CAM_ACCELERATION),
+    known(&["dX", "master"], &ANGLE),
+    known(&["s'", "x'", "y'", "dV", "slope"], &CAM_VELOCITY),
+    known(&["s''", "x''", "y''", "dA", "bend"], &CAM_ACCELERATION),
 ];
 
 /// The columns of a file, converted to functions of time.
@@ -63,39 +63,40 @@ pub(super) fn read_columns(
     let format = Format {
         known,
         ignored: |_| false,
+        of_log: true,
         example,
-        min_rows: MIN_POINTS,
+        min_rows: 2,
     };
     let mut columns = columns::read(text, &format, layout)?;
     over_master(&mut columns, request, text)?;
+    if columns.get(ACCELERATION).is_none() {
+        columns.check_rows(MIN_POINTS, text)?;
+    }
     let given = [POSITION, SPEED, ACCELERATION].map(|index| columns.get(index).is_some());
     if !matches!(
         given,
         [true, false, false] | [false, true, false] | [true, true, _]
     ) {
-        return Err(Problem::new(
-            "the header must have a column for the position, for the speed, or for both; an acceleration needs both",
-        )
-        .at(csv::header_place(text), "header")
-        .help(format!(
-            "the first line gives column names with units: {example}"
-        ))
-        .into());
+        let message = "the header must have a column for the position, for the speed, or for both; an acceleration needs both";
+        return Err(columns.lacks(message, text, example).into());
     }
     Ok(columns)
 }
 
 /// Converts the columns of an electronic cam to time; the master turns at constant speed.
 fn over_master(columns: &mut Columns, request: &ProfileKeys, text: &str) -> Result<(), CsvFault> {
+    let given = request
+        .master_speed
+        .as_ref()
+        .or(request.master_time.as_ref());
     let Some(master) = columns.get(MASTER).map(<[f64]>::to_vec) else {
-        return match &request.master_speed {
-            Some(speed) => Err(CsvFault::InMachine(
-                speed
-                    .problem(
-                        "is given, but the file has no column for the master",
-                        "not needed",
-                    )
-                    .help("remove this, or name the master's column \"master [deg]\""),
+        return match given {
+            Some(key) => Err(CsvFault::InMachine(
+                key.problem(
+                    "is given, but the file has no column for the master",
+                    "not needed",
+                )
+                .help("remove this, or name the master's column \"master [deg]\""),
             )),
             None => Ok(()),
         };
@@ -105,9 +106,18 @@ fn over_master(columns: &mut Columns, request: &ProfileKeys, text: &str) -> Resu
             .at(csv::header_place(text), "header")
             .help(help)
     };
-    let Some(speed) = &request.master_speed else {
-        let help = "write into [motion] how fast the master turns: master_speed = \"60 rpm\"";
+    let Some(given) = given else {
+        let help = "write into [motion] how fast the master turns, master_speed = \"60 rpm\", or in which time it passes the table, \
+                    master_time = \"1 s\"";
         return Err(header("the file is a cam's table over the angle of a master", help).into());
+    };
+    let omega = match (&request.master_speed, master.as_slice()) {
+        (Some(speed), _) => speed.si,
+        (None, [first, .., last]) if last > first => (last - first) / given.si,
+        _ => {
+            let message = "the master does not turn forwards from the first row to the last";
+            return Err(header(message, "give the rows in the order of the master's angle").into());
+        }
     };
     if [TIME_COLUMN, SPEED, ACCELERATION]
         .iter()
@@ -116,16 +126,10 @@ fn over_master(columns: &mut Columns, request: &ProfileKeys, text: &str) -> Resu
         let message = "the file has a column for the master, and columns over the time";
         return Err(header(message, "keep the master with position, slope and bend, or the time with position, speed and acceleration").into());
     }
-    let omega = speed.si;
-    columns.derive(
-        TIME_COLUMN,
-        (MASTER, 1.0 / omega),
-        master.iter().map(|angle| angle / omega).collect(),
-    );
+    columns.derive(TIME_COLUMN, MASTER, 1.0 / omega);
     for (from, to, factor) in [(SLOPE, SPEED, omega), (BEND, ACCELERATION, omega * omega)] {
-        if let Some(values) = columns.get(from) {
-            let values = values.iter().map(|value| value * factor).collect();
-            columns.derive(to, (from, factor), values);
+        if columns.get(from).is_some() {
+            columns.derive(to, from, factor);
         }
     }
     Ok(())

@@ -5,7 +5,7 @@ use crate::model::motion::Node;
 use crate::text::columns::Columns;
 use crate::text::problem::{Problem, Result};
 
-use super::{POSITION, SPEED, TIME_COLUMN};
+use super::{ACCELERATION, POSITION, SPEED, TIME_COLUMN};
 use crate::number::spline::{FitMethod, Spline, SplineError};
 
 /// Tolerances between rows: of the position in shares of the largest speed times the step, of the speed in shares of the largest acceleration times
@@ -37,8 +37,14 @@ pub(super) fn slopes(
     Ok(times.iter().map(|t| curve.at(*t)[1]).collect())
 }
 
-/// The nodes for these rows, times and accelerations.
-pub(super) fn nodes(columns: &Columns, times: &[f64], accelerations: &[f64]) -> Result<Vec<Node>> {
+/// The nodes for these rows, times and accelerations. Each row must follow from the one before, unless they are the points of a cam, which may be far
+/// apart.
+pub(super) fn nodes(
+    columns: &Columns,
+    times: &[f64],
+    accelerations: &[f64],
+    of_cam: bool,
+) -> Result<Vec<Node>> {
     let column = |index: usize| columns.get(index).unwrap_or_default();
     let [positions, speeds] = [POSITION, SPEED].map(column);
     let mut nodes: Vec<Node> = Vec::with_capacity(times.len());
@@ -75,7 +81,12 @@ pub(super) fn nodes(columns: &Columns, times: &[f64], accelerations: &[f64]) -> 
         }
         last.alpha[1] = alpha;
     }
-    for (pair, row) in nodes.windows(2).zip(rows.into_iter().skip(1)) {
+    if of_cam {
+        columns.check_slope(POSITION, SPEED, times)?;
+        columns.check_slope(SPEED, ACCELERATION, times)?;
+    }
+    let checked = if of_cam { Vec::new() } else { rows };
+    for (pair, row) in nodes.windows(2).zip(checked.into_iter().skip(1)) {
         let [before, after] = [&pair[0], &pair[1]];
         let [position, speed] = after.missed_since(before).map(f64::abs);
         let step = after.step;

@@ -8,7 +8,10 @@ use crate::text::csv;
 use crate::text::item::Item;
 use crate::text::problem::Result;
 use crate::text::section::Section;
-use crate::units::kind::{ANGLE, ANGULAR_ACCELERATION, ANGULAR_SPEED, Kind, SHARE};
+use crate::units::kind::{
+    ACCELERATION, ANGLE, ANGULAR_ACCELERATION, ANGULAR_SPEED, CAM_ACCELERATION, CAM_TURNING,
+    CAM_VELOCITY, Kind, SHARE, VELOCITY,
+};
 use crate::units::quantity::unit_of;
 use crate::units::{Fault, unit};
 
@@ -25,6 +28,8 @@ pub(crate) struct Layout<'a> {
     pub(super) mapped: Option<Vec<ColumnMapping<'a>>>,
     /// Angle of one count (rad).
     count: Option<f64>,
+    /// The key of the speed (rad/s) of a master or cam, and its value: velocities and accelerations of the file may be those at this speed.
+    speed: Option<(&'static str, Option<f64>)>,
 }
 
 /// A column that the machine file assigns: its known name and its title in the file, with a unit if the title there has none.
@@ -66,19 +71,35 @@ impl<'a> Layout<'a> {
             titles,
             mapped,
             count,
+            speed: None,
         })
     }
 
-    /// The text with the lines above the header made comments; all bytes keep their positions.
+    /// The layout of a table over the angle of a master, whose speed (rad/s) is the value of `key`.
+    pub(crate) fn at_speed(self, key: &'static str, speed: Option<f64>) -> Self {
+        Self {
+            speed: Some((key, speed)),
+            ..self
+        }
+    }
+
+    /// The text with the lines above the header made comments; all bytes keep their positions. The first of them can be the line with which Excel
+    /// names the separator.
     pub(super) fn without_skipped<'t>(&self, text: &'t str) -> Cow<'t, str> {
-        if self.skipped == 0 {
+        let start = text.trim_start_matches('\u{feff}').as_bytes();
+        let skipped = if matches!(start, [b's' | b'S', b'e' | b'E', b'p' | b'P', b'=', ..]) {
+            self.skipped.max(1)
+        } else {
+            self.skipped
+        };
+        if skipped == 0 {
             return Cow::Borrowed(text);
         }
         let mut out = String::with_capacity(text.len());
         for (k, line) in text.split_inclusive('\n').enumerate() {
             let first = line.chars().next().filter(|c| !c.is_whitespace());
             match first {
-                Some(first) if k < self.skipped => {
+                Some(first) if k < skipped => {
                     let length = first.len_utf8();
                     out.extend(std::iter::repeat_n('#', length));
                     out += line.get(length..).unwrap_or_default();
@@ -112,8 +133,40 @@ impl<'a> Layout<'a> {
         if text == "1" && kind.dimension == SHARE.dimension {
             return Ok(1.0);
         }
+        if let (Some((key, speed)), Some((scale, order))) = (self.speed, over_time(text, kind)) {
+            return speed.map(|speed| scale / speed.powi(order)).ok_or_else(|| {
+                Fault::new(
+                    "is over the time, not over the angle",
+                    format!(
+                        "write the speed for which the file gives it into {}: {key} = \"60 rpm\"",
+                        self.section
+                    ),
+                )
+            });
+        }
         unit_of(text, &[kind]).map(|(unit, _)| unit.scale)
     }
+
+    /// Whether a unit is a unit of none of these columns.
+    pub(super) fn is_foreign(&self, unit: Option<&str>, known: &[ColumnSpec]) -> bool {
+        let fits = |known: &ColumnSpec| self.scale(unit, known.kind).is_ok();
+        unit.is_some_and(|unit| unit::read_listed(unit).is_ok()) && !known.iter().any(fits)
+    }
+}
+
+/// The size (SI) of a unit over the time for a derivative by an angle, and the order of the derivative.
+fn over_time(text: &str, kind: &Kind) -> Option<(f64, i32)> {
+    let (over, order) = [
+        (&CAM_VELOCITY, &VELOCITY, 1),
+        (&CAM_ACCELERATION, &ACCELERATION, 2),
+        (&SHARE, &ANGULAR_SPEED, 1),
+        (&CAM_TURNING, &ANGULAR_ACCELERATION, 2),
+    ]
+    .into_iter()
+    .find_map(|(own, over, order)| (own.dimension == kind.dimension).then_some((over, order)))?;
+    unit_of(text, &[over])
+        .ok()
+        .map(|(unit, _)| (unit.scale, order))
 }
 
 /// The order of the time derivative of "counts", "counts/s" or "counts/s^2".
@@ -179,5 +232,22 @@ impl Title {
             _ => true,
         };
         same(&self.whole, &asked.whole) || same(&self.name, &asked.name) && units
+    }
+
+    /// The places of the titles that this one of the machine file refers to: those that are the same text, else those with its name.
+    pub(super) fn places(&self, titles: &[Self]) -> Vec<usize> {
+        let of = |is: &dyn Fn(&Self) -> bool| -> Vec<usize> {
+            let titles = titles.iter().enumerate();
+            titles
+                .filter(|(_, title)| is(title))
+                .map(|(at, _)| at)
+                .collect()
+        };
+        let same = of(&|title| title.whole.to_lowercase() == self.whole.to_lowercase());
+        if same.is_empty() {
+            of(&|title| title.is_meant_by(self))
+        } else {
+            same
+        }
     }
 }

@@ -1,6 +1,6 @@
 //! `lift = "lift.csv"`: a cam program from the lift over the cam angle, optionally with its two derivatives.
 //!
-//! Rows without derivatives are interpolated by a periodic cubic spline (twice continuously differentiable). The program consists of polynomials of
+//! Rows without both derivatives are interpolated by a periodic cubic spline (twice continuously differentiable). The program consists of polynomials of
 //! fifth degree between rows, with the lift and both derivatives at their ends. Of all programs with at most `MAX_SEGMENTS` segments, bisection of
 //! the error finds the one that misses the rows, and the middles between them, least.
 
@@ -15,7 +15,6 @@ use crate::number::spline::{FitMethod, MIN_POINTS};
 use crate::read::curve_file::{Positions, RowVariable};
 use crate::read::mechanism::core;
 use crate::text::columns::{self, ColumnSpec, Columns, CsvFault, CsvFile, Format, Layout, known};
-use crate::text::csv;
 use crate::text::file::Files;
 use crate::text::item::Item;
 use crate::text::problem::{self, Problem};
@@ -29,16 +28,28 @@ const BEND: usize = 3;
 
 /// The columns of a translating follower, and of an oscillating one.
 const SLIDES: [ColumnSpec; 4] = [
-    known(&["phi", "φ", "theta", "cam", "master", "angle"], &ANGLE),
-    known(&["s", "rise", "lift"], &LENGTH),
-    known(&["s'", "v", "slope"], &CAM_VELOCITY),
-    known(&["s''", "a", "bend"], &CAM_ACCELERATION),
+    known(
+        &["phi", "φ", "theta", "cam", "master", "dX", "angle"],
+        &ANGLE,
+    ),
+    known(&["s", "rise", "dY", "lift"], &LENGTH),
+    known(&["s'", "v", "velocity", "dV", "slope"], &CAM_VELOCITY),
+    known(
+        &["s''", "a", "acceleration", "dA", "bend"],
+        &CAM_ACCELERATION,
+    ),
 ];
 const SWINGS: [ColumnSpec; 4] = [
-    known(&["phi", "φ", "theta", "cam", "master", "angle"], &ANGLE),
-    known(&["psi", "ψ", "rise", "lift"], &ANGLE),
-    known(&["psi'", "slope"], &SHARE),
-    known(&["psi''", "bend"], &CAM_TURNING),
+    known(
+        &["phi", "φ", "theta", "cam", "master", "dX", "angle"],
+        &ANGLE,
+    ),
+    known(&["psi", "ψ", "rise", "dY", "lift"], &ANGLE),
+    known(&["psi'", "omega", "velocity", "dV", "slope"], &SHARE),
+    known(
+        &["psi''", "alpha", "acceleration", "dA", "bend"],
+        &CAM_TURNING,
+    ),
 ];
 
 /// Share of the stroke by which the program may miss the rows, unless the file gives the tolerance.
@@ -61,7 +72,7 @@ pub(super) fn read(
     files: &dyn Files,
 ) -> problem::Result<(Program, String)> {
     let within = section.maybe("lift_within")?;
-    let layout = Layout::read(section)?;
+    let layout = Layout::read(section)?.at_speed("lift_speed", section.maybe("lift_speed")?);
     let file = CsvFile::open(item, "lift.csv", files)?;
     let lift = Lift::of(&file.text, &layout, oscillating).map_err(|fault| file.shows(fault))?;
     let (knots, missed) = lift.fit();
@@ -86,10 +97,11 @@ pub(super) fn read(
     }
     let program = Program::new(&lift.segments(&knots)).map_err(|error| core(section, error))?;
     let about = format!(
-        "{} polynomials of fifth degree through {} rows, which miss the table by up to {}",
+        "{} polynomials of fifth degree through {} rows, which miss the table by up to {}{}",
         knots.len() - 1,
         lift.rows.len() - 1,
-        shown(missed)
+        shown(missed),
+        lift.derivatives_missed(&knots)
     );
     Ok((program, about))
 }
@@ -99,6 +111,8 @@ struct Lift {
     rows: Vec<LiftPoint>,
     /// The lift midway between each row and the next, if a spline goes through the rows.
     middles: Option<Vec<f64>>,
+    /// First and second derivatives that the table gives, for each row but the last.
+    given: [Vec<f64>; 2],
     stroke: f64,
 }
 
@@ -118,26 +132,14 @@ impl Lift {
         let format = Format {
             known,
             ignored: |_| false,
+            of_log: true,
             example,
             min_rows: MIN_POINTS,
         };
         let columns = columns::read(text, &format, layout)?;
-        let header = |message: &str, help: &str| {
-            Problem::new(message)
-                .at(csv::header_place(text), "header")
-                .help(help)
-        };
         if columns.get(POSITION).is_none() || columns.get(LIFT).is_none() {
-            let help = format!("the first line gives column names with units: {example}");
-            return Err(header(
-                "the header must have the angle of the cam and the lift",
-                &help,
-            )
-            .into());
-        }
-        if columns.get(SLOPE).is_some() != columns.get(BEND).is_some() {
-            let help = "give both derivatives, or the lift alone: columns = { angle = \"…\", lift = \"…\" }";
-            return Err(header("the file has one derivative of the lift only", help).into());
+            let message = "the header must have the angle of the cam and the lift";
+            return Err(columns.lacks(message, text, example).into());
         }
         let positions = Positions::of(
             &columns,
@@ -150,8 +152,9 @@ impl Lift {
         )?;
         let column = |index: usize| Ok::<_, Problem>(positions.values(index)?.unwrap_or_default());
         let [lift, slope, bend] = [column(LIFT)?, column(SLOPE)?, column(BEND)?];
-        let curve = slope
-            .is_empty()
+        columns.check_slope(LIFT, SLOPE, columns.get(POSITION).unwrap_or_default())?;
+        columns.check_slope(SLOPE, BEND, columns.get(POSITION).unwrap_or_default())?;
+        let curve = (slope.is_empty() || bend.is_empty())
             .then(|| positions.curve(&lift, FitMethod::Interpolating))
             .transpose()?;
         let (slopes, bends) = (&slope, &bend);
@@ -166,11 +169,15 @@ impl Lift {
             let turned = if TAU - turned < ROUNDING { 0.0 } else { turned };
             (turned, [*s, derivatives[0], derivatives[1]])
         };
-        let mut rows: Vec<LiftPoint> = (positions.x().iter().zip(&lift))
-            .enumerate()
-            .map(point)
-            .collect();
-        rows.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let rows = positions.x().iter().zip(&lift).enumerate();
+        let mut rows: Vec<(LiftPoint, usize)> = rows.map(|(k, row)| (point((k, row)), k)).collect();
+        rows.sort_by(|(a, _), (b, _)| a.0.total_cmp(&b.0));
+        let sorted = |values: &Vec<f64>| -> Vec<f64> {
+            let order = rows.iter().map(|(_, k)| values.get(*k).copied());
+            order.flatten().collect()
+        };
+        let given = [sorted(&slope), sorted(&bend)];
+        let mut rows: Vec<LiftPoint> = rows.into_iter().map(|(row, _)| row).collect();
         let stroke = stroke(&lift);
         Self::check_start(&rows, stroke, &columns)?;
         if let Some((start, state)) = rows.first().copied() {
@@ -185,6 +192,7 @@ impl Lift {
         Ok(Self {
             rows,
             middles,
+            given,
             stroke,
         })
     }
@@ -297,6 +305,32 @@ impl Lift {
             .map(|pair| self.missed([pair[0], pair[1]], f64::INFINITY));
         let missed = each.fold(0.0, f64::max);
         (knots, missed)
+    }
+
+    /// The largest deviations of the program from the derivatives in the table, as an addition to a line; empty if it has none.
+    fn derivatives_missed(&self, knots: &[usize]) -> String {
+        let names = ["velocities", "accelerations"];
+        let missed = names.into_iter().zip(&self.given).enumerate();
+        let missed = missed.filter_map(|(k, (name, given))| {
+            let most = given.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+            let mut worst = 0.0_f64;
+            for pair in knots.windows(2) {
+                let (course, start) = (self.polynomial([pair[0], pair[1]]), self.rows[pair[0]].0);
+                let rows = self.rows[pair[0]..=pair[1]]
+                    .iter()
+                    .zip(given.get(pair[0]..)?);
+                for ((x, _), due) in rows {
+                    worst = worst.max((course.at(x - start)[k + 1] - due).abs());
+                }
+            }
+            (most > 0.0).then(|| {
+                format!(
+                    ", its {name} by up to {} % of the largest",
+                    short(100.0 * worst / most)
+                )
+            })
+        });
+        missed.collect()
     }
 
     fn segments(&self, knots: &[usize]) -> Vec<Segment> {
