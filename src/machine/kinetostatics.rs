@@ -100,8 +100,10 @@ impl<M: Jointed> Machine<M> {
         joints: &Joints,
         [phi, omega, alpha]: [f64; 3],
     ) -> Result<Forces, MachineError> {
-        let mut factors = no_factors();
-        let equilibrium = Equilibrium::new(self, frames, joints, phi, &mut factors)?;
+        #[expect(clippy::large_stack_arrays, reason = "said in the documentation")]
+        let (mut matrix, mut pivots): (Matrix, _) = ([0.0; MOST * MOST], [0; MOST]);
+        let factors = (&mut matrix, &mut pivots);
+        let equilibrium = Equilibrium::new(self, frames, joints, phi, factors)?;
         let mut balance = equilibrium.balance();
         self.add_active_forces(&mut balance, phi, omega)?;
         // The flywheel moves with the coordinate of the driven joint, like a rotor geared to it: between its two bodies, in either order. So it
@@ -112,14 +114,9 @@ impl<M: Jointed> Machine<M> {
             balance.add(&on.times(inertia));
         }
         let (shaking_force, shaking_moment) = balance.add_inertia_forces(omega, alpha);
-        let sliding = FrictionState::new(&equilibrium, omega, omega)?;
         let mut of_friction = [Reaction::default(); MAX_JOINTS];
-        for (joint, [on_first, on_second]) in sliding.wrenches(alpha)? {
-            balance.add(&on_first);
-            balance.add(&on_second);
-            if let Some(sum) = of_friction.get_mut(joint) {
-                sum.add(&on_second);
-            }
+        if !self.frictions().is_empty() {
+            equilibrium.add_friction(&mut balance, omega, alpha, &mut of_friction)?;
         }
         let solution = equilibrium.solve(&balance);
 
@@ -171,8 +168,10 @@ impl<M: Jointed> Machine<M> {
             return Ok(FrictionState::default());
         }
         let (frames, joints) = self.placed(phi)?;
-        let mut factors = no_factors();
-        let equilibrium = Equilibrium::new(self, &frames, &joints, phi, &mut factors)?;
+        #[expect(clippy::large_stack_arrays, reason = "said in the documentation")]
+        let (mut matrix, mut pivots): (Matrix, _) = ([0.0; MOST * MOST], [0; MOST]);
+        let factors = (&mut matrix, &mut pivots);
+        let equilibrium = Equilibrium::new(self, &frames, &joints, phi, factors)?;
         FrictionState::new(&equilibrium, omega, direction)
     }
 
@@ -203,13 +202,8 @@ impl<M: Jointed> Machine<M> {
     }
 }
 
-/// Memory for the factors of the equations of equilibrium: the matrix and its pivots.
-type Factors = ([f64; MOST * MOST], [usize; MOST]);
-
-#[expect(clippy::large_stack_arrays, reason = "said in the documentation")]
-const fn no_factors() -> Factors {
-    ([0.0; MOST * MOST], [0; MOST])
-}
+/// The matrix of the equations of equilibrium.
+type Matrix = [f64; MOST * MOST];
 
 /// The equations of equilibrium of all links at one position, solved for the reactions and the drive's effort.
 pub(super) struct Equilibrium<'a, M> {
@@ -219,7 +213,8 @@ pub(super) struct Equilibrium<'a, M> {
     pub(super) phi: f64,
     driven: &'a Joint,
     equations: usize,
-    factors: &'a Factors,
+    /// Its factors, and the pivots.
+    factors: (&'a Matrix, &'a [usize; MOST]),
 }
 
 impl<'a, M: Jointed> Equilibrium<'a, M> {
@@ -228,7 +223,7 @@ impl<'a, M: Jointed> Equilibrium<'a, M> {
         frames: &'a Frames,
         joints: &'a Joints,
         phi: f64,
-        factors: &'a mut Factors,
+        (matrix, pivots): (&'a mut Matrix, &'a mut [usize; MOST]),
     ) -> Result<Self, MachineError> {
         let mechanism = machine.mechanism();
         let links = mechanism.links();
@@ -251,7 +246,7 @@ impl<'a, M: Jointed> Equilibrium<'a, M> {
             frames,
             column: [0.0; MOST],
         };
-        let mut columns = factors.0.chunks_exact_mut(equations);
+        let mut columns = matrix.chunks_exact_mut(equations);
         let mut fill = |pair: &[Wrench; 2]| {
             balance.column = [0.0; MOST];
             balance.add(&pair[0]);
@@ -264,8 +259,8 @@ impl<'a, M: Jointed> Equilibrium<'a, M> {
             joint.unit_reactions(frames).iter().for_each(&mut fill);
         }
         fill(&driven.unit_drive(frames));
-        let matrix = &mut factors.0[..equations * equations];
-        if linear::factor(matrix, &mut factors.1[..equations]) == 0.0 {
+        let used = &mut matrix[..equations * equations];
+        if linear::factor(used, &mut pivots[..equations]) == 0.0 {
             return Err(PoseError::DeadPoint {
                 phi,
                 joint: mechanism.drive(),
@@ -279,8 +274,29 @@ impl<'a, M: Jointed> Equilibrium<'a, M> {
             phi,
             driven,
             equations,
-            factors,
+            factors: (matrix, pivots),
         })
+    }
+
+    /// Adds the friction in the joints, and gives it joint by joint. Apart from [`Machine::forces`], so that machines without friction in their joints
+    /// need no stack for it.
+    #[inline(never)]
+    fn add_friction(
+        &self,
+        balance: &mut Balance,
+        omega: f64,
+        alpha: f64,
+        of_joints: &mut [Reaction; MAX_JOINTS],
+    ) -> Result<(), MachineError> {
+        let sliding = FrictionState::new(self, omega, omega)?;
+        for (joint, [on_first, on_second]) in sliding.wrenches(alpha)? {
+            balance.add(&on_first);
+            balance.add(&on_second);
+            if let Some(sum) = of_joints.get_mut(joint) {
+                sum.add(&on_second);
+            }
+        }
+        Ok(())
     }
 
     /// No forces.
