@@ -171,7 +171,7 @@ impl FrictionState {
             direction,
             ..Self::default()
         };
-        if machine.frictions().is_empty() || direction == 0.0 {
+        if direction == 0.0 {
             return Ok(state);
         }
         let reaction = |friction: &JointFriction, solution: &[f64; MOST]| {

@@ -59,7 +59,7 @@ fn parse(name: &str, text: &str) -> Result<Project> {
         {
             return Err(section
                 .problem("`phase` is given for some axes and not for all", "differs from the first axis")
-                .help("give `phase` for every axis, such as phase = \"0 s\", or for none: then the worst phases are searched"));
+                .help("give `phase` for every axis, such as phase = \"0 s\"; or remove it from all: then the worst phases are searched"));
         }
         section.finish()?;
         axes.push(axis);

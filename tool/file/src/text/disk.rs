@@ -227,7 +227,7 @@ fn decoded(bytes: Vec<u8>) -> std::result::Result<String, Fault> {
             .collect();
         return String::from_utf16(&units).map_err(|_| {
             Fault::new(
-                "it begins as UTF-16 text, but is none",
+                "it begins as UTF-16 text, but is not valid UTF-16",
                 "save it as UTF-8 text",
             )
         });

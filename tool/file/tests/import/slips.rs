@@ -226,7 +226,7 @@ fn cells_that_are_no_numbers() {
         (
             comma.replace("2,2", "2,\"2,0\""),
             [
-                "\"2,0\" in the column \"phi [deg]\" is no number where commas",
+                "\"2,0\" in the column \"phi [deg]\" is a number with a decimal comma, but commas",
                 "semicolons between the cells",
             ],
         ),

@@ -50,33 +50,11 @@ pub struct ProjectView<'a> {
 }
 
 /// A line of the bill of materials of a project.
-struct BillLine<'a> {
+struct BillLine<'c, 'a> {
     count: u32,
-    part: Part,
-    maker: &'a str,
-    model: &'a str,
-    key: &'a str,
-    mass: Option<f64>,
-    price: Option<f64>,
-    from_maker: bool,
+    item: BillItem<'c, 'a>,
     /// Names of the axes.
     axes: Vec<&'a str>,
-}
-
-impl<'a> BillLine<'a> {
-    fn new(item: &BillItem<'a, '_>) -> Self {
-        Self {
-            count: 0,
-            part: item.part,
-            maker: item.maker,
-            model: item.model,
-            key: item.key,
-            mass: item.mass,
-            price: item.price,
-            from_maker: item.from_maker,
-            axes: Vec::new(),
-        }
-    }
 }
 
 /// The JSON of `jred project`; units are in the names.
@@ -176,7 +154,7 @@ impl<'a> ProjectView<'a> {
         self.drives(&mut answer);
         answer.heading("Bill of materials");
         answer.table(bill_table(&bill));
-        if bill.iter().any(|line| !line.from_maker) {
+        if bill.iter().any(|line| !line.item.from_maker) {
             answer.sentence("* figures not from the maker's own document");
         }
         self.supplied(&mut answer, &data.supply);
@@ -216,16 +194,21 @@ impl<'a> ProjectView<'a> {
     }
 
     /// All parts, equal ones in one line.
-    fn bill(&self) -> Vec<BillLine<'a>> {
+    fn bill(&self) -> Vec<BillLine<'a, '_>> {
         let mut bill: Vec<BillLine> = Vec::new();
         for axis in &self.axes {
             // A brake is ordered with its motor.
             let parts = axis.judged.bill().into_iter();
             for item in parts.filter(|item| item.part != Part::Brake) {
-                let own = |line: &BillLine| line.part == item.part && line.key == item.key;
+                let own =
+                    |line: &BillLine| line.item.part == item.part && line.item.key == item.key;
                 let known = bill.iter().position(own);
                 let at = known.unwrap_or_else(|| {
-                    bill.push(BillLine::new(&item));
+                    bill.push(BillLine {
+                        count: 0,
+                        item,
+                        axes: Vec::new(),
+                    });
                     bill.len() - 1
                 });
                 if let Some(line) = bill.get_mut(at) {
@@ -236,16 +219,10 @@ impl<'a> ProjectView<'a> {
         }
         bill.extend(self.resistor.map(|common| BillLine {
             count: 1,
-            part: Part::Resistor,
-            maker: common.maker.trim(),
-            model: &common.model,
-            key: &common.key,
-            mass: common.mass,
-            price: common.price,
-            from_maker: common.from_maker,
+            item: BillItem::resistor(common),
             axes: vec!["all"],
         }));
-        let place = |line: &BillLine| line.part as u8;
+        let place = |line: &BillLine| line.item.part as u8;
         bill.sort_by_key(place);
         bill
     }
@@ -304,16 +281,17 @@ impl<'a> AxisView<'a> {
     }
 }
 
-impl<'a> BillLine<'a> {
-    fn data(&self) -> BillLineData<'a> {
+impl BillLine<'_, '_> {
+    fn data(&self) -> BillLineData<'_> {
+        let item = &self.item;
         BillLineData {
             quantity: self.count,
-            part: self.part,
-            maker: self.maker,
-            order: self.model,
-            key: self.key,
-            mass: self.mass,
-            price: self.price,
+            part: item.part,
+            maker: item.maker,
+            order: item.model,
+            key: item.key,
+            mass: item.mass,
+            price: item.price,
             axes: self.axes.clone(),
         }
     }
@@ -325,12 +303,12 @@ fn bill_table(bill: &[BillLine]) -> Reading {
     let row = |line: &BillLine| {
         [
             line.count.to_string(),
-            line.part.name().to_owned(),
-            format!("{} {}", line.maker, line.model),
-            marks::key(line.key, line.from_maker),
+            line.item.part.name().to_owned(),
+            format!("{} {}", line.item.maker, line.item.model),
+            marks::key(line.item.key, line.item.from_maker),
             line.axes.join(", "),
-            figure(line.mass),
-            figure(line.price),
+            figure(line.item.mass),
+            figure(line.item.price),
         ]
     };
     let sum = |of: fn(&BillLine) -> Option<f64>| {
@@ -345,8 +323,8 @@ fn bill_table(bill: &[BillLine]) -> Reading {
         String::new(),
         String::new(),
         String::new(),
-        sum(|line| line.mass),
-        sum(|line| line.price),
+        sum(|line| line.item.mass),
+        sum(|line| line.item.price),
     ];
     let header = [
         ("pieces", Quantity),

@@ -4,6 +4,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::Assessment;
+use crate::catalogue::Resistor;
 use crate::judge::check::Check;
 use jred_file::model::rule::Rule;
 
@@ -107,27 +108,39 @@ pub struct BillItem<'c, 'a> {
     pub decided: Option<&'a Check>,
 }
 
+/// Maker, model, key and source of a part, its mass and price, and whether its figures are its maker's.
+macro_rules! item {
+    ($part:expr, $of:expr) => {
+        BillItem {
+            part: $part,
+            maker: $of.maker.trim(),
+            model: &$of.model,
+            key: &$of.key,
+            mass: $of.mass,
+            price: $of.price,
+            from_maker: $of.from_maker,
+            source: &$of.source,
+            decided: None,
+        }
+    };
+}
+
+impl<'c> BillItem<'c, '_> {
+    /// A brake resistor, of a drive or of several on one bus.
+    pub fn resistor(of: &'c Resistor) -> Self {
+        item!(Part::Resistor, of)
+    }
+}
+
 impl<'c> Assessment<'c> {
     /// The parts of the drive as they are ordered. A holding brake is ordered with its motor: its line has neither mass nor price of its own.
     pub fn bill(&self) -> Vec<BillItem<'c, '_>> {
         let drive = &self.drive;
         let motor = drive.motor;
-        // The maker, model, key and source of a part, its mass and price, and whether its figures are its maker's.
-        macro_rules! item {
-            ($part:expr, $of:expr) => {
-                BillItem {
-                    part: $part,
-                    maker: $of.maker.trim(),
-                    model: &$of.model,
-                    key: &$of.key,
-                    mass: $of.mass,
-                    price: $of.price,
-                    from_maker: $of.from_maker,
-                    source: &$of.source,
-                    decided: self.decided($part),
-                }
-            };
-        }
+        let own = |item: BillItem<'c, '_>| BillItem {
+            decided: self.decided(item.part),
+            ..item
+        };
         let mut bill = vec![item!(Part::Motor, motor)];
         if motor.brake.is_some() {
             bill.push(BillItem {
@@ -138,8 +151,8 @@ impl<'c> Assessment<'c> {
         }
         bill.extend(drive.gearbox.map(|part| item!(Part::Gearbox, part)));
         bill.extend(drive.amplifier.map(|part| item!(Part::Amplifier, part)));
-        bill.extend(self.resistor.map(|part| item!(Part::Resistor, part)));
-        bill
+        bill.extend(self.resistor.map(BillItem::resistor));
+        bill.into_iter().map(own).collect()
     }
 
     /// The checked rule on this part that uses most of its limit.

@@ -51,7 +51,7 @@ impl NumberReader {
         };
         if comma && table.separator() == ',' {
             return Err((
-                "no number where commas separate the cells".to_owned(),
+                "a number with a decimal comma, but commas separate the cells".to_owned(),
                 "save the file with semicolons between the cells, or write decimals with a point",
             ));
         }
