@@ -114,26 +114,21 @@ impl<M: Jointed> Machine<M> {
             balance.add(&on.times(inertia));
         }
         let (shaking_force, shaking_moment) = balance.add_inertia_forces(omega, alpha);
-        let mut of_friction = [Reaction::default(); MAX_JOINTS];
+        let mut reactions: heapless::Vec<Reaction, MAX_JOINTS> =
+            joints.iter().map(|_| Reaction::default()).collect();
         if !self.frictions().is_empty() {
-            equilibrium.add_friction(&mut balance, omega, alpha, &mut of_friction)?;
+            equilibrium.add_friction(&mut balance, omega, alpha, &mut reactions)?;
         }
         let solution = equilibrium.solve(&balance);
 
         let mut values = solution.iter().copied();
-        let mut reactions = heapless::Vec::new();
-        for (joint, friction) in joints.iter().zip(of_friction) {
+        for (joint, sum) in joints.iter().zip(&mut reactions) {
             let units = joint.unit_reactions(frames);
-            let mut sum = Reaction {
-                // The force comes first, with no moment about its point.
-                point: units.first().map_or([0.0; 2], |[_, unit]| unit.point),
-                ..friction
-            };
+            // The force comes first, with no moment about its point.
+            sum.point = units.first().map_or([0.0; 2], |[_, unit]| unit.point);
             for [_, on_second] in &units {
                 sum.add(&on_second.times(values.next().unwrap_or_default()));
             }
-            // Cannot fail: both have the capacity MAX_JOINTS.
-            let _ = reactions.push(sum);
         }
         Ok(Forces {
             drive: values.next().unwrap_or_default(),
@@ -286,7 +281,7 @@ impl<'a, M: Jointed> Equilibrium<'a, M> {
         balance: &mut Balance,
         omega: f64,
         alpha: f64,
-        of_joints: &mut [Reaction; MAX_JOINTS],
+        of_joints: &mut [Reaction],
     ) -> Result<(), MachineError> {
         let sliding = FrictionState::new(self, omega, omega)?;
         for (joint, [on_first, on_second]) in sliding.wrenches(alpha)? {

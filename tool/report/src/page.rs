@@ -11,10 +11,12 @@ use crate::list::listing::{self, Explanation, List, Listing};
 use crate::list::source::Source;
 use jred_file::model::coordinate::Coordinate;
 use jred_file::model::machine::MachineFile;
+use jred_file::model::rules::RuleSet;
 use jred_file::number::rounding::short;
 use jred_file::units::Vocabulary;
 use jred_sizing::catalogue::MotorKind;
 use jred_sizing::explain::{Breakdown, Contributions, Lever, Remedies};
+use jred_sizing::judge::Assessment;
 
 mod chart;
 mod document;
@@ -46,7 +48,7 @@ pub use require::require_page;
 const LISTED: usize = 25;
 
 /// Number of refused drives on the page.
-const REFUSED: usize = 50;
+const REFUSED: usize = 20;
 
 /// Number of refused drives with their required changes.
 const CHANGED: usize = 3;
@@ -57,7 +59,7 @@ const CHANGED: usize = 3;
 /// Those of the machine; `None` if the catalogue was empty.
 pub fn page(source: &Source, shown: Listing) -> Result<Option<String>, Error> {
     let file = shown.file;
-    let Some(drive) = drive_pages(source, shown, CHANGED)? else {
+    let Some(drive) = drive_pages(source, shown, true)? else {
         return Ok(None);
     };
     let mut answer = Answer::words("");
@@ -91,12 +93,8 @@ struct DrivePages {
     words: &'static Vocabulary,
 }
 
-/// Everything about the best or requested drive of a machine; `changed`: number of refused drives with their required changes.
-fn drive_pages(
-    source: &Source,
-    shown: Listing,
-    changed: usize,
-) -> Result<Option<DrivePages>, Error> {
+/// The best or requested drive of a machine; `whole`: with its choice among all drives, the parts of its torque, and the sources of the rules.
+fn drive_pages(source: &Source, shown: Listing, whole: bool) -> Result<Option<DrivePages>, Error> {
     let list = List {
         top: LISTED,
         nearest: REFUSED,
@@ -112,7 +110,6 @@ fn drive_pages(
         selection,
         ..
     } = shown;
-    let found = !selection.fit.is_empty();
     let judged = &selection.judged(&candidate);
     let words = judged.drive.motor.kind.vocabulary();
     let subject = Subject {
@@ -124,11 +121,14 @@ fn drive_pages(
     let mut answer = Answer::words("");
     shown.first(&mut answer, judged);
     shown.others(&mut answer, usize::MAX);
-    shown.certainties(&mut answer);
-    let mut sections = vec![
-        Section::read("Bill of materials", |answer| listing::bill(answer, judged)),
-        drawn(file)?,
-    ];
+    let mut sections = Vec::new();
+    if whole {
+        shown.certainties(&mut answer);
+        sections.push(Section::read("Bill of materials", |answer| {
+            listing::bill(answer, judged);
+        }));
+    }
+    sections.push(drawn(file)?);
     sections.extend(tool::tool(file, duty)?);
     sections.extend([
         Section::read(format!("Rules, for {}", judged.drive.name()), |answer| {
@@ -140,46 +140,24 @@ fn drive_pages(
         ),
         Section::new("Over the cycle", over_time(&subject, words)),
     ]);
+    let changed = if whole { CHANGED } else { 0 };
     let explanation = Explanation::new(file, duty, selection, &candidate, changed)?;
-    let contributions = Contributions::new(file, duty, &judged.drive)?;
-    sections.push(shares(&subject, &contributions));
+    if whole {
+        let contributions = Contributions::new(file, duty, &judged.drive)?;
+        sections.push(shares(&subject, &contributions));
+    }
     sections.extend(changes(&subject, &explanation));
-    sections.push(machine(&subject, file)?);
+    if whole {
+        sections.push(machine(&subject, file)?);
+    }
     sections.push(Section::read("Duty", |answer| shown.duty(answer, judged)));
-    sections.push(Section::read(
-        format!(
-            "Drives that violate no rule ({} of {})",
-            selection.fit.len(),
-            shown.count()
-        ),
-        |answer| {
-            if found {
-                shown.ranking(answer, judged, true);
-                shown.gaps(answer, judged);
-            } else {
-                answer.sentence("None.");
-            }
-            shown.smaller(answer);
-        },
-    ));
-    let refused = selection.refused.len();
-    let listed = match refused {
-        0..=REFUSED => String::new(),
-        _ => format!("; {REFUSED} are listed, `jred size --refused` lists all"),
-    };
-    sections.push(Section {
-        folded: format!("{refused} drives, closest first{listed}"),
-        ..Section::read("Refused drives and reasons", |answer| shown.refused(answer))
-    });
+    if whole {
+        sections.extend(alternatives(shown, judged));
+    }
     sections.push(document::inputs(source));
-    sections.push(Section::read("Rules and their sources", |answer| {
-        let rules = selection.rules;
-        answer.sentence(format!(
-            "Set {}: {}. A limit is a share of the rating.",
-            rules.name, rules.title
-        ));
-        list::rule_list::limits(answer, rules, words);
-    }));
+    if whole {
+        sections.push(rule_sources(selection.rules, words));
+    }
     sections.push(Section::read(
         "Assumptions, sources, self-check",
         |answer| {
@@ -194,6 +172,41 @@ fn drive_pages(
         holds: judged.holds(),
         words,
     }))
+}
+
+/// The ranked drives, and the refused ones with their reasons.
+fn alternatives(shown: Listing, judged: &Assessment) -> [Section; 2] {
+    let [fit, refused] = [shown.selection.fit.len(), shown.selection.refused.len()];
+    let ranked = format!("Drives that violate no rule ({fit} of {})", shown.count());
+    let ranked = Section::read(ranked, |answer| {
+        if fit > 0 {
+            shown.ranking(answer, judged, true);
+            shown.gaps(answer, judged);
+        } else {
+            answer.sentence("None.");
+        }
+        shown.smaller(answer);
+    });
+    let listed = match refused {
+        0..=REFUSED => String::new(),
+        _ => format!("; {REFUSED} are listed, `jred size --refused` lists all"),
+    };
+    let reasons = Section {
+        folded: format!("{refused} drives, closest first{listed}"),
+        ..Section::read("Refused drives and reasons", |answer| shown.refused(answer))
+    };
+    [ranked, reasons]
+}
+
+/// The limits of a rule set and their sources.
+fn rule_sources(rules: &RuleSet, words: &Vocabulary) -> Section {
+    Section::read("Rules and their sources", |answer| {
+        answer.sentence(format!(
+            "Set {}: {}. A limit is a share of the rating.",
+            rules.name, rules.title
+        ));
+        list::rule_list::limits(answer, rules, words);
+    })
 }
 
 /// The torque-speed plane.

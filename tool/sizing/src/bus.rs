@@ -9,7 +9,8 @@
 //!
 //! The losses are the smallest possible, so that the most energy comes back. The copper is cold, and its loss is omitted if the winding's resistance
 //! is not given. While the motor brakes, I is the current of the torque alone, because the rise of the bus voltage and the remaining field weakening
-//! are unknown. While it drives, I includes the field-weakening current.
+//! are unknown. While it drives, I includes the field-weakening current. A stop in which the drive brakes the machine feeds back the work of the motor's
+//! torque, without losses.
 
 pub mod analysis;
 pub mod axes;
@@ -31,8 +32,9 @@ use crate::cycle::Cycle;
 use crate::cycle::form::Coefficients;
 use crate::motor::envelope::MotorLimits;
 use crate::motor::winding::REFERENCE_TEMPERATURE;
+use jred_analysis::duty::mechanics::MotorBrake;
 
-use curve::PowerCurve;
+use curve::{PowerCurve, StopPower};
 
 /// Power that a drive draws from the DC bus over the cycle.
 pub fn power(
@@ -73,4 +75,28 @@ pub fn power(
         points.push(*sample);
     }
     PowerCurve::new(points, cycle.duration())
+}
+
+/// Power that a drive feeds back in the worst stop with this `share` of the motor's peak torque; `None`: it does not stop so.
+pub fn stop(
+    cycle: &Cycle,
+    coefficients: &Coefficients,
+    ratio: f64,
+    limits: &MotorLimits,
+    share: Option<f64>,
+) -> StopPower {
+    let Some(share) = share else {
+        return StopPower::default();
+    };
+    let brake = MotorBrake {
+        torque: share * limits.stop,
+        time: 0.0,
+        inertia: coefficients.0[0] / ratio,
+        ratio,
+    };
+    let worst = cycle.mechanics().run_on.worst(&brake);
+    StopPower {
+        peak: brake.torque * ratio * worst.speed,
+        energy: worst.work,
+    }
 }

@@ -12,7 +12,7 @@ use crate::support::{budget, near, within};
 use jred_file::model::supply::BrakeResistor;
 use jred_sizing::bus::Need;
 use jred_sizing::bus::axes::{Axes, WorstPhases};
-use jred_sizing::bus::curve::PowerCurve;
+use jred_sizing::bus::curve::{PowerCurve, StopPower};
 use jred_sizing::bus::store::{Bus, BusFigures};
 use jred_sizing::bus::supply::BusData;
 use rand::rngs::ChaCha8Rng;
@@ -52,6 +52,60 @@ fn a_braking_axis_by_the_makers_rule() {
     near("pulse", figures.pulse, figures.burnt, budget::BUS);
     // 1728 W are less than 780²/47: the voltage stays.
     assert_eq!(figures.highest, 780.0);
+}
+
+/// A stop from the highest voltage of the cycle: the capacitor takes ½·C·(U² − U₀²), the resistor the rest. Two axes stop together.
+#[test]
+fn a_stop_starts_at_the_highest_voltage() {
+    let energy = 0.5 * BUS.capacitance * (700.0f64.powi(2) - 560.0f64.powi(2));
+    let charge = [
+        [0.0, 100.0],
+        [1.0, 100.0],
+        [1.0, -energy / 0.2],
+        [1.2, -energy / 0.2],
+        [1.2, 0.0],
+    ];
+    let stop = StopPower {
+        peak: 1500.0,
+        energy: 300.0,
+    };
+    let curve = PowerCurve::new(charge, 2.0).with_stop(stop);
+    let figures = BUS.run(&curve);
+    let room = 0.5 * BUS.capacitance * (780.0f64.powi(2) - 700.0f64.powi(2));
+    near("pulse", figures.pulse, 300.0 - room, budget::BUS);
+    // The power falls linearly, so the remaining energy falls with its square.
+    let peak = 1500.0 * (1.0 - room / 300.0).sqrt();
+    near("power", figures.burnt_peak, peak, budget::BUS);
+    assert_eq!((figures.highest, figures.burnt), (780.0, 0.0));
+    let bare = Bus {
+        resistor: None,
+        ..BUS
+    };
+    let highest = (700.0f64.powi(2) + 600.0 / BUS.capacitance).sqrt();
+    near("voltage", bare.run(&curve).highest, highest, budget::BUS);
+    assert!(Axes::new(bare, vec![curve.clone()]).bounds().highest >= highest);
+    let both = curve
+        .plus(&PowerCurve::new([], 2.0).with_stop(stop))
+        .shifted(0.3);
+    near("two", BUS.run(&both).pulse, 600.0 - room, budget::BUS);
+    let data = BusData {
+        voltage: Some(560.0),
+        capacitance: Some(470e-6),
+        chopper_voltage: Some(780.0),
+        max_voltage: Some(820.0),
+        min_resistance: None,
+        regenerative: false,
+        resistor: None,
+    };
+    let need = Need::of(&data, &curve).unwrap();
+    near("needed", need.pulse, 300.0 - room, budget::BUS);
+    near(
+        "resistance",
+        need.largest_resistance,
+        780.0 * 780.0 / peak,
+        budget::BUS,
+    );
+    assert_eq!(need.mean, 0.0);
 }
 
 /// The regenerated energy charges the capacitor first: ½·C·(U² − U₀²).

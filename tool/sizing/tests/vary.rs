@@ -96,10 +96,10 @@ fn only_quantities_are_found() {
         "{paths:?}"
     );
     // By hand, from the file: two of gravity, 10 of crank and rod, the slider, flywheel and offset, force (2), between (2),
-    // ramp, friction, viscous moment, 6 of the belt, start, 3 of the motion, 4 + 6 + 1 of the simulation.
+    // ramp, friction, viscous moment, 7 of the belt, start, 3 of the motion, 4 + 6 + 1 of the simulation.
     assert_eq!(
         paths.len(),
-        2 + 10 + 1 + 2 + 2 + 2 + 1 + 1 + 1 + 6 + 1 + 3 + 11,
+        2 + 10 + 1 + 2 + 2 + 2 + 1 + 1 + 1 + 7 + 1 + 3 + 11,
         "{paths:#?}"
     );
 }

@@ -185,5 +185,14 @@ fn axis(
     })?;
     let holds = selection.judged(&candidate).holds();
     let (drive, limits) = (&candidate.drive, candidate.motor);
-    Ok(BusAxis::new(&file.title, drive, limits, &cycle, bus, holds))
+    let stop = file.site.drive_stop;
+    Ok(BusAxis::new(
+        &file.title,
+        drive,
+        limits,
+        &cycle,
+        bus,
+        stop,
+        holds,
+    ))
 }

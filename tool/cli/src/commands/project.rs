@@ -258,6 +258,7 @@ fn view<'a>(
             limits,
             &own.cycle,
             supply,
+            own.file.site.drive_stop,
             judged.holds(),
         ),
         axis,

@@ -40,6 +40,7 @@ pub(crate) static DUTY: KeyTable = KeyTable::of("duty", &[&[
     may("rest", quantity(&TIME).positive(), "S3 to S5: how long the machine then rests (rests are in the motion)"),
     may("at_rest", ValueForm::Words(&["off", "holding"]), "in `rest`").or("off"),
     may("emergency_stops", ValueForm::Number([0.001, 1000.0]), "[per hour](sizing-rules.md#the-holding-brake) by the brake alone, without supply (not judged)").such_as("2"),
+    may("drive_stop", quantity(&SHARE).limited(ValueRange::UpTo(1.0)), "[stop by the drive](sizing-rules.md#the-stop-by-the-drive), whose energy the bus must take: share of the motor's peak torque (not judged)").such_as("\"100 %\""),
 ]]);
 
 pub(crate) static TOOL: KeyTable = KeyTable::of("tool", &[&[

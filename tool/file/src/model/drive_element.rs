@@ -24,16 +24,41 @@ pub struct DriveElement {
 /// A kind of element, and what makes it pull at its shaft.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ElementKind {
-    /// A belt over two pulleys, with the static force of one strand (N).
-    Belt(Option<f64>),
+    /// A belt, with the static force of one strand (N).
+    Belt(BeltForm, Option<f64>),
     /// A screw, coupled at its end.
     Screw,
     /// A pinion in a rack, with its radial and axial force over the tangential one.
     Pinion([f64; 2]),
 }
 
+/// Where a belt gives up its effective force F, and so how its strands, with the pretension T₀, share it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BeltForm {
+    /// At a second pulley, between strands of equal length: T₀ ± F/2.
+    Pulleys,
+    /// At a carriage, which divides the belt in lengths a and b: T₀ + F·b/(a + b) and T₀ − F·a/(a + b), at worst T₀ ± F at one end of the way.
+    Carriage,
+    /// Evenly along the carrying strand: T₀ + ¾·F and T₀ − ¼·F.
+    Carrying,
+}
+
+impl BeltForm {
+    /// What the tight strand has above T₀, the slack strand below T₀, and both together above 2·T₀, as shares of F.
+    pub const fn shares(self) -> [f64; 3] {
+        match self {
+            Self::Pulleys => [0.5, 0.5, 0.0],
+            Self::Carriage => [1.0, 1.0, 1.0],
+            Self::Carrying => [0.75, 0.25, 0.5],
+        }
+    }
+}
+
 /// Modulus of elasticity of steel (Pa).
 const STEEL: f64 = 206e9;
+
+/// Stress under the axial force that makers allow a ball screw (Pa).
+const SCREW_STRESS: f64 = 147e6;
 
 /// Density of steel (kg/m³).
 const DENSITY: f64 = 7850.0;
@@ -99,6 +124,11 @@ impl ScrewShaft {
         std::f64::consts::PI.powi(3) * STEEL * self.root_diameter.powi(4) / (64.0 * length * length)
     }
 
+    /// Force (N) at which the root of the thread has the stress that makers allow.
+    pub fn yield_force(&self) -> f64 {
+        0.25 * std::f64::consts::PI * self.root_diameter.powi(2) * SCREW_STRESS
+    }
+
     /// Critical speed (λ/L)²·d/4·√(E/ρ) (rad/s), the lowest bending frequency.
     pub fn critical_speed(&self) -> f64 {
         let per_length = self.ends.bending() / self.free_length;
@@ -110,10 +140,13 @@ impl DriveElement {
     /// Radial and axial force (N) on the shaft of the element's driving wheel under its largest force (N); `None`: it pulls at the shaft, but the
     /// machine file does not say how much.
     ///
-    /// A belt pulls with both strands, as if they were parallel: twice the pretension, or the effective force where that slackens one strand.
+    /// A belt pulls with both strands, as if they were parallel, or with the effective force where that slackens one strand.
     pub fn pull(&self, force: f64) -> Option<[f64; 2]> {
         match self.kind {
-            ElementKind::Belt(pretension) => Some([(2.0 * pretension?).max(force), 0.0]),
+            ElementKind::Belt(form, pretension) => {
+                let [_, _, both] = form.shares();
+                Some([(2.0 * pretension? + both * force).max(force), 0.0])
+            }
             ElementKind::Screw => Some([0.0; 2]),
             ElementKind::Pinion(push) => Some(push.map(|share| share * force)),
         }

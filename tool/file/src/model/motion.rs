@@ -7,7 +7,7 @@ use jred::machine::motion::{Move, Polynomial, State};
 use jred::number::RangeError;
 
 use crate::number::numerics;
-use crate::number::spline::SplineError;
+use crate::number::spline::{FitMethod, SplineError};
 use piece::{MotionPiece, PieceKind};
 
 mod course;
@@ -151,7 +151,7 @@ impl Motion {
     }
 
     /// A motion through recorded positions (rad, or m). A twice continuously differentiable curve through them, or near them, gives speed and
-    /// acceleration; for a cyclic motion all three close.
+    /// acceleration; for a cyclic motion all three close. Another one starts and ends at rest where its curve nearly does ([`FitMethod::Resting`]).
     ///
     /// # Errors
     /// Times do not rise, there are too few rows, or numbers are not finite.
@@ -164,7 +164,7 @@ impl Motion {
         // The deviation from the steady advance is periodic.
         let deviation = recording.times.iter().zip(recording.values);
         let deviation: Vec<f64> = deviation.map(|(t, phi)| phi - advance * t).collect();
-        let curve = recording.curve(&deviation)?;
+        let curve = recording.curve(&deviation, FitMethod::Resting)?;
         let speeds = recording
             .times
             .iter()
@@ -188,7 +188,7 @@ impl Motion {
     /// As for [`positions`](Self::positions).
     pub fn speeds(recording: &Recording, start: f64) -> Result<Self, SplineError> {
         let duration = recording.duration()?;
-        let curve = recording.curve(recording.values)?;
+        let curve = recording.curve(recording.values, FitMethod::Interpolating)?;
         let advance = match recording.closing {
             Repetition::Open => 0.0,
             Repetition::After(advance) => (advance - curve.integral(duration)) / duration,

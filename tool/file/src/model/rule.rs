@@ -93,7 +93,7 @@ rules! {
     GearboxRadial, "gearbox radial load", "gearbox_radial";
     /// Axial load of the gearbox's output shaft.
     GearboxAxial, "gearbox axial load", "gearbox_axial";
-    /// Force of a belt's tight strand: pretension and half of the effective force.
+    /// Force of a belt's tight strand: pretension and its share of the effective force.
     BeltTension, "belt tension", "belt_tension";
     /// Effective force of a belt against that of its teeth in mesh.
     BeltForce, "belt effective force", "belt_force";

@@ -19,6 +19,8 @@ pub struct Site {
     pub duty: Duty,
     /// Emergency stops per hour by the brake alone; `None`: not given.
     pub emergency_stops: Option<f64>,
+    /// Share of the motor's peak torque with which the drive stops the machine; `None`: such a stop is not judged.
+    pub drive_stop: Option<f64>,
     /// Torsional stiffness of shafts and couplings, at the input of the drive train (N·m/rad); `None`: not given.
     pub shaft_stiffness: Option<f64>,
     /// Backlash of the drive train at the drive link (rad, or m of a sliding link); `None`: not given.

@@ -4,6 +4,7 @@
 //! interpolating   cubic, twice continuously differentiable; periodic, or with the first two and the last two pieces being one
 //!                 cubic each (not-a-knot). Error at most 5/384·h⁴·max|f⁗| at equal steps h.
 //! level           the same, but level at both ends, so that it goes on as a constant with one continuous derivative
+//! resting         interpolating, level at an end where its slope is at most a quarter of that of the outer chord
 //! monotone        cubic, once continuously differentiable, never beyond the two rows that it runs between (M. Steffen,
 //!                 A simple method for monotonic interpolation in one dimension, Astron. Astrophys. 239 (1990) 443)
 //! smoothing       minimises Σ w·(y − f)² + ∫f″² dt/ω_c⁴ with w the time that a row stands for (C. H. Reinsch, Smoothing by
@@ -51,6 +52,8 @@ pub enum FitMethod {
     Interpolating,
     /// The same, level at both ends; not for periodic curves.
     Level,
+    /// The same, level only at an end where the curve rests; not for periodic curves.
+    Resting,
     /// Through every point without overshoot, once continuously differentiable.
     Monotone,
     /// Near the points: the amplitude of a sine of this angular frequency (1/unit of the argument) is halved.

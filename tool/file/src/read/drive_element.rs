@@ -2,15 +2,15 @@
 
 use jred::machine::Mechanism as _;
 
-use crate::keys::drive::{BELT_LIMITS, PINION_LIMITS, SCREW_SHAFT};
-use crate::model::drive_element::{DriveElement, ElementKind, ScrewEnds, ScrewShaft};
+use crate::keys::drive::SCREW_SHAFT;
+use crate::model::drive_element::{BeltForm, DriveElement, ElementKind, ScrewEnds, ScrewShaft};
 use crate::model::mechanism::AnyMechanism;
 use crate::model::rule::Rule;
 use crate::text::key::Key;
 use crate::text::problem::Result;
 use crate::text::section::Section;
 
-/// The element of stage `number`, counted from 0, if its table gives a limit.
+/// The element of stage `number`, counted from 0, if its table gives a limit, or it is the first one and pulls at its shaft.
 pub(super) fn of_stage(
     section: &Section,
     kind: &str,
@@ -19,7 +19,10 @@ pub(super) fn of_stage(
     let Some(mut element) = limited(section, kind)? else {
         return Ok(None);
     };
-    if let ElementKind::Belt(_) = element.kind {
+    if element.limits.is_empty() && number > 0 {
+        return Ok(None);
+    }
+    if let ElementKind::Belt(..) = element.kind {
         element.arm = section.table("driven")?.si("radius")?;
         element.carried = section.si("belt_mass")?;
     }
@@ -29,7 +32,7 @@ pub(super) fn of_stage(
     Ok(Some(element))
 }
 
-/// The element of a mechanism, if its table gives a limit. A drive train before it is still unknown.
+/// The element of a mechanism, if its table gives a limit or it pulls at its shaft. A drive train before it is still unknown.
 pub(super) fn of_mechanism(
     section: &Section,
     mechanism: &AnyMechanism,
@@ -64,13 +67,18 @@ fn any(section: &Section, keys: &[Key]) -> bool {
     given.fold(false, |any, given| any | given)
 }
 
-/// An element with its kind and its limits, if any key of them is given.
+/// An element with its kind and its limits; a screw only with a limit.
 fn limited(section: &Section, kind: &str) -> Result<Option<DriveElement>> {
     let (word, kind, limits) = match kind {
-        "belt" | "belt-axis" | "conveyor" if any(section, BELT_LIMITS) => {
+        "belt" | "belt-axis" | "conveyor" => {
+            let form = match kind {
+                "belt" => BeltForm::Pulleys,
+                "belt-axis" => BeltForm::Carriage,
+                _ => BeltForm::Carrying,
+            };
             let max_tension = section.maybe("max_tension")?;
             let pretension = match max_tension {
-                // The tight strand has the pretension and half of the effective force.
+                // The tight strand has the pretension and a share of the effective force.
                 Some(_) => Some(section.value("pretension")?.si),
                 None => section.maybe("pretension")?,
             };
@@ -79,7 +87,7 @@ fn limited(section: &Section, kind: &str) -> Result<Option<DriveElement>> {
                 (Rule::BeltForce, section.maybe("max_effective_force")?),
                 (Rule::BeltPretension, pretension),
             ];
-            ("belt", ElementKind::Belt(pretension), limits)
+            ("belt", ElementKind::Belt(form, pretension), limits)
         }
         "ball-screw" => {
             let mut limits = vec![(Rule::ScrewForce, section.maybe("max_force")?)];
@@ -90,11 +98,12 @@ fn limited(section: &Section, kind: &str) -> Result<Option<DriveElement>> {
                     ends: section.pick("ends", ScrewEnds::ALL)?,
                 };
                 limits.push((Rule::ScrewBuckling, Some(shaft.buckling_force())));
+                limits.push((Rule::ScrewForce, Some(shaft.yield_force())));
                 limits.push((Rule::ScrewSpeed, Some(shaft.critical_speed())));
             }
             ("screw", ElementKind::Screw, limits)
         }
-        "rack" | "rack-and-pinion" if any(section, PINION_LIMITS) => {
+        "rack" | "rack-and-pinion" => {
             let (alpha, beta) = (section.si("pressure_angle")?, section.si("helix_angle")?);
             let push = [(alpha.tan() / beta.cos()).hypot(1.0), beta.tan()];
             let limits = vec![(Rule::PinionForce, section.maybe("max_force")?)];

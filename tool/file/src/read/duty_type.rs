@@ -16,6 +16,7 @@ pub(super) fn read(root: &Section, site: &mut Site) -> Result<()> {
     let number = section.word("type")? as u8 + 1;
     let stops = section.get("emergency_stops");
     site.emergency_stops = stops.map(|item| item.figure()).transpose()?;
+    site.drive_stop = section.maybe("drive_stop")?;
     let (operating, rest) = (section.given("operating_time")?, section.given("rest")?);
     let at_rest = section.get("at_rest");
     let unused = |value: &Value, why: &str| {

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use jred_analysis::checked;
 use jred_analysis::duty::Duty;
 use jred_file::model::axis::Axis;
-use jred_file::model::drive_element::{DriveElement, ElementKind};
+use jred_file::model::drive_element::{BeltForm, DriveElement, ElementKind};
 use jred_file::model::machine::MachineFile;
 use jred_file::model::rule::Rule;
 use jred_file::model::rules::{Limit, RuleVerdict};
@@ -185,7 +185,7 @@ fn a_belt_keeps_its_force() {
         on_input: true,
         arm: 0.16,
         carried: 0.9,
-        kind: ElementKind::Belt(None),
+        kind: ElementKind::Belt(BeltForm::Pulleys, None),
         limits: vec![(Rule::BeltForce, 700.0)],
     }];
     let (_, drive) = named(&catalogue, "sm100bb+g115-16 on a6").unwrap();

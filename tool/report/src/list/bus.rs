@@ -29,15 +29,15 @@ pub(crate) use data::{BusData, data};
 pub fn answer(bus: &BusAnalysis, format: Format) -> Result<Answer<'static>> {
     let count = counted(bus.axes.len(), "axis", "axes");
     let mut answer = Answer::new(format!("DC bus of {count}"), &data(bus));
-    blocks(bus, &mut answer);
+    blocks(bus, "all axes in step", &mut answer);
     if format == Format::Csv {
         answer.course(Cow::Owned(course(bus)?));
     }
     Ok(answer)
 }
 
-/// The blocks for reading.
-pub(super) fn blocks(bus: &BusAnalysis, answer: &mut Answer) {
+/// The blocks for reading; `together`: the phases of the axes as given.
+pub(super) fn blocks(bus: &BusAnalysis, together: &str, answer: &mut Answer) {
     verdicts(bus, answer);
     resistor(bus, answer);
     if bus.data.capacitance.is_none() && bus.data.resistor.is_some() {
@@ -51,13 +51,13 @@ pub(super) fn blocks(bus: &BusAnalysis, answer: &mut Answer) {
     for cure in &bus.cures {
         answer.sentence(format!("- {}", words::cure(cure)));
     }
-    in_step(bus, answer);
+    in_step(bus, together, answer);
     worst(bus, answer);
     bounds(bus, answer);
     axes(bus, answer);
 }
 
-fn in_step(bus: &BusAnalysis, answer: &mut Answer) {
+fn in_step(bus: &BusAnalysis, together: &str, answer: &mut Answer) {
     let (Some(figures), Some(power)) = (&bus.in_step, &bus.power) else {
         answer.heading("any phases");
         answer.sentence(format!(
@@ -67,10 +67,7 @@ fn in_step(bus: &BusAnalysis, answer: &mut Answer) {
         return;
     };
     let [least, most] = power.extremes();
-    answer.heading(format!(
-        "all axes in step, period {} s",
-        short(power.period())
-    ));
+    answer.heading(format!("{together}, period {} s", short(power.period())));
     answer.fact(
         "peak power",
         format!(
@@ -95,10 +92,15 @@ fn bounds(bus: &BusAnalysis, answer: &mut Answer) {
         format!("bus at most {} V", volts(highest))
     };
     let [drawn, back, resistor] = [drawn, back, resistor].map(short);
+    let taken = if bus.data.resistor.is_some() {
+        "brake resistor"
+    } else {
+        "returned"
+    };
     answer.fact(
         "any phases",
         format!(
-            "peak drawn at most {drawn} W, peak fed back at most {back} W, {voltage}, brake resistor at most {resistor} W mean"
+            "peak drawn at most {drawn} W, peak fed back at most {back} W, {voltage}, {taken} at most {resistor} W mean"
         ),
     );
     if let Some(saved) = bus.saved() {
@@ -136,6 +138,14 @@ fn axes(bus: &BusAnalysis, answer: &mut Answer) {
                 short((-least).max(0.0)),
             ),
         );
+    }
+    let cold = bus.axes.iter().filter(|axis| !axis.loses);
+    let cold: Vec<&str> = cold.map(|axis| axis.drive.as_str()).collect();
+    if !cold.is_empty() {
+        answer.sentence(format!(
+            "Without the losses of the winding, whose resistance the catalogue does not give: {}",
+            cold.join(", ")
+        ));
     }
 }
 

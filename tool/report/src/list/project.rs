@@ -256,13 +256,16 @@ impl<'a> ProjectView<'a> {
             return;
         };
         let count = counted(bus.axes.len(), "drive", "drives");
-        let phases = if bus.only_in_step {
-            "at the phases of the project"
-        } else {
-            "at the worst phases"
+        let together = "at the phases of the project";
+        let phases = match bus.power {
+            Some(_) if bus.only_in_step => together,
+            Some(_) => "at the worst phases",
+            None => "at any phases",
         };
         answer.heading(format!("Common DC bus of {count}, {phases}"));
-        bus::blocks(bus, answer);
+        bus::blocks(bus, together, answer);
+        answer
+            .sentence("The bill has no rectifier for the common bus: choose one for these powers.");
     }
 }
 

@@ -25,7 +25,7 @@ struct Tool {
 }
 
 impl Tool {
-    /// The point of `[tool]`, the one whose motion is prescribed, or the last named point of the mechanism.
+    /// The point of `[tool]`, the one whose motion is prescribed, or the last named point of the mechanism, if possible of a link with a load.
     fn of(file: &MachineFile) -> Option<Self> {
         let mechanism = file.machine.mechanism();
         if let Some(tool) = &file.site.tool
@@ -41,7 +41,11 @@ impl Tool {
             let name = mechanism.link_names().get(link)?.clone();
             return Some(Self { name, link, at });
         }
-        let last = mechanism.points().last()?;
+        let points = || mechanism.points().iter().rev();
+        let bears = |link| file.machine.loads().iter().any(|load| load.link() == link);
+        let last = points()
+            .find(|point| bears(point.link))
+            .or(points().next())?;
         let on = mechanism.link_names().get(last.link)?;
         Some(Self {
             name: format!("{} of the {on}", last.name),

@@ -9,7 +9,7 @@ use super::curve::PowerCurve;
 use super::need::Misses;
 use super::store::BusFigures;
 use super::supply::BusData;
-use super::{Need, Watch, power};
+use super::{Need, Watch, power, stop};
 use crate::catalogue::{Catalogue, Drive};
 use crate::cycle::Cycle;
 use crate::motor::envelope::MotorLimits;
@@ -27,6 +27,8 @@ pub struct BusAxis {
     pub curve: PowerCurve,
     /// Bus data of its own amplifier and motor.
     pub data: BusData,
+    /// Whether its power contains the loss of the winding.
+    pub loses: bool,
     /// Whether its drive violates no rule.
     pub holds: bool,
 }
@@ -39,21 +41,20 @@ impl BusAxis {
         limits: &MotorLimits,
         cycle: &Cycle,
         supply: &Site,
+        drive_stop: Option<f64>,
         holds: bool,
     ) -> Self {
         let (motor, amplifier) = (drive.motor, drive.amplifier);
+        let (coefficients, ratio) = (drive.coefficients(), drive.ratio());
+        let limits = limits.on(amplifier);
+        let curve = power(cycle, &coefficients, ratio, motor, limits, amplifier);
+        let stop = stop(cycle, &coefficients, ratio, limits, drive_stop);
         Self {
             title: title.to_owned(),
+            loses: motor.winding.resistance.is_some(),
             drive: drive.name(),
-            curve: power(
-                cycle,
-                &drive.coefficients(),
-                drive.ratio(),
-                motor,
-                limits.on(amplifier),
-                amplifier,
-            ),
-            data: BusData::new(&supply.supply, supply.bus_voltage, amplifier, motor),
+            curve: curve.with_stop(stop),
+            data: BusData::new(&supply.supply, supply.highest_supply(), amplifier, motor),
             holds,
         }
     }
@@ -144,6 +145,15 @@ impl BusAnalysis {
         only_in_step: bool,
         watch: &dyn Watch,
     ) -> Result<Self> {
+        let unknown = |axis: &&BusAxis| axis.curve.stop().peak.is_nan();
+        if let Some(axis) = axes.iter().find(unknown) {
+            return Err(problem!(
+                help = "give peak_torque of the motor in the catalogue, or remove drive_stop from [duty]",
+                "{}: the energy of a stop by the drive is not known: the peak torque of {} is missing",
+                axis.title,
+                axis.drive
+            ));
+        }
         let bus = data.bus().map_err(|missing| {
             problem!(
                 help = "add a [supply] to one of the machine files, for example mains_voltage = \"400 V\", capacitance = \"470 uF\", \

@@ -45,7 +45,7 @@ pub struct Bounds {
     /// Largest power drawn (W): the sum of the axes' largest powers. It is reached.
     #[serde(rename = "peak drawn [W]")]
     pub drawn: f64,
-    /// Largest power fed back (W): the sum of the axes' largest values. It is reached if all axes feed back.
+    /// Largest power fed back (W): the sum of the axes' largest values, of the cycles or of the stops. It is reached if all axes feed back.
     #[serde(rename = "peak fed back [W]")]
     pub back: f64,
     /// Highest voltage (V).
@@ -166,7 +166,7 @@ impl Axes {
             highest: self.bus.voltage,
             resistor: 0.0,
         };
-        let mut stored = 0.0;
+        let [mut stored, mut stopped] = [0.0; 2];
         let alone = Bus {
             resistor: None,
             ..self.bus
@@ -175,9 +175,11 @@ impl Axes {
             let [least, most] = curve.extremes();
             bounds.drawn += most.max(0.0);
             bounds.back += (-least).max(0.0);
+            stopped += curve.stop().peak;
             let highest = alone.run(curve).highest;
             stored += highest * highest - self.bus.voltage * self.bus.voltage;
         }
+        bounds.back = bounds.back.max(stopped);
         if self.bus.regenerative || bounds.back == 0.0 {
             return bounds;
         }

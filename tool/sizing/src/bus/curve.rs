@@ -6,6 +6,25 @@ pub struct PowerCurve {
     /// (time (s), power (W)), times not falling, from 0 to the period; two points at one time are a jump.
     points: Vec<[f64; 2]>,
     period: f64,
+    stop: StopPower,
+}
+
+/// Power fed back in a stop by the drives: largest at its begin, and falling to zero.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct StopPower {
+    /// The largest power (W).
+    pub peak: f64,
+    /// The energy (J).
+    pub energy: f64,
+}
+
+impl StopPower {
+    /// The power over time, as long again at zero; `None` without a stop.
+    pub(super) fn curve(self) -> Option<PowerCurve> {
+        let Self { peak, energy } = self;
+        let time = 2.0 * energy / peak;
+        (peak > 0.0).then(|| PowerCurve::new([[0.0, -peak], [time, 0.0]], 2.0 * time))
+    }
 }
 
 impl PowerCurve {
@@ -24,7 +43,22 @@ impl PowerCurve {
             Some(_) => {}
             None => points.extend([[0.0, 0.0], [period, 0.0]]),
         }
-        Self { points, period }
+        Self {
+            points,
+            period,
+            stop: StopPower::default(),
+        }
+    }
+
+    /// With a stop that may begin at any time.
+    #[must_use]
+    pub fn with_stop(self, stop: StopPower) -> Self {
+        Self { stop, ..self }
+    }
+
+    /// The stop by the drives.
+    pub const fn stop(&self) -> StopPower {
+        self.stop
     }
 
     /// The period (s).
@@ -99,7 +133,7 @@ impl PowerCurve {
             (None, None) => 0.0,
         };
         let rest = self.period - cut;
-        moved.period = self.period;
+        (moved.period, moved.stop) = (self.period, self.stop);
         let points = &mut moved.points;
         points.clear();
         points.push([0.0, at_cut]);
@@ -113,6 +147,10 @@ impl PowerCurve {
         Self {
             points: Vec::new(),
             period: 0.0,
+            stop: StopPower {
+                peak: 0.0,
+                energy: 0.0,
+            },
         }
     }
 
@@ -126,6 +164,7 @@ impl PowerCurve {
         Self {
             points: times.collect(),
             period: self.period * f64::from(count),
+            stop: self.stop,
         }
     }
 
@@ -160,10 +199,11 @@ impl PowerCurve {
         Self {
             points,
             period: self.period,
+            stop: self.stop,
         }
     }
 
-    /// The sum with a curve of the same period.
+    /// The sum with a curve of the same period. Both stop together.
     #[must_use]
     pub fn plus(&self, other: &Self) -> Self {
         let mut sum = Self::empty();
@@ -175,6 +215,10 @@ impl PowerCurve {
     pub(super) fn sum_into(&self, other: &Self, sum: &mut Self) {
         let (a, b) = (&self.points, &other.points);
         sum.period = self.period;
+        sum.stop = StopPower {
+            peak: self.stop.peak + other.stop.peak,
+            energy: self.stop.energy + other.stop.energy,
+        };
         let points = &mut sum.points;
         points.clear();
         let (mut i, mut k) = (0, 0);

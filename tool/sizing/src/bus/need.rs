@@ -53,7 +53,8 @@ impl Need {
     /// ([`BusData::conflict`]), or if the capacitor stores all regenerated energy.
     pub fn of(data: &BusData, curve: &PowerCurve) -> Option<Self> {
         let [least, _] = curve.extremes();
-        let figures = Self::bus(data, -least)?.run(curve);
+        let back = f64::max(-least, curve.stop().peak);
+        let figures = Self::bus(data, back)?.run(curve);
         let mean = figures.burnt / curve.period();
         Self::new(data, [mean, figures.burnt_peak, figures.pulse])
     }
@@ -93,7 +94,7 @@ impl Need {
 
     fn new(data: &BusData, [mean, peak, pulse]: [f64; 3]) -> Option<Self> {
         let on = data.chopper_voltage?;
-        (mean > 0.0).then(|| Self {
+        (peak > 0.0).then(|| Self {
             mean,
             peak,
             pulse,

@@ -79,8 +79,32 @@ const PERIODIC: f64 = 1e-13;
 const MOST_PERIODS: u32 = 10_000;
 
 impl Bus {
-    /// Steady state of the bus under a repeated power curve.
+    /// Steady state of the bus under a repeated power curve, and a stop from its highest voltage if the curve has one.
     pub fn run(&self, curve: &PowerCurve) -> BusFigures {
+        let cycle = self.periodic(curve);
+        let Some(stop) = curve.stop().curve().filter(|_| cycle.highest.is_finite()) else {
+            return cycle;
+        };
+        let stored = self.resistor.is_some() || self.capacitance > 0.0;
+        if !(stored || self.regenerative) || !stop.period().is_finite() {
+            return BusFigures::UNBOUNDED;
+        }
+        let above = cycle.highest.powi(2) - self.voltage.powi(2);
+        let mut walk = Walk::new(self, 0.5 * self.capacitance * above.max(0.0), 0.0);
+        for piece in stop.pieces() {
+            parts(piece, walk.most, |part| walk.events(part));
+        }
+        let stopped = walk.figures;
+        BusFigures {
+            burnt_peak: cycle.burnt_peak.max(stopped.burnt_peak),
+            pulse: cycle.pulse.max(stopped.pulse),
+            highest: cycle.highest.max(stopped.highest),
+            ..cycle
+        }
+    }
+
+    /// Steady state under a repeated power curve.
+    fn periodic(&self, curve: &PowerCurve) -> BusFigures {
         let mut pieces = Vec::with_capacity(curve.points().len());
         let most = Walk::new(self, 0.0, 0.0).most;
         for piece in curve.pieces() {

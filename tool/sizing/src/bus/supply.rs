@@ -26,15 +26,15 @@ pub struct BusData {
 
 impl BusData {
     /// From the machine file, else the amplifier, else, for the voltage, the motor's data sheet. The limit of the motor's insulation also applies to
-    /// the bus.
+    /// the bus. `highest_supply`: the voltage without braking at the upper tolerance of the mains (V).
     pub fn new(
         supply: &Supply,
-        bus_voltage: Option<f64>,
+        highest_supply: Option<f64>,
         amplifier: Option<&Amplifier>,
         motor: &Motor,
     ) -> Self {
         let own = |figure: fn(&Amplifier) -> Option<f64>| amplifier.and_then(figure);
-        let voltage = bus_voltage
+        let voltage = highest_supply
             .or(own(Amplifier::nominal_voltage))
             .or(motor.bus_voltage);
         Self {

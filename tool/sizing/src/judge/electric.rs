@@ -73,14 +73,14 @@ pub(super) fn follow(context: &Context, peak_current: Option<f64>, findings: &mu
             Finding::new(resistor.resistance, least),
         );
     }
-    if !context.cycle.regenerates(&context.coefficients) {
+    if !regenerates(context) {
         if let (Some(voltage), Some(max)) = (data.voltage, data.max_voltage) {
             findings.set(Rule::BusVoltage, Finding::new(voltage, max));
         }
         return;
     }
     // The course of the bus takes a pass over the cycle, so it needs all data.
-    let known = match missing(&data) {
+    let known = match missing(context, &data) {
         None => figures(context, &data),
         Some(_) => None,
     };
@@ -164,7 +164,12 @@ struct DriveBus<'a> {
 fn fed<'a>(context: &Context<'a>) -> DriveBus<'a> {
     let site = context.site;
     let drive = &context.drive;
-    let data = BusData::new(&site.supply, site.bus_voltage, drive.amplifier, drive.motor);
+    let data = BusData::new(
+        &site.supply,
+        site.highest_supply(),
+        drive.amplifier,
+        drive.motor,
+    );
     let mut fed = DriveBus {
         data,
         chosen: None,
@@ -176,7 +181,7 @@ fn fed<'a>(context: &Context<'a>) -> DriveBus<'a> {
         .amplifier
         .and_then(|amplifier| amplifier.internal_resistor);
     let none = context.resistors.is_empty() && internal.is_none();
-    if !free || none || !context.cycle.regenerates(&context.coefficients) {
+    if !free || none || !regenerates(context) {
         return fed;
     }
     let curve = power(context);
@@ -194,8 +199,9 @@ fn fed<'a>(context: &Context<'a>) -> DriveBus<'a> {
         };
         let run = with.bus().map(|bus| bus.run(&curve));
         run.is_ok_and(|run| {
+            let pulse = own.pulse_energy.is_none_or(|most| run.pulse <= most);
             let enough = run.burnt <= own.power * curve.period();
-            enough && data.max_voltage.is_none_or(|most| run.highest <= most)
+            enough && pulse && data.max_voltage.is_none_or(|most| run.highest <= most)
         })
     });
     if own.is_some() {
@@ -214,10 +220,18 @@ pub(super) fn chosen_resistor<'a>(context: &Context<'a>) -> Option<&'a Resistor>
     fed(context).chosen
 }
 
+/// Whether the drive ever feeds energy back.
+fn regenerates(context: &Context) -> bool {
+    context.site.drive_stop.is_some() || context.cycle.regenerates(&context.coefficients)
+}
+
 /// Data missing for the voltage rise of the bus.
-fn missing(data: &BusData) -> Option<&'static str> {
+fn missing(context: &Context, data: &BusData) -> Option<&'static str> {
     match data.bus() {
         Err(missing) => Some(missing),
+        Ok(_) if context.site.drive_stop.is_some() && !context.motor.stop.is_finite() => {
+            Some("peak torque of the motor")
+        }
         Ok(bus) if bus.resistor.is_none() && data.capacitance.is_none() => {
             Some("capacitance of the DC bus")
         }
@@ -227,15 +241,24 @@ fn missing(data: &BusData) -> Option<&'static str> {
 }
 
 fn power(context: &Context) -> bus::curve::PowerCurve {
-    let drive = &context.drive;
-    bus::power(
-        context.cycle,
-        &context.coefficients,
-        context.ratio,
+    let Context {
+        cycle,
+        coefficients,
+        ratio,
+        motor,
+        ref drive,
+        ..
+    } = *context;
+    let curve = bus::power(
+        cycle,
+        &coefficients,
+        ratio,
         drive.motor,
-        context.motor,
+        motor,
         drive.amplifier,
-    )
+    );
+    let share = context.site.drive_stop;
+    curve.with_stop(bus::stop(cycle, &coefficients, ratio, motor, share))
 }
 
 fn figures(context: &Context, data: &BusData) -> Option<BusFigures> {
@@ -263,7 +286,9 @@ pub(super) fn grounds(context: &Context, rule: Rule, finding: Finding) -> Ground
         Rule::ResistorPower | Rule::ResistorPeak | Rule::ResistorPulse
             if finding.value.is_nan() =>
         {
-            Grounds::Missing(missing(&fed(context).data).unwrap_or("figures of the DC bus"))
+            Grounds::Missing(
+                missing(context, &fed(context).data).unwrap_or("figures of the DC bus"),
+            )
         }
         Rule::BrakeResistance => fed(context).chosen.map_or(Grounds::None, |chosen| {
             Grounds::ChosenResistor(chosen.key.clone())
@@ -281,8 +306,9 @@ fn of_bus(context: &Context, finding: Finding) -> Grounds {
     let need = need.or_else(|| Need::of(&data, &curve).filter(|_| rises));
     let resistors = Some(context.resistors).filter(|resistors| !resistors.is_empty());
     Grounds::Bus {
-        missing: missing(&data),
+        missing: missing(context, &data),
         back,
+        stop: context.site.drive_stop.map(|_| curve.stop()),
         taken: data.resistor.is_some() || data.regenerative,
         chopper_voltage: data.chopper_voltage,
         need,

@@ -43,15 +43,19 @@ pub(super) fn measure(context: &Context, findings: &mut impl Record) {
 
 /// The finding of a rule for an element, if its limit is given.
 fn finding(load: &ElementLoad, rule: Rule) -> Option<Finding> {
-    let (_, limit) = load.element.limits.iter().find(|(of, _)| *of == rule)?;
-    let half = 0.5 * load.force;
+    let limits = load.element.limits.iter().filter(|(of, _)| *of == rule);
+    let limit = limits.map(|(_, limit)| *limit).reduce(f64::min)?;
+    let force = load.force;
     let value = match (rule, load.element.kind) {
-        (Rule::BeltTension, ElementKind::Belt(pretension)) => pretension? + half,
-        (Rule::BeltPretension, _) => half,
+        (Rule::BeltTension, ElementKind::Belt(form, pretension)) => {
+            // A strand does not push: if the other one is slack, this one has all of the force.
+            (pretension? + form.shares()[0] * force).max(force)
+        }
+        (Rule::BeltPretension, ElementKind::Belt(form, _)) => form.shares()[1] * force,
         (Rule::ScrewSpeed, _) => load.speed,
-        _ => load.force,
+        _ => force,
     };
-    Some(Finding::new(value, *limit))
+    Some(Finding::new(value, limit))
 }
 
 /// The element that uses most of the limit of a rule; of equal ones the first from the motor.

@@ -1,6 +1,7 @@
 //! Grounds of a check: the data that its description needs besides rule and finding.
 
 use crate::bus::Need;
+use crate::bus::curve::StopPower;
 use crate::bus::need::Misses;
 use crate::catalogue::{RatedBusVoltage, SiteRating};
 use crate::thermal::Heating;
@@ -135,6 +136,8 @@ pub enum Grounds {
         missing: Option<&'static str>,
         /// Energy fed back per cycle (J).
         back: f64,
+        /// Power fed back in a stop by the drive, if that is judged.
+        stop: Option<StopPower>,
         /// Whether a brake resistor or the supply takes it.
         taken: bool,
         /// Voltage (V) at which a brake resistor switches on.

@@ -32,6 +32,7 @@ fn answer(curves: &[PowerCurve], supply: &Supply, only_in_step: bool) -> BusAnal
         drive: String::new(),
         curve: curve.clone(),
         data: BusData::new(supply, Some(560.0), None, &Motor::default()),
+        loses: true,
         holds: true,
     };
     let axes = curves.iter().map(axis).collect();

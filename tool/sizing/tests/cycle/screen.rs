@@ -6,7 +6,7 @@ use std::cmp::Ordering;
 use jred_analysis::checked;
 use jred_analysis::duty::Duty;
 use jred_analysis::duty::mechanics::ElementLoad;
-use jred_file::model::drive_element::{DriveElement, ElementKind};
+use jred_file::model::drive_element::{BeltForm, DriveElement, ElementKind};
 use jred_file::model::rule::Rule;
 use jred_file::model::rules::RuleVerdict;
 use jred_file::model::rules::{Limit, RuleSet};
@@ -268,7 +268,7 @@ fn elements((kind, pretension): (usize, f64)) -> Vec<ElementLoad> {
             on_input: true,
             arm: 1.0,
             carried: 0.0,
-            kind: ElementKind::Belt(pretension),
+            kind: ElementKind::Belt(BeltForm::Pulleys, pretension),
             limits: vec![(Rule::BeltTension, tension), (Rule::BeltForce, 700.0)],
         },
         force: 600.0,

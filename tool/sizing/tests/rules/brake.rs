@@ -242,3 +242,55 @@ speed = "90 rpm"
     assert!(most <= found * 1.001, "{most} > {found}");
     assert!(most > 0.3 * found, "{most} of {found}");
 }
+
+/// The motor brakes the lift with half of its peak torque, 15 N m, as a brake that closes at once: the bus takes its work. With a torque that does not
+/// hold the weight, the voltage has no bound.
+#[test]
+fn the_drive_stops_the_lift() {
+    let text = format!(
+        r#"{LIFT}
+[supply]
+bus_voltage = "560 V"
+capacitance = "470 uF"
+chopper_voltage = "780 V"
+max_voltage = "820 V"
+min_resistance = "20 Ohm"
+brake_resistor = {{ resistance = "47 Ohm", power = "500 W", peak_power = "10 kW", pulse_energy = "5 kW s" }}
+[duty]
+drive_stop = "50 %"
+"#
+    );
+    let stand = Stand::new(&text);
+    let (drive, limits) = (stand.drive(true), stand.prepared());
+    let (c, share) = (drive.coefficients(), stand.file.site.drive_stop);
+    let power = |share| jred_sizing::bus::stop(&stand.cycle, &c, RATIO, &limits, share);
+    let brake = Brake {
+        torque: 15.0,
+        dynamic_torque: None,
+        closing_time: Some(0.0),
+        ..BRAKE
+    };
+    let rotor = stand.motor.rotor_inertia + stand.gearbox.inertia;
+    let [work, _, _] = fall(&brake, rotor, 1.2);
+    let stop = power(share);
+    near("work", stop.energy, work, 1e-4);
+    let peak = 15.0 * RATIO * 1.2 / RADIUS;
+    near("power", stop.peak, peak, 1e-4);
+    // The cycle lowers 60 kg by 1 m: its pulse is larger, its power smaller.
+    near(
+        "peak",
+        stand.found(true, Rule::ResistorPeak).value,
+        peak,
+        1e-4,
+    );
+    let pulse = stand.found(true, Rule::ResistorPulse).value;
+    assert!(pulse > 1.5 * work, "{pulse} {work}");
+    assert!(power(Some(0.1)).energy.is_infinite());
+    assert!(
+        note(&stand.check(true, &RuleSet::default(), Rule::BusVoltage))
+            .contains("in a stop by the drive")
+    );
+    let mut weak = stand;
+    weak.file.site.drive_stop = Some(0.1);
+    assert!(weak.found(true, Rule::BusVoltage).value.is_infinite());
+}

@@ -39,11 +39,7 @@ fn cases() -> Vec<(Case, Vec<Option<f64>>)> {
         "type = \"rack-and-pinion\"",
         "type = \"rack-and-pinion\"\nhelix_angle = \"19.5 deg\"",
     );
-    let belt = edited(
-        &press_text(),
-        "belt_mass = \"0.6 kg\"",
-        "belt_mass = \"0.6 kg\"\npretension = \"3 kN\"",
-    );
+    let belt = edited(&press_text(), "\"1 kN\"", "\"3 kN\"");
     let mut all: Vec<_> = [belt.as_str(), &helical, HOIST, CONVEYOR, SCREW]
         .into_iter()
         .map(|text| (case(text, 500), gears()))

@@ -91,7 +91,7 @@ pub(in crate::duty) fn force(
     let behind: f64 = stages.iter().skip(number + 1).map(Stage::ratio).product();
     let flows_back = delivered * instant.direction * behind < 0.0;
     let loss = match element.kind {
-        ElementKind::Belt(_) if !flows_back => stage.efficiency(),
+        ElementKind::Belt(..) if !flows_back => stage.efficiency(),
         _ => 1.0,
     };
     let travel = instant.alpha * behind * element.arm;

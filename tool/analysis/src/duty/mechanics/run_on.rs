@@ -1,4 +1,5 @@
-//! The stop by the brake alone: the supply fails, the motor is without torque, and the brake closes after a delay.
+//! The stop by the brake alone: the supply fails, the motor is without torque, and the brake closes after a delay. A drive that brakes the machine
+//! is a brake without delay.
 //!
 //! ```text
 //! until it closes   E ≤ E₀ + d·φ                      d: the largest torque with which the machine drives itself on
@@ -30,7 +31,7 @@ pub struct RunOn {
     inertia: f64,
 }
 
-/// A brake at the motor shaft.
+/// A brake at the motor shaft, or the motor as a brake.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MotorBrake {
     /// Torque while it slips (N·m).
@@ -48,6 +49,8 @@ pub struct MotorBrake {
 pub struct BrakeStop {
     /// Work of the brake (J); infinite if it does not hold the machine.
     pub work: f64,
+    /// Speed at the input when the brake closes (rad/s).
+    pub speed: f64,
     /// Travel at the input until the brake closes (rad).
     pub falling: f64,
     /// Travel at the input until standstill (rad).
@@ -91,6 +94,7 @@ impl RunOn {
         for way in &self.ways {
             let found = self.stop(way, brake);
             worst.work = worst.work.max(found.work);
+            worst.speed = worst.speed.max(found.speed);
             worst.falling = worst.falling.max(found.falling);
             worst.way = worst.way.max(found.way);
         }
@@ -118,6 +122,7 @@ impl RunOn {
             let endless = if closed > 0.0 { f64::INFINITY } else { 0.0 };
             return BrakeStop {
                 work: endless,
+                speed: fast,
                 falling,
                 way: falling + endless,
             };
@@ -125,6 +130,7 @@ impl RunOn {
         let work = closed * torque / (torque - way.driving);
         BrakeStop {
             work,
+            speed: fast,
             falling,
             way: falling + work / torque,
         }

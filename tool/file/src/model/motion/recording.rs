@@ -32,10 +32,9 @@ impl Recording<'_> {
         }
     }
 
-    pub(super) fn curve(&self, values: &[f64]) -> Result<Spline, SplineError> {
-        let way = self
-            .cutoff
-            .map_or(FitMethod::Interpolating, FitMethod::Smoothing);
+    /// The curve, by default of the method `exact`.
+    pub(super) fn curve(&self, values: &[f64], exact: FitMethod) -> Result<Spline, SplineError> {
+        let way = self.cutoff.map_or(exact, FitMethod::Smoothing);
         match (self.closing, self.times) {
             (Repetition::After(_), [times @ .., duration]) if values.len() == self.times.len() => {
                 Spline::periodic(times, &values[..times.len()], *duration, way)

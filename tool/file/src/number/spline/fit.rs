@@ -18,8 +18,12 @@ fn slopes(y: &[f64], h: &[f64]) -> Vec<f64> {
 pub(super) fn bounded(x: &[f64], y: &[f64], way: FitMethod) -> Vec<[f64; 4]> {
     let h = steps(x);
     match way {
-        FitMethod::Interpolating => by_curvature(y, &h, &not_a_knot(y, &h)),
-        FitMethod::Level => by_curvature(y, &h, &level(y, &h)),
+        FitMethod::Interpolating => by_curvature(y, &h, &cubic(y, &h, [false; 2])),
+        FitMethod::Level => by_curvature(y, &h, &cubic(y, &h, [true; 2])),
+        FitMethod::Resting => {
+            let free = by_curvature(y, &h, &cubic(y, &h, [false; 2]));
+            by_curvature(y, &h, &cubic(y, &h, rests(&free, &h)))
+        }
         FitMethod::Monotone => {
             let mean = slopes(y, &h);
             let last = mean.len() - 1;
@@ -53,7 +57,7 @@ pub(super) fn periodic(knots: &[f64], y: &[f64], way: FitMethod) -> Vec<[f64; 4]
             let tangents = at_zero(y, (0..n).map(tangent).collect());
             by_slope(&closed(y), &h, &closed(&tangents))
         }
-        FitMethod::Interpolating | FitMethod::Level => {
+        FitMethod::Interpolating | FitMethod::Level | FitMethod::Resting => {
             let (_, curvature) = ring(y, &h, &mean, 0.0);
             by_curvature(&closed(y), &h, &closed(&curvature))
         }
@@ -118,34 +122,43 @@ fn at_zero(y: &[f64], mut tangents: Vec<f64>) -> Vec<f64> {
     tangents
 }
 
-/// Second derivatives for which the first two and the last two pieces are one cubic each.
-fn not_a_knot(y: &[f64], h: &[f64]) -> Vec<f64> {
+/// Second derivatives of a spline: at each end level, or with the outer two pieces being one cubic.
+fn cubic(y: &[f64], h: &[f64], level: [bool; 2]) -> Vec<f64> {
     let mean = slopes(y, h);
     let last = h.len() - 1;
-    let mut rows = vec![[0.0, 0.0, h[1], -(h[0] + h[1]), h[0]]];
-    let mut right = vec![0.0];
+    let (first, value) = if level[0] {
+        ([0.0, 0.0, 2.0 * h[0], h[0], 0.0], 6.0 * mean[0])
+    } else {
+        ([0.0, 0.0, h[1], -(h[0] + h[1]), h[0]], 0.0)
+    };
+    let (mut rows, mut right) = (vec![first], vec![value]);
     for k in 1..=last {
         rows.push([0.0, h[k - 1], 2.0 * (h[k - 1] + h[k]), h[k], 0.0]);
         right.push(6.0 * (mean[k] - mean[k - 1]));
     }
-    rows.push([h[last], -(h[last - 1] + h[last]), h[last - 1], 0.0, 0.0]);
-    right.push(0.0);
+    let (end, value) = if level[1] {
+        ([0.0, h[last], 2.0 * h[last], 0.0, 0.0], -6.0 * mean[last])
+    } else {
+        (
+            [h[last], -(h[last - 1] + h[last]), h[last - 1], 0.0, 0.0],
+            0.0,
+        )
+    };
+    rows.push(end);
+    right.push(value);
     System { rows, right }.solve()
 }
 
-/// Second derivatives with level ends.
-fn level(y: &[f64], h: &[f64]) -> Vec<f64> {
-    let mean = slopes(y, h);
-    let last = h.len() - 1;
-    let mut rows = vec![[0.0, 0.0, 2.0 * h[0], h[0], 0.0]];
-    let mut right = vec![6.0 * mean[0]];
-    for k in 1..=last {
-        rows.push([0.0, h[k - 1], 2.0 * (h[k - 1] + h[k]), h[k], 0.0]);
-        right.push(6.0 * (mean[k] - mean[k - 1]));
-    }
-    rows.push([0.0, h[last], 2.0 * h[last], 0.0, 0.0]);
-    right.push(-6.0 * mean[last]);
-    System { rows, right }.solve()
+/// Whether a curve rests at each of its ends: its slope there is at most a quarter of that of the outer chord, or opposite to it. Under a constant
+/// acceleration from rest it is zero; at constant speed it is that of the chord.
+fn rests(pieces: &[[f64; 4]], h: &[f64]) -> [bool; 2] {
+    let still = |slope: f64, chord: f64| slope * chord <= 0.25 * chord * chord;
+    let [first, last] = [0, h.len() - 1].map(|k| {
+        let ([_, b, c, d], h) = (pieces[k], h[k]);
+        let end = b + h * (2.0 * c + 3.0 * d * h);
+        ([b, end], b + h * (c + d * h))
+    });
+    [still(first.0[0], first.1), still(last.0[1], last.1)]
 }
 
 /// Column k of Q, which takes values to jumps of the slope: its entries at the knots k − 1, k, k + 1.

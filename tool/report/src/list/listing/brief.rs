@@ -114,6 +114,9 @@ fn parts(answer: &mut Answer, file: &MachineFile, judged: &Assessment) {
         (None, None, Some(bus)) if bus.verdict == RuleVerdict::Fail => {
             "needed, and none fits".to_owned()
         }
+        _ if file.site.supply.regenerative => {
+            "none of its own: the supply or the common bus takes the energy".to_owned()
+        }
         _ => "not needed".to_owned(),
     };
     answer.fact("resistor", resistor);

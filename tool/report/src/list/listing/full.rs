@@ -286,9 +286,32 @@ impl Listing<'_> {
 
     /// The refused drives with the rules that they violate.
     pub(crate) fn refused(&self, answer: &mut Answer) {
+        let header = [
+            ("drive", Words),
+            ("violates", Words),
+            ("figure", Quantity),
+            ("limit", Quantity),
+            ("used", Share),
+            ("limit is", Words),
+        ];
+        let mut rows = Vec::new();
         for refused in self.list.refused(self.selection) {
-            let reasons = reasons(&self.selection.judged(&refused));
-            answer.sentence(format!("{}: {reasons}", refused.drive.name()));
+            let mut name = refused.drive.name();
+            let judged = self.selection.judged(&refused);
+            let fails = |check: &&Check| check.verdict == RuleVerdict::Fail;
+            for check in judged.checks.iter().filter(fails) {
+                rows.push([
+                    std::mem::take(&mut name),
+                    check.rule.to_owned(),
+                    check.figure(),
+                    check.bound().unwrap_or_default(),
+                    check.used(),
+                    note(check),
+                ]);
+            }
+        }
+        if !rows.is_empty() {
+            answer.table(table(header, rows.into_iter(), 1));
         }
     }
 }

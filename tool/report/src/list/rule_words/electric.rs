@@ -2,6 +2,7 @@
 
 use jred_file::model::rule::Rule;
 use jred_file::number::rounding::short;
+use jred_sizing::bus::curve::StopPower;
 use jred_sizing::judge::Grounds;
 use jred_sizing::judge::check::Check;
 
@@ -65,6 +66,7 @@ fn reduced(check: &Check) -> String {
 fn bus(check: &Check) -> String {
     let Grounds::Bus {
         back,
+        stop,
         taken,
         chopper_voltage,
         need,
@@ -75,10 +77,17 @@ fn bus(check: &Check) -> String {
         return String::new();
     };
     let finding = check.finding;
-    if *back == 0.0 {
+    if *back == 0.0 && stop.is_none() {
         return "no energy is fed back".to_owned();
     }
     let mut words = format!("{} J are fed back per cycle", short(*back));
+    if let Some(StopPower { peak, energy }) = stop {
+        words += &format!(
+            ", {} J and at most {} W in a stop by the drive",
+            short(*energy),
+            short(*peak)
+        );
+    }
     if finding.is_known() && finding.value.is_infinite() {
         words += ", more than is drawn: without a brake resistor the voltage rises without limit";
     }

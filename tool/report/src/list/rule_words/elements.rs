@@ -13,12 +13,15 @@ pub(super) fn words(check: &Check) -> (String, String) {
     let (rating, place) = match check.id {
         Rule::BeltTension => (
             "allowed force",
-            format!("pretension and half of the largest effective force of {force} N"),
+            format!(
+                "tight strand: pretension and its share of the largest effective force of {force} N"
+            ),
         ),
         Rule::BeltForce => ("allowed effective force", String::new()),
         Rule::BeltPretension => (
             "pretension",
-            "half of the largest effective force; beyond it one strand is slack".to_owned(),
+            "share of the slack strand in the largest effective force; beyond it, it hangs loose"
+                .to_owned(),
         ),
         Rule::ScrewForce => ("allowed axial force", String::new()),
         Rule::ScrewBuckling => ("buckling force (Euler)", String::new()),

@@ -22,7 +22,7 @@ pub struct Regeneration {
     /// Largest energy without a pause, if nothing is stored.
     #[serde(rename = "pulse [J]")]
     pub pulse: f64,
-    /// Largest motoring power.
+    /// Largest motoring power; losses are added to it.
     #[serde(rename = "motoring peak [W]")]
     pub motoring_peak: f64,
     /// The brake resistor, if `[supply]` gives the voltages and the bus needs one.
@@ -63,7 +63,7 @@ impl Inquiry<'_> {
         let curve = bus::power(self.cycle, &coefficients, ratio, &motor, &limits, None);
         let [_, energy] = self.cycle.energies(&coefficients, ratio);
         let [least, most] = curve.extremes();
-        let data = BusData::new(&site.supply, site.bus_voltage, None, &motor);
+        let data = BusData::new(&site.supply, site.highest_supply(), None, &motor);
         // Without a capacitance nothing is stored, whatever the voltages are.
         let empty = BusData {
             voltage: Some(1.0),
