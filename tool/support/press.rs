@@ -48,6 +48,7 @@ driver = { radius = "40 mm", inertia = "0.0006 kg m^2" }
 driven = { radius = "120 mm", inertia = "0.03 kg m^2" }
 belt_mass = "0.6 kg"
 efficiency = "97 %"
+pretension = "1 kN"
 [motion]
 type = "cycle"
 start = "180 deg"

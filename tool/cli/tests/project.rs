@@ -192,7 +192,7 @@ fn the_packing_line() {
     let html = std::fs::read_to_string(page).unwrap();
     for words in [
         "Axis press:",
-        "gantry: Bill of materials",
+        "gantry: Duty",
         "feed: Tool:",
         "table: Inputs, as in the machine file",
         "Cardboard Ltd",

@@ -168,7 +168,7 @@ fn what_is_not_checked_is_said() {
     says(
         &text,
         &[
-            "not checked bus voltage: no data for the maximum voltage of the DC bus, and it rises from 565.7 V to",
+            "not checked bus voltage: no data for the maximum voltage of the DC bus, and it rises from 622.3 V to",
             "without a brake resistor: give max_voltage in [supply]",
         ],
     );

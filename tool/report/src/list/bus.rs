@@ -144,7 +144,7 @@ fn axes(bus: &BusAnalysis, answer: &mut Answer) {
     if !cold.is_empty() {
         answer.sentence(format!(
             "Without the losses of the winding, whose resistance the catalogue does not give: {}",
-            cold.join(", ")
+            cold.join("; ")
         ));
     }
 }

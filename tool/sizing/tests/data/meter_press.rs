@@ -9,7 +9,7 @@
 // assumed: corner of the peak torque not given; using peak torque up to rated speed
 // assumed: peak torque at maximum speed not given; using a straight line to the rated torque
 // assumed: standstill torque not given; using the rated torque
-// not monitored by the meter: holding torque, brake torque, inertia ratio, winding temperature, gearbox emergency torque, RMS current, peak current, motor voltage, bus voltage, natural frequency
+// not monitored by the meter: holding torque, brake torque, inertia ratio, winding temperature, gearbox emergency torque, gearbox radial load, belt pretension, RMS current, peak current, motor voltage, bus voltage, natural frequency
 //
 // SI units. Speed and torque are those of the motor; output is that of the gearbox.
 

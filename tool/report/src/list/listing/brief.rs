@@ -122,6 +122,9 @@ fn parts(answer: &mut Answer, file: &MachineFile, judged: &Assessment) {
     answer.fact("resistor", resistor);
 }
 
+/// Rules without data that the answer names.
+const NAMED: usize = 6;
+
 /// Data that are missing before the drive can be ordered.
 fn missing(file: &MachineFile, judged: &Assessment) -> Vec<String> {
     let drive = &judged.drive;
@@ -142,7 +145,13 @@ fn missing(file: &MachineFile, judged: &Assessment) -> Vec<String> {
         .map(|check| check.rule)
         .collect();
     if !open.is_empty() {
-        missing.push(format!("not checked for lack of data: {}", open.join(", ")));
+        let shown = open.len().min(NAMED);
+        let more = match open.len() - shown {
+            0 => String::new(),
+            more => format!(" and {more} more"),
+        };
+        let named = open[..shown].join(", ");
+        missing.push(format!("not checked for lack of data: {named}{more}"));
     }
     if !drive.from_makers() {
         missing.push("compare the figures (*) with the makers' data sheets".to_owned());

@@ -20,8 +20,7 @@ pub(super) fn words(check: &Check) -> (String, String) {
         Rule::BeltForce => ("allowed effective force", String::new()),
         Rule::BeltPretension => (
             "pretension",
-            "share of the slack strand in the largest effective force; beyond it, it hangs loose"
-                .to_owned(),
+            "loss of force in the slack strand; with more it hangs loose".to_owned(),
         ),
         Rule::ScrewForce => ("allowed axial force", String::new()),
         Rule::ScrewBuckling => ("buckling force (Euler)", String::new()),
