@@ -1,5 +1,7 @@
 //! Amplifier, DC bus and brake resistor.
 
+use std::fmt::Write as _;
+
 use jred_file::model::rule::Rule;
 use jred_file::number::rounding::short;
 use jred_sizing::bus::curve::StopPower;
@@ -82,7 +84,8 @@ fn bus(check: &Check) -> String {
     }
     let mut words = format!("{} J are fed back per cycle", short(*back));
     if let Some(StopPower { peak, energy }) = stop {
-        words += &format!(
+        let _ = write!(
+            words,
             ", {} J and at most {} W in a stop by the drive",
             short(*energy),
             short(*peak)
