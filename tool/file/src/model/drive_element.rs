@@ -44,7 +44,7 @@ pub enum BeltForm {
 }
 
 impl BeltForm {
-    /// What the tight strand has above T₀, the slack strand below T₀, and both together above 2·T₀, as shares of F.
+    /// Shares of F that the tight strand has above T₀, the slack strand below T₀, and both together above 2·T₀.
     pub const fn shares(self) -> [f64; 3] {
         match self {
             Self::Pulleys => [0.5, 0.5, 0.0],
