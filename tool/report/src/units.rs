@@ -192,10 +192,15 @@ fn converted(text: &str, own: &Conversion) -> String {
     significant(own.of(value), count.clamp(3, 6) as i32)
 }
 
-/// A cell of words: its quantities, or, in a column with a unit, its bare numbers.
+/// A cell of words: its quantities, or, in a column with a unit, its bare numbers: "3" or "3 to 5".
 pub(crate) fn cell(words: &str, own: Option<&Conversion>) -> String {
+    const BETWEEN: &str = " to ";
+    let parts = || words.trim().split(BETWEEN);
     match own {
-        Some(own) if words.trim().parse::<f64>().is_ok() => converted(words.trim(), own),
+        Some(own) if parts().all(|part| part.parse::<f64>().is_ok()) => {
+            let shown = parts().map(|part| converted(part, own));
+            shown.collect::<Vec<_>>().join(BETWEEN)
+        }
         _ => text(words).into_owned(),
     }
 }

@@ -161,7 +161,7 @@ fn inertia(findings: &Findings, answer: &mut Answer) {
     let flywheel = short(findings.inertia.flywheel);
     answer.fact(
         c.inertia(),
-        format!("{min} to {max} {unit}, mean {mean}, of which flywheel and drive train {flywheel}"),
+        format!("{min} to {max} {unit}, mean {mean} {unit}, of which flywheel and drive train {flywheel} {unit}"),
     );
     if let Some(laden) = findings.inertia.laden {
         let [min, mean, max] = laden.map(short);

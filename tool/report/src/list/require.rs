@@ -216,16 +216,13 @@ impl RequirementView<'_> {
         );
         let points = found.envelope.iter();
         let points: Vec<String> = points
-            .map(|[speed, most]| format!("{} at {}", short(up(*most)), turns(*speed)))
+            .map(|[speed, most]| format!("{} at {}", effort(*most), turns(*speed)))
             .collect();
         answer.fact(
             format!("peak {torque}"),
             format!("{} up to the maximum speed", effort(found.peak_torque)),
         );
-        answer.fact(
-            "or over speed",
-            format!("{} ({})", points.join(", "), torque.unit),
-        );
+        answer.fact("or over speed", points.join(", "));
         answer.fact("maximum speed", turns(found.max_speed));
         let brake = if found.brake_torque.is_some() {
             " with brake"
@@ -325,7 +322,7 @@ impl RequirementView<'_> {
         let [continuous, peak] = found.currents.map(|x| short(up(x)));
         answer.fact(
             "amplifier",
-            format!("continuous current {continuous} {unit}/k_T, peak current {peak} {unit}/k_T, with k_T the {} constant in {unit}/A", words.torque),
+            format!("continuous current {continuous}/k_T, peak current {peak}/k_T (A), with k_T the {} constant in {unit}/A", words.torque),
         );
         let back = &found.regeneration;
         answer.fact(
@@ -388,6 +385,9 @@ impl RequirementView<'_> {
         let limit = file.rules.limit(Rule::InertiaRatio);
         if !limit.is_set() {
             answer.sentence(format!("The rule set has no limit for the {inertia} ratio: the smallest {rotor} is not limited."));
+        }
+        if self.inquiry.file.site.drive_stop.is_some() {
+            answer.warning("drive_stop of [duty] is not contained: its energy depends on the motor's peak torque; check the resistor with the offers");
         }
         answer.sentence(
             "Not contained: temperatures, and losses, friction and saturation of the motor. Check the offers: add them to a catalogue, and run `jred size FILE --catalogue FOLDER`.",

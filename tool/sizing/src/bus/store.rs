@@ -75,6 +75,9 @@ impl BusFigures {
 /// Tolerance of the periodic state, as a share of the energy at U₀ and the energy fed back.
 const PERIODIC: f64 = 1e-13;
 
+/// Rounding of the energy that follows from a voltage, as a share of the energy.
+const ROUNDING: f64 = 1e-12;
+
 /// Most periods until it is reached.
 const MOST_PERIODS: u32 = 10_000;
 
@@ -91,6 +94,10 @@ impl Bus {
         }
         let above = cycle.highest.powi(2) - self.voltage.powi(2);
         let mut walk = Walk::new(self, 0.5 * self.capacitance * above.max(0.0), 0.0);
+        if walk.excess - walk.full <= ROUNDING * (walk.base + walk.full) {
+            // The switch-on voltage itself, but for rounding: above it the resistor would take all that it can.
+            walk.excess = walk.excess.min(walk.full);
+        }
         for piece in stop.pieces() {
             parts(piece, walk.most, |part| walk.events(part));
         }
