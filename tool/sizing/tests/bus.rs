@@ -77,6 +77,16 @@ fn a_stop_starts_at_the_highest_voltage() {
     let peak = 1500.0 * (1.0 - room / 300.0).sqrt();
     near("power", figures.burnt_peak, peak, budget::BUS);
     assert_eq!((figures.highest, figures.burnt), (780.0, 0.0));
+    // From the switch-on voltage the resistor takes the power of the stop, not all that it can.
+    let full = PowerCurve::new(
+        [[0.0, 500.0], [1.0, 500.0], [1.0, -2000.0], [1.2, 0.0]],
+        2.0,
+    );
+    let figures = BUS.run(&full.with_stop(StopPower {
+        peak: 3000.0,
+        energy: 300.0,
+    }));
+    near("peak", figures.burnt_peak, 3000.0, budget::BUS);
     let bare = Bus {
         resistor: None,
         ..BUS

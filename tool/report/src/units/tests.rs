@@ -142,3 +142,22 @@ fn tables_keep_every_digit() {
     near(shown.rows()[0][0].unwrap(), 1.0);
     assert_eq!(shown.rows()[0][1], None);
 }
+
+#[test]
+fn bare_numbers_below_a_unit() {
+    show_in(UnitSystem::Imperial);
+    let (_, own) = title("rotor [kg cm^2]");
+    let shown = cell("2.059 to 88", own);
+    let (from, to) = shown.split_once(" to ").unwrap();
+    // 1 lb in s² is 0.112985 kg m².
+    let inertia = POUND_FORCE * INCH * 1e4;
+    assert!(
+        (from.parse::<f64>().unwrap() * inertia / 2.059 - 1.0).abs() < 1e-3,
+        "{shown}"
+    );
+    assert!(
+        (to.parse::<f64>().unwrap() * inertia / 88.0 - 1.0).abs() < 6e-3,
+        "{shown}"
+    );
+    assert_eq!(cell("none", own), "none");
+}
