@@ -13,9 +13,9 @@
 //! ```
 //!
 //! With K = c·h(G) ≥ 0, entry by entry, |h(a) − h(b)| ≤ h(a − b) makes the right-hand side a contraction if the spectral radius of K is below 1: there
-//! is one solution for every load, and the iteration converges to it. Otherwise the position is refused. With one joint there are then loads with two
-//! solutions, and others with none: self-locking (P. Painlevé, *Leçons sur le frottement*, 1895). The radius is below 1 exactly if w = 1 + K·w has a
-//! solution w > 0 (A. Berman, R. J. Plemmons, *Nonnegative Matrices in the Mathematical Sciences*, theorem 6.2.3), which is iterated too; above 0.99
+//! is one solution for every load, and the iteration converges to it. Otherwise the position is refused. With one joint, some loads then have two
+//! solutions and others have no solution: self-locking (P. Painlevé, *Leçons sur le frottement*, 1895). The radius is below 1 exactly if w = 1 + K·w
+//! has a solution w > 0 (A. Berman, R. J. Plemmons, *Nonnegative Matrices in the Mathematical Sciences*, theorem 6.2.3), which is iterated too; above 0.99
 //! that takes too long, and the position counts as locked.
 //!
 //! Coulomb's law with the sign of the motion: no stiction, zero at rest. μ of a pin is that of bearing tables, M = μ·r·F. For dry contact along a

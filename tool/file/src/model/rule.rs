@@ -97,7 +97,7 @@ rules! {
     BeltTension, "belt tension", "belt_tension";
     /// Effective force of a belt against that of its teeth in mesh.
     BeltForce, "belt effective force", "belt_force";
-    /// Half of a belt's effective force against its pretension: above it one strand is slack.
+    /// The slack strand's share of a belt's effective force against its pretension: above it one strand is slack.
     BeltPretension, "belt pretension", "belt_pretension";
     /// Axial force of a screw.
     ScrewForce, "screw force", "screw_force";

@@ -145,7 +145,7 @@ impl BusAnalysis {
         only_in_step: bool,
         watch: &dyn Watch,
     ) -> Result<Self> {
-        let unknown = |axis: &&BusAxis| axis.curve.stop().peak.is_nan();
+        let unknown = |axis: &&BusAxis| !axis.curve.stop().peak.is_finite();
         if let Some(axis) = axes.iter().find(unknown) {
             return Err(problem!(
                 help = "give peak_torque of the motor in the catalogue, or remove drive_stop from [duty]",
