@@ -152,11 +152,36 @@ pub enum Command {
 
 /// A file to write. "-" is refused: it suggests stdout, which is used for the result.
 pub fn output_file() -> impl TypedValueParser<Value = PathBuf> {
-    PathBufValueParser::new().try_map(|path| {
+    document("")
+}
+
+/// Kinds of documents, each with its option.
+const DOCUMENTS: [(&str, &str); 4] = [
+    ("html", "--report"),
+    ("htm", "--report"),
+    ("pdf", "--pdf"),
+    ("xlsx", "--xlsx"),
+];
+
+/// A document to write with `option`; a name that ends as those of another option is refused.
+pub fn document(option: &'static str) -> impl TypedValueParser<Value = PathBuf> {
+    PathBufValueParser::new().try_map(move |path| {
         if path.as_os_str() == "-" {
-            return Err("stdout is used for the result: name a file (./- for a file of this name)");
+            return Err(
+                "stdout is used for the result: name a file (./- for a file of this name)"
+                    .to_owned(),
+            );
         }
-        Ok(path)
+        let own = |(end, _): &&(&str, &str)| {
+            path.extension()
+                .is_some_and(|e| e.eq_ignore_ascii_case(end))
+        };
+        match DOCUMENTS.iter().find(own) {
+            Some((end, other)) if !option.is_empty() && *other != option => Err(format!(
+                "{option} does not write a file of the kind .{end}: use {other}"
+            )),
+            _ => Ok(path),
+        }
     })
 }
 

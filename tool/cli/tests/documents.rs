@@ -186,12 +186,15 @@ fn paper_and_refusals() {
             page.matches("<thead>").count()
         );
     }
+    jred_of("reduce {} --pdf {}", [&press_file(), &path])
+        .ends(2)
+        .says(&["does not write a file of the kind .html", "--report"]);
     jred_of("reduce {} --paper a4", [&press_file()])
         .ends(2)
         .says(&["--report", "--pdf"]);
     for option in ["--xlsx", "--pdf"] {
         let line = format!("size {{}} --pareto mass,energy {option} {{}}");
-        jred_of(&line, [&press_file(), &path])
+        jred_of(&line, [&press_file(), &folder.path("answer")])
             .ends(2)
             .says(&["--pareto", option]);
         let missing = folder.path("nowhere/answer");

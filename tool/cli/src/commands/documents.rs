@@ -9,16 +9,17 @@ use crate::output::Files;
 use jred_file::plain;
 use jred_report::answer::Answer;
 
-/// Writes the requested documents with the other files of a result. Returns sentences about them.
+/// Writes the requested documents with the other files of a result. Returns sentences about them, and the error if no browser prints the page: the
+/// other files are written nevertheless, and the answer is printed before the error.
 ///
 /// # Errors
-/// Those of page and answer; a file that cannot be written. If no browser prints the page, the other files are written nevertheless.
+/// Those of page and answer; a file that cannot be written.
 pub(super) fn write<'a>(
     options: &Documents,
     mut files: Files,
     page: impl FnOnce() -> Result<String>,
     answer: impl FnOnce() -> Result<Answer<'a>>,
-) -> Result<Vec<String>> {
+) -> Result<(Vec<String>, Result<()>)> {
     let is_page = options.report.is_some() || options.pdf.is_some();
     let page = if is_page { page()? } else { String::new() };
     let page = options.paper.unwrap_or_default().page(page);
@@ -28,21 +29,21 @@ pub(super) fn write<'a>(
     if let Some(path) = &options.xlsx {
         files.add(path, &answer()?.workbook()?)?;
     }
-    let printed = options.pdf.as_ref().map(|path| {
+    let printed = options.pdf.as_ref().map_or(Ok(()), |path| {
         busy::begin("printing the page");
         let pdf = browser::pdf(&page, path)?;
         files.add(path, &pdf)
     });
     files.finish()?;
-    printed.transpose()?;
+    let pdf = options.pdf.as_ref().filter(|_| printed.is_ok()).cloned();
     let written = [
         ("report", &options.report),
-        ("PDF", &options.pdf),
+        ("PDF", &pdf),
         ("workbook", &options.xlsx),
     ];
     let written = written.into_iter().filter_map(|(what, path)| {
         let path = plain::path(path.as_ref()?);
         Some(format!("{what} written to {path}"))
     });
-    Ok(written.collect())
+    Ok((written.collect(), printed))
 }

@@ -157,12 +157,13 @@ pub fn fastest(options: &Options) -> Result<Completion> {
     };
     let page = || page::fastest_page(&view).map_err(core_report);
     let workbook = || view.answer(Format::Csv).map_err(core_report);
-    let documents = documents::write(&options.documents, files, page, workbook)?;
+    let (documents, printed) = documents::write(&options.documents, files, page, workbook)?;
     let mut answer = view.answer(options.format).map_err(core_report)?;
     for line in written(options, &file).chain(documents).chain(planned) {
         answer.sentence(line);
     }
     print_answer(&answer, options.format)?;
+    printed?;
     let violated = judged.is_some_and(|judged| judged.violated().next().is_some());
     Ok(completion(&cycle, broken.is_some() || violated))
 }

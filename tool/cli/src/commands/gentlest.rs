@@ -106,11 +106,13 @@ pub fn gentlest(options: &Gentlest) -> Result<Completion> {
     let mut answer = list::gentlest::answer(&shown);
     let page = || page::gentlest_page(&shown, motion).map_err(core_report);
     let workbook = || Ok(answer.clone());
-    written.extend(documents::write(&options.documents, files, page, workbook)?);
+    let (documents, printed) = documents::write(&options.documents, files, page, workbook)?;
+    written.extend(documents);
     for line in written {
         answer.sentence(line);
     }
     print_answer(&answer, options.format)?;
+    printed?;
     let mut violated = checks
         .iter()
         .filter(|check| check.verdict == RuleVerdict::Fail && check.id.follows_motion());

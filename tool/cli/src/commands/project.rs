@@ -112,13 +112,15 @@ pub(super) fn run(options: &Options) -> Result<Completion> {
     let mut answer = shown.answer();
     let page = || page::project_page(&shown).map_err(core_report);
     let workbook = || Ok(shown.answer());
-    for line in documents::write(&options.documents, Files::default(), page, workbook)? {
+    let (lines, printed) = documents::write(&options.documents, Files::default(), page, workbook)?;
+    for line in lines {
         answer.sentence(line);
     }
     match options.format.of_answer() {
         Some(format) => print_answer(&answer, format)?,
         None => print(&environment(shown.axes.iter().map(sized)))?,
     };
+    printed?;
     Ok(if shown.holds() {
         Completion::Holds
     } else {

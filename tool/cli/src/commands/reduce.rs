@@ -100,10 +100,12 @@ pub(super) fn run(options: &options::Reduce) -> Result<Completion> {
         page::mechanism_page(&name, &file, state).map_err(core_report)
     };
     let workbook = || Ok(answer.clone());
-    for line in documents::write(&options.documents, Files::default(), page, workbook)? {
+    let (lines, printed) = documents::write(&options.documents, Files::default(), page, workbook)?;
+    for line in lines {
         answer.sentence(line);
     }
-    print_answer(&answer, options.format)
+    let done = print_answer(&answer, options.format)?;
+    printed.map(|()| done)
 }
 
 /// Largest number of values in memory: 320 MB.

@@ -62,10 +62,12 @@ pub(super) fn run(options: &Require) -> Result<Completion> {
     let mut answer = shown.answer();
     let page = || Ok(page::require_page(&shown));
     let workbook = || Ok(answer.clone());
-    for line in documents::write(&options.documents, Files::default(), page, workbook)? {
+    let (lines, printed) = documents::write(&options.documents, Files::default(), page, workbook)?;
+    for line in lines {
         answer.sentence(line);
     }
     print_answer(&answer, options.format)?;
+    printed?;
     Ok(if requirements.iter().any(|found| found.possible) {
         Completion::Holds
     } else {

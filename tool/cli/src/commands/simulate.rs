@@ -109,8 +109,9 @@ pub(super) fn run(options: &Simulate) -> Result<Completion> {
     };
     let page = || Ok(page::simulation_page(&shown));
     let workbook = || Ok(shown.answer());
-    documents::write(&options.documents, Files::default(), page, workbook)?;
+    let (_, printed) = documents::write(&options.documents, Files::default(), page, workbook)?;
     let done = print_answer(&shown.answer(), options.format)?;
+    printed?;
     // The rows up to that point are written before the reason.
     match &found.ended {
         None => Ok(done),

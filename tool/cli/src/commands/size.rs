@@ -119,9 +119,11 @@ pub fn size(options: &Size) -> Result<Completion> {
         page.ok_or_else(|| none_left(options, catalogue.count(), &[]))
     };
     let workbook = || Ok(shown.answer_with_values());
-    let written = documents::write(&options.documents, Files::default(), page, workbook)?;
+    let (written, printed) =
+        documents::write(&options.documents, Files::default(), page, workbook)?;
     let Some(format) = options.format.of_answer() else {
-        return aas(options, shown, &catalogue);
+        let done = aas(options, shown, &catalogue)?;
+        return printed.map(|()| done);
     };
     let mut answer = shown.answer(format);
     for line in written {
@@ -132,6 +134,7 @@ pub fn size(options: &Size) -> Result<Completion> {
         answer.sentence(format!("limits for the duty meter written to {path}"));
     }
     print_answer(&answer, format)?;
+    printed?;
     Ok(if selection.fit.is_empty() {
         Completion::Violated
     } else {

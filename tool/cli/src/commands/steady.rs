@@ -59,10 +59,12 @@ pub fn steady(options: &options::Steady) -> Result<Completion> {
         Ok(page::steady_page(&machines, &solve(&finer)?))
     };
     let workbook = || Ok(answer.clone());
-    for line in documents::write(&options.documents, Files::default(), page, workbook)? {
+    let (lines, printed) = documents::write(&options.documents, Files::default(), page, workbook)?;
+    for line in lines {
         answer.sentence(line);
     }
-    print_answer(&answer, options.format)
+    let done = print_answer(&answer, options.format)?;
+    printed.map(|()| done)
 }
 
 /// The requested mean speed.

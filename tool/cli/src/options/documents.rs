@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{ArgGroup, Args};
 
-use super::output_file;
+use super::document;
 use super::word::word;
 use jred_report::page::Paper;
 
@@ -18,17 +18,17 @@ pub struct Documents {
         alias = "plot",
         value_name = "HTML",
         group = "page",
-        value_parser = output_file()
+        value_parser = document("--report")
     )]
     pub report: Option<PathBuf>,
     /// Write the report as PDF. A browser prints it: the one named by the environment variable JRED_BROWSER, else Chromium, Chrome, Edge or Brave.
-    #[arg(long, value_name = "PDF", group = "page", value_parser = output_file())]
+    #[arg(long, value_name = "PDF", group = "page", value_parser = document("--pdf"))]
     pub pdf: Option<PathBuf>,
     /// Paper of the report: a4 if not given.
     #[arg(long, value_parser = word::<Paper>(), requires = "page")]
     pub paper: Option<Paper>,
     /// Write every table of the answer as a sheet of a workbook for spreadsheet programs.
-    #[arg(long, value_name = "XLSX", value_parser = output_file())]
+    #[arg(long, value_name = "XLSX", value_parser = document("--xlsx"))]
     pub xlsx: Option<PathBuf>,
 }
 

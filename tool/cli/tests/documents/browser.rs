@@ -31,8 +31,8 @@ fn program(folder: &Folder, text: &str) -> PathBuf {
     path
 }
 
-/// Exit code and message of a command with this browser.
-fn run(line: &str, files: &[&Path], browser: &Path) -> (Option<i32>, String) {
+/// Exit code and message of a command with this browser, and whether it printed its answer.
+fn run(line: &str, files: &[&Path], browser: &Path) -> (Option<i32>, String, bool) {
     let mut files = files.iter();
     let words = typed(line).into_iter().map(|word| match word {
         "{}" => files.next().unwrap().into(),
@@ -48,7 +48,7 @@ fn run(line: &str, files: &[&Path], browser: &Path) -> (Option<i32>, String) {
         .unwrap()
         .replace(['│', '\n'], " ");
     let said = said.split_whitespace().collect::<Vec<_>>().join(" ");
-    (run.status.code(), said)
+    (run.status.code(), said, !run.stdout.is_empty())
 }
 
 fn names(folder: &Folder) -> Vec<String> {
@@ -75,8 +75,12 @@ fn a_browser_gets_the_page_without_network_and_scripts() {
     let browser = program(&folder, COPIES);
     let pdf = folder.path("a report.pdf");
     let line = "size {} --pdf {} --paper letter";
-    let (code, said) = run(line, &[&press_file(), &pdf], &browser);
-    assert_eq!((code, said.contains('×')), (Some(0), false), "{said}");
+    let (code, said, printed) = run(line, &[&press_file(), &pdf], &browser);
+    assert_eq!(
+        (code, said.contains('×'), printed),
+        (Some(0), false, true),
+        "{said}"
+    );
     assert_eq!(std::fs::read(&pdf).unwrap(), b"%PDF-1.4");
     // Nothing else is left in the folder.
     assert_eq!(
@@ -129,8 +133,8 @@ fn a_browser_that_fails_leaves_the_other_documents() {
         let pdf = folder.file("a.pdf", "old");
         let [html, xlsx] = ["a.html", "a.xlsx"].map(|name| folder.path(name));
         let line = "reduce {} --pdf {} --report {} --xlsx {}";
-        let (code, said) = run(line, &[&press_file(), &pdf, &html, &xlsx], &browser);
-        assert_eq!(code, Some(2));
+        let (code, said, printed) = run(line, &[&press_file(), &pdf, &html, &xlsx], &browser);
+        assert_eq!((code, printed), (Some(2), true));
         for word in says
             .into_iter()
             .chain(["the PDF cannot be printed", "print it"])
@@ -147,12 +151,12 @@ fn without_a_browser_the_error_says_what_to_do() {
     let folder = Folder::new();
     let [html, pdf] = ["a.html", "a.pdf"].map(|name| folder.path(name));
     let missing = folder.path("nowhere/browser");
-    let (code, said) = run(
+    let (code, said, printed) = run(
         "reduce {} --pdf {} --report {}",
         &[&press_file(), &pdf, &html],
         &missing,
     );
-    assert_eq!(code, Some(2));
+    assert_eq!((code, printed), (Some(2), true));
     for word in [
         "no browser is found",
         "nowhere",
@@ -190,8 +194,8 @@ fn a_full_disk_is_reported() {
     let browser = program(&folder, COPIES);
     for option in ["--pdf", "--xlsx"] {
         let line = format!("reduce {{}} {option} {{}}");
-        let (code, said) = run(&line, &[&press_file(), Path::new("/dev/full")], &browser);
-        assert_eq!(code, Some(2));
+        let (code, said, printed) = run(&line, &[&press_file(), Path::new("/dev/full")], &browser);
+        assert_eq!((code, printed), (Some(2), option == "--pdf"));
         for word in ["cannot write /dev/full", "free some space"] {
             assert!(said.contains(word), "{word}: {said}");
         }
@@ -235,7 +239,7 @@ fn a_real_browser_prints_the_pages() {
     for (paper, size) in [("a4", [595, 842]), ("letter", [612, 792])] {
         let line = format!("reduce {{}} --pdf {{}} --paper {paper}");
         let machine = shipped("four-bar.toml");
-        let (code, said) = run(&line, &[&machine, &pdf], Path::new(browser));
+        let (code, said, _) = run(&line, &[&machine, &pdf], Path::new(browser));
         assert_eq!(code, Some(0), "{said}");
         let pages = pages(&std::fs::read(&pdf).unwrap());
         let [width, height] = size;

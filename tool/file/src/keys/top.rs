@@ -22,8 +22,8 @@ pub(super) static DOCUMENT: KeyTable = KeyTable::of("document", &[&[
 
 /// All keys of a machine file.
 pub static MACHINE: KeyTable = KeyTable::of("machine", &[&[
-    may("title", ValueForm::Text, "title of reports (name of the file)").such_as("\"Servo press\""),
-    key("gravity", ValueForm::Any(GRAVITY), "x and y; or [`{ inclination = \"30 deg\" }`](axes.md), the angle by which x rises")
+    may("title", ValueForm::Text, "title of reports (name of the file)").such_as("\"Axis 1\""),
+    key("gravity", ValueForm::Any(GRAVITY), "x and y; or [`{ inclination = \"30 deg\" }`](axes.md), the angle by which x rises (90 deg: upwards)")
         .such_as("[\"9.81 m/s^2\", \"0 m/s^2\"], its x and y components; gravity = [\"0 m/s^2\", \"0 m/s^2\"] for a machine that moves in a horizontal plane"),
     key("mechanism", ValueForm::Table(&mechanism::MECHANISM), "the [moving links](#mechanism)"),
 ], loads::LISTS, &[

@@ -39,6 +39,8 @@ pub use project::project;
 use std::ops::Range;
 use std::path::Path;
 
+use toml::de::DeTable;
+
 use crate::problem;
 use jred::machine::Machine;
 
@@ -217,6 +219,22 @@ fn title(root: &Section, name: &str) -> Result<String> {
     Ok(title.or_else(own).unwrap_or_else(|| name.to_owned()))
 }
 
+/// Refuses an empty text and a project.
+fn refuse_others(name: &str, table: &DeTable) -> Result<()> {
+    if table.is_empty() {
+        return Err(Problem::new(format!("the machine file {name} is empty")).help(
+            "a machine file needs at least gravity = [\"9.81 m/s^2\", \"0 m/s^2\"] and a [mechanism] with a type, for example type = \"slider-crank\"",
+        ));
+    }
+    if table.contains_key("axis") && !table.contains_key("mechanism") {
+        let what = format!("{name} is a project, not a machine file");
+        return Err(Problem::new(what).help(
+            "size all its axes with `jred project`, or name the machine file of one [[axis]]",
+        ));
+    }
+    Ok(())
+}
+
 fn machine(name: &str, text: &str, files: &dyn Files) -> Result<UncheckedFile> {
     if text.len() as u64 > MAX_SIZE {
         let why = file::too_large(&file::size(text.len() as u64), MAX_SIZE);
@@ -225,11 +243,7 @@ fn machine(name: &str, text: &str, files: &dyn Files) -> Result<UncheckedFile> {
         );
     }
     let tree = tree::parse(text)?;
-    if tree.get_ref().is_empty() {
-        return Err(Problem::new(format!("the machine file {name} is empty")).help(
-            "a machine file needs at least gravity = [\"9.81 m/s^2\", \"0 m/s^2\"] and a [mechanism] with a type, for example type = \"slider-crank\"",
-        ));
-    }
+    refuse_others(name, tree.get_ref())?;
     let root = Section::described(String::new(), 0..0, tree.get_ref(), (&MACHINE, false));
     let title = title(&root, name)?;
     let gravity = gravity(&root)?;

@@ -52,6 +52,7 @@ pub struct ProjectView<'a> {
 /// A line of the bill of materials of a project.
 struct BillLine<'c, 'a> {
     count: u32,
+    name: &'static str,
     item: BillItem<'c, 'a>,
     /// Names of the axes.
     axes: Vec<&'a str>,
@@ -149,11 +150,11 @@ impl<'a> ProjectView<'a> {
             bus: self.bus.map(bus::data),
         };
         let mut answer = Answer::new(&self.project.title, &data);
-        answer.csv(bill_table(&bill).csv());
+        answer.csv(bill_table(&bill, false).csv());
         self.title(&mut answer);
         self.drives(&mut answer);
         answer.heading("Bill of materials");
-        answer.table(bill_table(&bill));
+        answer.table(bill_table(&bill, true));
         if bill.iter().any(|line| !line.item.from_maker) {
             answer.sentence("* figures not from the maker's own document");
         }
@@ -198,7 +199,9 @@ impl<'a> ProjectView<'a> {
         let mut bill: Vec<BillLine> = Vec::new();
         for axis in &self.axes {
             // A brake is ordered with its motor.
-            let parts = axis.judged.bill().into_iter();
+            let parts = axis.judged.bill();
+            let has_brake = parts.iter().any(|item| item.part == Part::Brake);
+            let parts = parts.into_iter();
             for item in parts.filter(|item| item.part != Part::Brake) {
                 let own =
                     |line: &BillLine| line.item.part == item.part && line.item.key == item.key;
@@ -206,6 +209,10 @@ impl<'a> ProjectView<'a> {
                 let at = known.unwrap_or_else(|| {
                     bill.push(BillLine {
                         count: 0,
+                        name: match item.part {
+                            Part::Motor if has_brake => "motor with brake",
+                            part => part.name(),
+                        },
                         item,
                         axes: Vec::new(),
                     });
@@ -219,6 +226,7 @@ impl<'a> ProjectView<'a> {
         }
         bill.extend(self.resistor.map(|common| BillLine {
             count: 1,
+            name: Part::Resistor.name(),
             item: BillItem::resistor(common),
             axes: vec!["all"],
         }));
@@ -300,13 +308,16 @@ impl BillLine<'_, '_> {
     }
 }
 
-/// The bill of materials.
-fn bill_table(bill: &[BillLine]) -> Reading {
-    let figure = |value: Option<f64>| value.map_or("–".to_owned(), short);
+/// The bill of materials; to be read by a person with its sum and dashes.
+fn bill_table(bill: &[BillLine], is_read: bool) -> Reading {
+    let figure = |value: Option<f64>| match value {
+        None if is_read => "–".to_owned(),
+        value => value.map_or(String::new(), short),
+    };
     let row = |line: &BillLine| {
         [
             line.count.to_string(),
-            line.item.part.name().to_owned(),
+            line.name.to_owned(),
             format!("{} {}", line.item.maker, line.item.model),
             marks::key(line.item.key, line.item.from_maker),
             line.axes.join(", "),
@@ -338,5 +349,6 @@ fn bill_table(bill: &[BillLine]) -> Reading {
         ("mass each [kg]", Quantity),
         ("price each", Quantity),
     ];
-    table(header, bill.iter().map(row).chain([total]), 3)
+    let total = is_read.then_some(total);
+    table(header, bill.iter().map(row).chain(total), 3)
 }

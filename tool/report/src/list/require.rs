@@ -14,7 +14,7 @@ use jred_sizing::bus::Need;
 use jred_sizing::cell::Cell;
 use jred_sizing::select::fit::input_kind;
 use jred_sizing::select::requirement::{
-    GearboxRequirement, Inquiry, Requirement, TorqueNeed, USUAL_SPEED,
+    CLOSING_TIMES, GearboxRequirement, Inquiry, Requirement, TorqueNeed, USUAL_SPEED,
 };
 
 /// Rotors of the boundary of a ratio, in equal ratios.
@@ -241,8 +241,9 @@ impl RequirementView<'_> {
             "holding brake",
             match found.brake_torque {
                 Some(least) => format!(
-                    "at least {}: the machine moves without current",
-                    effort(least)
+                    "at least {}: the machine moves without current{}",
+                    effort(least),
+                    self.brake_work(found)
                 ),
                 None if !self.inquiry.file.rules.limit(Rule::BrakeTorque).is_set() => {
                     "not asked for: brake_torque is off in [rules]".to_owned()
@@ -250,6 +251,26 @@ impl RequirementView<'_> {
                 None => "not needed: the machine stays where it is without current".to_owned(),
             },
         );
+    }
+
+    /// Work of the holding brake in a stop by it alone.
+    fn brake_work(&self, found: &Requirement) -> String {
+        let Some([soon, late]) = found.brake_work else {
+            return String::new();
+        };
+        if !late.is_finite() {
+            return "; a brake of this torque alone does not stop it".to_owned();
+        }
+        let [first, last] = CLOSING_TIMES.map(|time| short(time * 1e3));
+        let often = self.inquiry.file.site.emergency_stops;
+        let often = often.map_or_else(String::new, |stops| {
+            format!(", {} times per hour", short(stops))
+        });
+        format!(
+            "; work of a stop without supply at least {} J if it closes after {first} ms, {} J after {last} ms{often}",
+            short(up(soon)),
+            short(up(late))
+        )
     }
 
     pub(crate) fn gearbox(&self, answer: &mut Answer, found: &Requirement) {
@@ -387,7 +408,7 @@ impl RequirementView<'_> {
             answer.sentence(format!("The rule set has no limit for the {inertia} ratio: the smallest {rotor} is not limited."));
         }
         if self.inquiry.file.site.drive_stop.is_some() {
-            answer.warning("drive_stop of [duty] is not contained: its energy depends on the motor's peak torque; check the resistor with the offers");
+            answer.sentence("The brake resistor takes the stop by the drive, drive_stop of [duty], with the least peak torque; a stronger motor brakes with more power.");
         }
         answer.sentence(
             "Not contained: temperatures, and losses, friction and saturation of the motor. Check the offers: add them to a catalogue, and run `jred size FILE --catalogue FOLDER`.",

@@ -62,10 +62,15 @@ pub(crate) struct Svg {
 }
 
 impl Svg {
-    /// A white sheet.
+    /// A white sheet. A tall one gets more height on paper, so that its letters are as large as those of others.
     pub(crate) fn new(width: f64, height: f64) -> Self {
+        let class = if height > 0.5 * width {
+            "class=\"tall\" "
+        } else {
+            ""
+        };
         let text = format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {} {}\" preserveAspectRatio=\"xMidYMid meet\" \
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" {class}viewBox=\"0 0 {} {}\" preserveAspectRatio=\"xMidYMid meet\" \
              stroke-linejoin=\"round\" stroke-linecap=\"round\" \
              font-family=\"Helvetica, Arial, Liberation Sans, DejaVu Sans, sans-serif\">\
              <rect width=\"100%\" height=\"100%\" fill=\"white\"/>",

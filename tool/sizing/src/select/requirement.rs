@@ -25,6 +25,7 @@ use crate::judge::{Context, Findings, OF_ELEMENTS};
 use crate::motor::envelope::MotorLimits;
 use crate::select::fit::input_kind;
 use crate::select::ratio::Gear;
+use jred_analysis::duty::mechanics::MotorBrake;
 use jred_file::model::machine::MachineFile;
 use jred_file::model::rule::Rule;
 use jred_file::model::rules::RuleVerdict;
@@ -41,6 +42,9 @@ const USUAL_RATIOS: [f64; 20] = [
 
 /// Largest speed of usual motors (rad/s).
 pub const USUAL_SPEED: f64 = 6000.0 * RPM;
+
+/// Times until a holding brake has its torque (s), for which its work is stated.
+pub const CLOSING_TIMES: [f64; 2] = [0.02, 0.1];
 
 /// Most ratios that are listed if none are asked for.
 const MOST_RATIOS: usize = 10;
@@ -94,6 +98,11 @@ pub struct Requirement {
     /// Torque of the holding brake; `None`: the machine stays where it is without current.
     #[serde(rename = "brake torque [N m]")]
     pub brake_torque: Option<f64>,
+    /// Work of this brake in the worst stop by it alone, with the largest rotor of the window, if it has its torque after 20 ms and after 100 ms;
+    /// infinite: it holds the machine but does not stop it.
+    #[serde(rename = "brake work if closed after 20 ms and 100 ms [J]")]
+    #[schemars(with = "Option<[Option<f64>; 2]>")]
+    pub brake_work: Option<[f64; 2]>,
     /// Continuous and peak current of the amplifier, times the torque constant of the motor, as its data sheet
     /// states them.
     #[serde(rename = "continuous and peak current times torque constant [N m]")]
@@ -306,6 +315,19 @@ impl Inquiry<'_> {
         let brake_torque = (measured.get(Rule::BrakeTorque))
             .filter(|_| self.file.rules.limit(Rule::BrakeTorque).is_set())
             .map(|found| found.value / self.share(Rule::BrakeTorque));
+        let inertia = self.coefficients(ratio, ends[1]).0[0] / ratio.unwrap_or(1.0);
+        let brake_work = brake_torque.map(|torque| {
+            CLOSING_TIMES.map(|time| {
+                let brake = MotorBrake {
+                    torque,
+                    time,
+                    inertia,
+                    ratio: ratio.unwrap_or(1.0),
+                };
+                let stop = self.cycle.mechanics().run_on.worst(&brake);
+                stop.work / self.share(Rule::BrakeWork)
+            })
+        });
         let site = &self.file.site.surroundings;
         let derated = Amplifier::default().derated(site).factor;
         let mut found = Requirement {
@@ -320,11 +342,12 @@ impl Inquiry<'_> {
             peak_torque,
             envelope: Vec::new(),
             brake_torque,
+            brake_work,
             currents: [
                 allowed / self.share(Rule::RmsCurrent) / derated,
                 drawn / self.share(Rule::PeakCurrent) / derated,
             ],
-            regeneration: self.regeneration(ratio, ends),
+            regeneration: self.regeneration(ratio, ends, peak_torque),
             possible: true,
             gearbox: None,
             mean_square: squares,

@@ -243,13 +243,13 @@ fn the_torque_at_rest_is_explained() {
     let heavy = words("120 N m");
     assert!(heavy.value.unwrap() > 0.0);
     assert!(
-        note(&heavy).contains("friction against the motor"),
+        note(&heavy).contains("friction that opposes the motor"),
         "{heavy:?}"
     );
     let light = words("0 N m");
     assert!(light.value.is_none_or(|value| value == 0.0), "{light:?}");
     assert!(
-        !note(&light).contains("friction against the motor"),
+        !note(&light).contains("friction that opposes the motor"),
         "{light:?}"
     );
 }

@@ -7,12 +7,12 @@ use super::{Case, RACK, case};
 use crate::support::{edited, press_text};
 use jred_file::model::rule::Rule;
 use jred_file::model::rules::RuleVerdict;
-use jred_sizing::catalogue::{Drive, Gearbox, Motor, MotorKind};
+use jred_sizing::catalogue::{Brake, Drive, Gearbox, Motor, MotorKind};
 use jred_sizing::judge::Context;
 use jred_sizing::motor::envelope::MotorLimits;
 use jred_sizing::select::fit::input_kind;
 use jred_sizing::select::ratio::Gear;
-use jred_sizing::select::requirement::{Inquiry, Requirement};
+use jred_sizing::select::requirement::{CLOSING_TIMES, Inquiry, Requirement};
 
 const HOIST: &str = include_str!("../../../../machines/hoist.toml");
 const CONVEYOR: &str = include_str!("../../../../machines/conveyor.toml");
@@ -173,7 +173,7 @@ fn a_motor_just_inside_passes_and_just_outside_fails() {
             }
             if let Some(brake) = large.brake {
                 let mut loose = large.clone();
-                loose.brake = Some(jred_sizing::catalogue::Brake {
+                loose.brake = Some(Brake {
                     torque: brake.torque * less,
                     ..brake
                 });
@@ -200,6 +200,39 @@ fn a_motor_just_inside_passes_and_just_outside_fails() {
         }
     }
     assert!(moved >= 40, "{moved}");
+}
+
+#[test]
+fn a_brake_just_inside_bears_its_stop_and_just_outside_does_not() {
+    let mut stopped = 0;
+    for (case, ratios) in cases() {
+        for ratio in ratios {
+            let found = inquiry(&case).requirement(ratio);
+            let gearbox = gearbox(&found);
+            let Some(works) = found.brake_work.filter(|_| found.rotor[1].is_finite()) else {
+                continue;
+            };
+            let motor = found.smallest_motor(input_kind(&case.file), found.rotor[1]);
+            for (time, work) in CLOSING_TIMES.into_iter().zip(works) {
+                let with = |work: f64| {
+                    let brake = motor.brake.map(|brake| Brake {
+                        closing_time: Some(time),
+                        work: Some(work),
+                        ..brake
+                    });
+                    let motor = Motor {
+                        brake,
+                        ..motor.clone()
+                    };
+                    violated(&case, &motor, gearbox.as_ref())
+                };
+                assert_eq!(with(work), [], "{ratio:?}: {time} s, {work} J");
+                assert_eq!(with(work * (1.0 - STEP)), [Rule::BrakeWork]);
+                stopped += 1;
+            }
+        }
+    }
+    assert!(stopped >= 8, "{stopped}");
 }
 
 /// The least peak torque over speed is a limit of a motor that satisfies the rule, and no less than that.
@@ -412,4 +445,20 @@ fn figures_by_plain_sums() {
             assert!(back.mean <= back.peak, "{back:?}");
         }
     }
+}
+
+/// The brake resistor takes the stop by the drive: its share of the peak torque at the largest speed.
+#[test]
+fn the_resistor_takes_a_stop_by_the_drive() {
+    const SUPPLY: &str = "\n[supply]\nmains_voltage = \"400 V\"\nchopper_voltage = \"760 V\"\nmax_voltage = \"800 V\"\n";
+    let text = |duty: &str| format!("{CONVEYOR}{SUPPLY}{duty}");
+    let [without, with] = ["", "[duty]\ndrive_stop = \"80 %\"\n"].map(|duty| {
+        let case = case(&text(duty), 500);
+        let found = inquiry(&case).requirement(Some(10.0));
+        let power = 0.8 * found.peak_torque * case.cycle.peak_speed() * 10.0;
+        let needed = found.regeneration.resistor.map_or(0.0, |need| need.peak);
+        (needed, power)
+    });
+    assert!(without.0 < 0.5 * without.1, "{without:?}");
+    assert!((with.0 / with.1 - 1.0).abs() < 1e-9, "{with:?}");
 }

@@ -45,6 +45,12 @@ pub fn conflict(conflict: &Conflict) -> String {
 
 /// The data missing for a check, and the keys to give.
 pub fn missing(bus: &BusAnalysis, open: &Open) -> String {
+    let of_resistor = |figure: &str| match &bus.chosen {
+        Some(chosen) => {
+            format!("the catalogue does not give {figure} of {chosen}: ask its maker for it")
+        }
+        None => format!("not given for the resistor: give brake_resistor.{figure} in [supply]"),
+    };
     match open.missing {
         Missing::Capacitance => {
             "no data for the capacitance of the DC bus, and no brake resistor for the regenerated energy: \
@@ -73,12 +79,8 @@ pub fn missing(bus: &BusAnalysis, open: &Open) -> String {
             "no data for the minimum resistance of the chopper: give min_resistance in [supply]"
                 .to_owned()
         }
-        Missing::PeakPower => {
-            "not given for the resistor: give brake_resistor.peak_power in [supply]".to_owned()
-        }
-        Missing::PulseEnergy => {
-            "not given for the resistor: give brake_resistor.pulse_energy in [supply]".to_owned()
-        }
+        Missing::PeakPower => of_resistor("peak_power"),
+        Missing::PulseEnergy => of_resistor("pulse_energy"),
         Missing::NotSearched => format!("no bound exists, and {}", no_search(bus)),
     }
 }

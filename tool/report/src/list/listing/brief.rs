@@ -32,13 +32,18 @@ pub(super) fn drive(answer: &mut Answer, file: &MachineFile, judged: &Assessment
 
 /// Whether the drive can be ordered, and what is missing.
 pub(crate) fn order(file: &MachineFile, judged: &Assessment) -> String {
-    let missing = missing(file, judged);
+    let (parts, questions) = (parts_missing(judged), questions(file, judged));
     if !judged.holds() {
-        "no: it violates limits".to_owned()
-    } else if missing.is_empty() {
-        "as it is".to_owned()
-    } else {
-        format!("not yet: {}", missing.join("; "))
+        return "no: it violates limits".to_owned();
+    }
+    let parts =
+        (!parts.is_empty()).then(|| format!("not complete: choose {}", parts.join(" and ")));
+    let questions = (!questions.is_empty()).then(|| questions.join("; "));
+    match (parts, questions) {
+        (None, None) => "as it is".to_owned(),
+        (Some(only), None) => only,
+        (None, Some(questions)) => format!("first {questions}"),
+        (Some(parts), Some(questions)) => format!("{parts}; then {questions}"),
     }
 }
 
@@ -78,11 +83,11 @@ fn parts(answer: &mut Answer, file: &MachineFile, judged: &Assessment) {
     let brake = match of(Rule::BrakeTorque) {
         None => "not needed".to_owned(),
         Some(check) if check.verdict == RuleVerdict::NotChecked => judged.least_brake.map_or_else(
-            || "needed; the catalogue gives none for this motor".to_owned(),
+            || "needed; the catalogue gives none".to_owned(),
             |torque| {
                 let words = &drive.motor.kind.vocabulary().torque;
                 format!(
-                    "at least {} {} is needed; the catalogue gives none for this motor",
+                    "at least {} {} is needed; the catalogue gives none",
                     short(torque / words.scale),
                     words.unit
                 )
@@ -107,7 +112,7 @@ fn parts(answer: &mut Answer, file: &MachineFile, judged: &Assessment) {
         (None, None, Some(bus)) if bus.verdict == RuleVerdict::NotChecked => {
             let energy = judged.duty.regenerative_energy;
             format!(
-                "not known: {} J are fed back per cycle, and figures of the DC bus are missing",
+                "not known: {} J come back per cycle; give capacitance, max_voltage and chopper_voltage in [supply]",
                 short(energy)
             )
         }
@@ -123,25 +128,38 @@ fn parts(answer: &mut Answer, file: &MachineFile, judged: &Assessment) {
 }
 
 /// Rules without data that the answer names.
-const NAMED: usize = 6;
+const NAMED: usize = 4;
 
-/// Data that are missing before the drive can be ordered.
-fn missing(file: &MachineFile, judged: &Assessment) -> Vec<String> {
+/// Parts that the catalogue does not have.
+fn parts_missing(judged: &Assessment) -> Vec<&'static str> {
+    let open = |rule: Rule| {
+        let mut checks = judged.checks.iter();
+        checks.any(|check| check.id == rule && check.verdict == RuleVerdict::NotChecked)
+    };
+    [
+        (judged.drive.amplifier.is_none(), "the amplifier"),
+        (open(Rule::BrakeTorque), "the brake"),
+    ]
+    .into_iter()
+    .filter_map(|(is_missing, part)| is_missing.then_some(part))
+    .collect()
+}
+
+/// Data to ask for before the drive is ordered.
+fn questions(file: &MachineFile, judged: &Assessment) -> Vec<String> {
     let drive = &judged.drive;
     let mut missing = Vec::new();
     if file.site.mains_voltage.is_none() && file.site.bus_voltage.is_none() {
         missing.push("give mains_voltage in [supply]".to_owned());
     }
-    if drive.amplifier.is_none() {
-        missing.push("choose the amplifier".to_owned());
-    } else if !drive.is_paired() {
+    if drive.amplifier.is_some() && !drive.is_paired() {
         missing.push("ask whether this amplifier runs this motor".to_owned());
     }
     if drive.motor.made_for().is_none() {
         missing.push("ask for which voltage the motor is made".to_owned());
     }
     let open: Vec<&str> = (judged.checks.iter())
-        .filter(|check| check.verdict == RuleVerdict::NotChecked)
+        .filter(|check| check.verdict == RuleVerdict::NotChecked && check.id != Rule::BrakeTorque)
         .map(|check| check.rule)
         .collect();
     if !open.is_empty() {
@@ -151,7 +169,7 @@ fn missing(file: &MachineFile, judged: &Assessment) -> Vec<String> {
             more => format!(" and {more} more"),
         };
         let named = open[..shown].join(", ");
-        missing.push(format!("not checked for lack of data: {named}{more}"));
+        missing.push(format!("ask for data of {named}{more}"));
     }
     if !drive.from_makers() {
         missing.push("compare the figures (*) with the makers' data sheets".to_owned());

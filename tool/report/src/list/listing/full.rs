@@ -374,10 +374,10 @@ const fn certainty(certainty: Certainty) -> &'static str {
         Certainty::Makers => "with the makers' own figures, of known voltage",
         Certainty::Others => "with figures that are not all the makers' own (*), of known voltage",
         Certainty::MakersIncomplete => {
-            "with the makers' own figures, but without an amplifier or a brake in the catalogue"
+            "with the makers' own figures, but without an amplifier, a brake or the gearbox's peak torque in the catalogue"
         }
         Certainty::OthersIncomplete => {
-            "with figures that are not all the makers' own (*), without an amplifier or a brake in the catalogue"
+            "with figures that are not all the makers' own (*), without an amplifier, a brake or the gearbox's peak torque in the catalogue"
         }
         Certainty::Pairing => {
             "whose amplifier no source pairs with the motor (†), of known voltage"
@@ -394,7 +394,7 @@ pub(super) const fn doubt(certainty: Certainty) -> &'static str {
             "its figures are not all the makers' own; check them against the data sheets"
         }
         Certainty::MakersIncomplete | Certainty::OthersIncomplete => {
-            "the catalogue has no amplifier or no brake for it"
+            "the catalogue has no amplifier, no brake or no peak torque of the gearbox for it"
         }
         Certainty::Pairing => "no source pairs this amplifier with this motor; ask the makers",
         Certainty::Voltage => "the catalogue does not give its voltage class; ask the makers",

@@ -79,6 +79,9 @@ fn run_on(check: &Check) -> String {
     let mut place = format!(
         "if the supply fails, {of} runs on by at most {closed} until the brake closes and {stopped} until it stops"
     );
+    if tool.is_none() {
+        place.push_str("; [tool] names a point whose way is stated instead");
+    }
     if !dynamic {
         let torque = check.words.torque;
         let _ = write!(

@@ -53,7 +53,7 @@ fn held(check: &Check, dwell: Option<f64>, time: f64, given: bool) -> String {
     let torque = check.words.torque;
     let mut place = String::new();
     if check.finding.value > 0.0 {
-        place = format!("{torque} at standstill with friction against the motor");
+        place = format!("{torque} at standstill, with friction that opposes the motor");
     }
     if let Some(longest) = dwell {
         let whose = if given { "" } else { ", which is not given" };

@@ -5,6 +5,7 @@ use serde::Serialize;
 use super::Inquiry;
 use crate::bus::supply::BusData;
 use crate::bus::{self, Need};
+use crate::catalogue::Motor;
 use crate::motor::envelope::MotorLimits;
 
 /// Energy that flows back over a cycle, without the losses of motor and amplifier, which only reduce it; SI units.
@@ -30,9 +31,14 @@ pub struct Regeneration {
 }
 
 impl Inquiry<'_> {
-    /// The largest figures of motors with these rotors.
-    pub(super) fn regeneration(&self, ratio: Option<f64>, rotors: [f64; 2]) -> Regeneration {
-        let each = rotors.map(|rotor| self.regenerated(ratio, rotor));
+    /// The largest figures of motors with these rotors. A stop by the drive is one with its share of the peak torque (N·m).
+    pub(super) fn regeneration(
+        &self,
+        ratio: Option<f64>,
+        rotors: [f64; 2],
+        peak_torque: f64,
+    ) -> Regeneration {
+        let each = rotors.map(|rotor| self.regenerated(ratio, rotor, peak_torque));
         let [first, second] = each;
         let more = |of: fn(&Regeneration) -> f64| of(&first).max(of(&second));
         let power = |need: &Need| need.peak;
@@ -54,13 +60,18 @@ impl Inquiry<'_> {
         }
     }
 
-    fn regenerated(&self, ratio: Option<f64>, rotor: f64) -> Regeneration {
+    fn regenerated(&self, ratio: Option<f64>, rotor: f64, peak_torque: f64) -> Regeneration {
         let site = &self.file.site;
-        let motor = self.motor(rotor);
+        let motor = Motor {
+            peak_torque: Some(peak_torque),
+            ..self.motor(rotor)
+        };
         let limits = MotorLimits::new(&motor, None, site);
         let coefficients = self.coefficients(ratio, rotor);
         let ratio = ratio.unwrap_or(1.0);
+        let stop = bus::stop(self.cycle, &coefficients, ratio, &limits, site.drive_stop);
         let curve = bus::power(self.cycle, &coefficients, ratio, &motor, &limits, None);
+        let curve = curve.with_stop(stop);
         let [_, energy] = self.cycle.energies(&coefficients, ratio);
         let [least, most] = curve.extremes();
         let data = BusData::new(&site.supply, site.highest_supply(), None, &motor);

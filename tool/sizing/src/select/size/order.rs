@@ -15,7 +15,7 @@ jred_file::words! {
         Makers = "makers-figures",
         /// The voltage is stated, but not all figures are from the makers' own documents.
         Others = "other-figures",
-        /// The makers' own figures, but the catalogue gives no amplifier for this motor, only for others, or no holding brake that the machine needs.
+        /// The makers' own figures, but the catalogue gives no amplifier for this motor, only for others, no holding brake that the machine needs, or no peak torque of the gearbox.
         MakersIncomplete = "makers-figures-incomplete",
         /// The same with figures that are not all from the makers' own documents.
         OthersIncomplete = "other-figures-incomplete",
@@ -39,7 +39,10 @@ impl Certainty {
 
     /// The certainty of a drive with this outcome.
     pub fn of(drive: &Drive, outcome: &Outcome) -> Self {
-        let incomplete = drive.motor.lacks_amplifier || outcome.not_checked.has(Rule::BrakeTorque);
+        let gearbox = drive.gearbox;
+        let incomplete = drive.motor.lacks_amplifier
+            || outcome.not_checked.has(Rule::BrakeTorque)
+            || gearbox.is_some_and(|gearbox| gearbox.peak_torque.is_none());
         if outcome.voltage_unknown {
             return Self::Voltage;
         }
