@@ -37,6 +37,9 @@ struct ProgressLine {
 /// Starts the line for the task `what`, such as `checking the machine`.
 pub fn begin(what: &'static str) {
     end();
+    if crate::terminal::is_kept() {
+        return;
+    }
     let line = if std::io::stderr().is_terminal() {
         ProgressLine::begin(what, ProgressDrawTarget::stderr(), PATIENCE)
     } else if std::env::var_os("JRED_PROGRESS").is_some_and(|word| word == "never") {

@@ -4,6 +4,7 @@
 pub mod browser;
 pub mod busy;
 pub mod commands;
+pub mod embedded;
 pub mod options;
 pub mod output;
 pub mod rows;

@@ -3,6 +3,7 @@
 //! A message that cannot be written to stderr is dropped; results and exit code are unaffected. Nothing else in the command writes to stdout or
 //! stderr.
 
+use std::cell::RefCell;
 use std::collections::BTreeSet;
 use std::io::{ErrorKind, IsTerminal as _, Write as _};
 use std::sync::{Mutex, PoisonError};
@@ -19,6 +20,36 @@ use jred_file::plain;
 use jred_report::table::screen::Screen;
 use jred_report::units;
 
+/// What a command prints on its thread, kept instead of printed.
+#[derive(Debug, Default)]
+pub struct Kept {
+    /// Standard output.
+    pub out: String,
+    /// Warnings and messages.
+    pub messages: Vec<String>,
+}
+
+thread_local! {
+    static KEPT: RefCell<Option<Kept>> = const { RefCell::new(None) };
+}
+
+/// Runs a command of which nothing is printed, and returns what it would print.
+pub fn kept<T>(run: impl FnOnce() -> T) -> (T, Kept) {
+    KEPT.set(Some(Kept::default()));
+    let done = run();
+    (done, KEPT.take().unwrap_or_default())
+}
+
+/// Whether output is kept.
+pub(crate) fn is_kept() -> bool {
+    KEPT.with_borrow(Option::is_some)
+}
+
+/// Keeps an output, if outputs are kept.
+fn keep(how: impl FnOnce(&mut Kept)) -> bool {
+    KEPT.with_borrow_mut(|kept| kept.as_mut().map(how).is_some())
+}
+
 /// Prints to stdout; a closed pipe (`jred … | head`) is not an error.
 ///
 /// # Errors
@@ -32,6 +63,12 @@ pub fn print(text: &str) -> Result<()> {
 /// # Errors
 /// As for [`print()`].
 pub fn print_parts(parts: impl IntoIterator<Item = impl AsRef<str>>) -> Result<()> {
+    if is_kept() {
+        for part in parts {
+            keep(|kept| kept.out += &plain::lines(part.as_ref()));
+        }
+        return Ok(());
+    }
     let mut stdout = stdout()?;
     let coloured = stdout.is_terminal() && has_colour();
     for part in parts {
@@ -104,6 +141,9 @@ fn screen_of(terminal: Option<(Width, Height)>) -> Screen {
 
 /// Prints lines to stderr, wrapped to the width of a terminal.
 pub fn say(lines: &str) {
+    if keep(|kept| kept.messages.push(plain::lines(lines).into_owned())) {
+        return;
+    }
     let terminal = terminal_size::terminal_size_of(std::io::stderr());
     let screen = screen_of(terminal);
     let mut text = String::new();
@@ -116,6 +156,9 @@ pub fn say(lines: &str) {
 /// Prints a warning to stderr, once: repeated runs produce the same warnings.
 pub fn warn(line: &str) {
     static SAID: Mutex<BTreeSet<String>> = Mutex::new(BTreeSet::new());
+    if keep(|kept| kept.messages.push(units::text(line).into_owned())) {
+        return;
+    }
     let mut said = SAID.lock().unwrap_or_else(PoisonError::into_inner);
     if said.insert(line.to_owned()) {
         say(&format!("warning: {}", units::text(line)));

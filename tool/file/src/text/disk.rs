@@ -3,6 +3,7 @@
 //! Every read is limited in bytes. Reading from anything but a regular file (a pipe without a writer, a terminal, an endless device) is limited in
 //! time too. The files read are recorded, so that no output overwrites one of them.
 
+use std::cell::RefCell;
 use std::collections::HashMap;
 use std::fs::{File, Metadata};
 use std::io::{Error, ErrorKind, Read, Result, Stdin};
@@ -38,12 +39,37 @@ impl Files for PathBuf {
     }
 }
 
+thread_local! {
+    /// Texts that stand for files.
+    static TEXTS: RefCell<Vec<(PathBuf, String)>> = const { RefCell::new(Vec::new()) };
+}
+
+/// Runs `work`, for which each of `texts` stands for the file at its path.
+pub fn with_texts<T>(texts: Vec<(PathBuf, String)>, work: impl FnOnce() -> T) -> T {
+    forget();
+    let before = TEXTS.replace(texts);
+    let done = work();
+    TEXTS.set(before);
+    done
+}
+
+/// The text that stands for the file at `path`.
+fn standing_in(path: &Path) -> Option<Vec<u8>> {
+    TEXTS.with_borrow(|texts| {
+        let text = texts.iter().find(|(own, _)| own == path);
+        text.map(|(_, text)| text.clone().into_bytes())
+    })
+}
+
 /// The text of the file at `path`, of at most `limit` bytes.
 pub(crate) fn read(path: &Path, limit: u64) -> std::result::Result<String, Fault> {
     utf8(bytes_of(path, limit)?)
 }
 
 fn bytes_of(path: &Path, limit: u64) -> std::result::Result<Vec<u8>, Fault> {
+    if let Some(text) = standing_in(path) {
+        return Ok(text);
+    }
     bytes(path, limit).map_err(|error| fault(&error, path))
 }
 
@@ -193,6 +219,11 @@ fn remember(path: &Path, metadata: &Metadata) {
         let mut files = FILES.lock().unwrap_or_else(PoisonError::into_inner);
         files.entry(identity).or_insert_with(|| path.to_owned());
     }
+}
+
+/// Another command begins: it has read nothing.
+fn forget() {
+    FILES.lock().unwrap_or_else(PoisonError::into_inner).clear();
 }
 
 /// The path by which this process has read the file at `path`, if it has.

@@ -1,0 +1,307 @@
+"""Machines and firmware models."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from functools import lru_cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _jred
+from ._result import Result, run
+
+Array = npt.NDArray[np.float64]
+Value = str | float | int
+
+
+def _toml(data: Mapping[str, Any], path: str = "") -> str:
+    """A machine text from a dict: tables, lists of tables, quantities as texts."""
+
+    def plain(value: Any) -> str:
+        if isinstance(value, Mapping):
+            return "{ " + ", ".join(f"{_key(k)} = {plain(v)}" for k, v in value.items()) + " }"
+        if isinstance(value, list | tuple):
+            return "[" + ", ".join(map(plain, value)) + "]"
+        if isinstance(value, bool):
+            return "true" if value else "false"
+        if isinstance(value, int | float | np.number):
+            return repr(value.item() if isinstance(value, np.number) else value)
+        if isinstance(value, str | Path):
+            return json.dumps(str(value), ensure_ascii=False)
+        raise TypeError(f"{path or 'the machine'}: {type(value).__name__} cannot be written; use texts, numbers, lists and dicts")
+
+    def is_table(value: Any) -> bool:
+        return isinstance(value, Mapping) or (
+            isinstance(value, list | tuple) and bool(value) and all(isinstance(each, Mapping) for each in value)
+        )
+
+    lines = [f"{_key(key)} = {plain(value)}" for key, value in data.items() if not is_table(value)]
+    for key, value in data.items():
+        name = f"{path}.{_key(key)}" if path else _key(key)
+        if isinstance(value, Mapping):
+            lines += [f"[{name}]", _toml(value, name)]
+        elif is_table(value):
+            for each in value:
+                lines += [f"[[{name}]]", _toml(each, name)]
+    return "\n".join(lines)
+
+
+def _key(key: str) -> str:
+    return key if key.replace("_", "").replace("-", "").isalnum() and key.isascii() else json.dumps(key)
+
+
+def _value(value: Value) -> str:
+    return value if isinstance(value, str) else repr(float(value) if isinstance(value, np.floating) else value)
+
+
+class Machine:
+    """A machine file, read and checked; it cannot be changed, ``set`` returns another one.
+
+    ``source``: the path of a machine file, its text, or a dict of its tables, in which quantities are texts with units.
+    Raises JredError with file, line, quantity and cure; OSError for a file that cannot be read.
+    """
+
+    __slots__ = ("_own",)
+
+    def __init__(self, source: str | Path | Mapping[str, Any], *, name: str | None = None, folder: str | Path = ".") -> None:
+        if isinstance(source, Mapping):
+            text, path = _toml(source), None
+        elif isinstance(source, Path) or "\n" not in source:
+            path = Path(source)
+            text = path.read_text(encoding="utf-8")
+        else:
+            text, path = source, None
+        if path is not None:
+            name, folder = name or path.name, path.parent
+        self._own = _jred.read(name or "machine.toml", text, Path(folder))
+
+    @classmethod
+    def _of(cls, own: _jred.Machine) -> Machine:
+        machine = object.__new__(cls)
+        machine._own = own
+        return machine
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return (_restored, (self.name, self.text, str(self._own.folder)))
+
+    def __repr__(self) -> str:
+        return f"Machine({self.title!r})"
+
+    @property
+    def name(self) -> str:
+        """Name of the file in messages."""
+        return self._own.name
+
+    @property
+    def title(self) -> str:
+        """Title of the machine."""
+        return self._own.title
+
+    @property
+    def text(self) -> str:
+        """The machine file."""
+        return self._own.text
+
+    @property
+    def quantities(self) -> dict[str, str]:
+        """Paths of the quantities that ``set`` takes, each with its value."""
+        return dict(self._own.quantities)
+
+    def set(self, path: str, value: Value) -> Machine:
+        """The machine with another value: ``machine.set("slider.mass", "60 kg")``; a number has the unit of the file."""
+        if not isinstance(value, str):
+            unit = self._unit(path)
+            value = f"{_value(value)} {unit}".strip()
+        return Machine._of(self._own._set(path, value))
+
+    def _unit(self, path: str) -> str:
+        found = [own for own in self.quantities if own == path or own.endswith("." + path)]
+        return self.quantities[found[0]].partition(" ")[2] if len(found) == 1 else ""
+
+    def curves(
+        self,
+        positions: int = 360,
+        *,
+        over: str = "angle",
+        speed: float | None = None,
+        acceleration: float = 0.0,
+        links: bool = False,
+        points: bool = False,
+        forces: bool = False,
+        energy: bool = False,
+    ) -> dict[str, Array]:
+        """Arrays of ``positions`` numbers by title and unit, NaN where there is none.
+
+        By default the reduced inertia J_red with its derivatives, the terms of the reduced torque, and the torque that
+        the motion needs; with ``links`` also each link's share. Instead: ``points`` (and links) with their velocities,
+        ``forces`` in the joints, ``energy``. ``over``: "angle", or "time" of the motion. ``speed`` (rad/s, or m/s) and
+        ``acceleration`` of the drive link replace those of the motion.
+        """
+        if over not in ("angle", "time"):
+            raise ValueError(f'over = {over!r}; write "angle" or "time"')
+        if not 2 <= positions <= 1_000_000:
+            raise ValueError(f"positions = {positions}; give 2 to 1000000")
+        state = None if speed is None else [float(speed), float(acceleration)]
+        if state is not None and not np.isfinite(state).all():
+            raise ValueError(f"speed and acceleration are {state}; both must be finite")
+        return self._own._curves(positions, over, state, links, points, forces, energy)
+
+    def run(self, command: str, *arguments: str | Path, **options: object) -> Result:
+        """Runs a command of ``jred`` with this machine, such as ``machine.run("size", top=3)``: its JSON as an object."""
+        path = Path(self._own.folder) / self.name
+        return run(command, path, *arguments, files={path: self.text}, **options)
+
+    def check(self, **options: object) -> Result:
+        """``jred check``: closure, mobility, energy balance, noise of a recorded motion."""
+        return self.run("check", **options)
+
+    def size(self, **options: object) -> Result:
+        """``jred size``: drives that satisfy every rule, ranked; ``catalogue``, ``motor``, ``top`` … as of the command."""
+        return self.run("size", **options)
+
+    def require(self, **options: object) -> Result:
+        """``jred require``: what any maker needs to quote a drive."""
+        return self.run("require", **options)
+
+    def fastest(self, **options: object) -> Result:
+        """``jred fastest``: the time-optimal motion along the same way."""
+        return self.run("fastest", **options)
+
+    def gentlest(self, **options: object) -> Result:
+        """``jred gentlest``: the motion with the least RMS torque or loss."""
+        return self.run("gentlest", **options)
+
+    def steady(self, **options: object) -> Result:
+        """``jred steady``: the steady cycle under a motor, and the flywheel that smooths it."""
+        return self.run("steady", **options)
+
+    def simulate(self, **options: object) -> Result:
+        """``jred simulate``: the free motion of ``[simulation]``."""
+        return self.run("simulate", **options)
+
+    def balance(self, **options: object) -> Result:
+        """``jred balance``: counterweights and springs."""
+        return self.run("balance", **options)
+
+    def sensitivity(self, **options: object) -> Result:
+        """``jred sensitivity``: how each quantity moves the rules."""
+        return self.run("sensitivity", **options)
+
+    def model(self, **options: object) -> Model:
+        """The firmware's table of ``jred export`` with its ticks; ``type="i32"``, ``torque_error="0.01 N m"`` …"""
+        import tempfile
+
+        with tempfile.TemporaryDirectory() as folder:
+            out = Path(folder) / "table.jred"
+            path = Path(self._own.folder) / self.name
+            from ._result import _words
+
+            words = ["export", str(path), "--out", str(out), *_words(options)]
+            _jred.run(words, [(str(path), self.text)])
+            return Model(out.read_bytes())
+
+
+def _restored(name: str, text: str, folder: str) -> Machine:
+    return Machine._of(_jred.read(name, text, Path(folder)))
+
+
+class Model:
+    """Ticks over a table image, bit for bit those of firmware.
+
+    Numbers are float32, or the raw int32 of Q31 and int16 of Q15 in the machine units of ``scale``.
+    """
+
+    __slots__ = ("_image", "_own")
+
+    def __init__(self, image: bytes) -> None:
+        self._image = bytes(image)
+        self._own = _jred.Model(self._image)
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return (Model, (self._image,))
+
+    @property
+    def image(self) -> bytes:
+        """The image, as firmware loads it."""
+        return self._image
+
+    @property
+    def format(self) -> str:
+        """Name of the format, such as "spline-f32"."""
+        return self._own.format
+
+    @property
+    def dtype(self) -> np.dtype[Any]:
+        """Type of speeds, accelerations and torques."""
+        number = self.format.rsplit("-", 1)[-1]
+        return np.dtype({"f32": np.float32, "q31": np.int32, "q15": np.int16}[number])
+
+    @property
+    def scale(self) -> tuple[float, float, float]:
+        """Torque (N m), speed (rad/s) and acceleration (rad/s²) that are 1.0, the raw 2³¹ or 2¹⁵."""
+        torque, speed, acceleration = self._own.scale
+        return torque, speed, acceleration
+
+    @property
+    def validity(self) -> tuple[float, float, float]:
+        """Largest speed and acceleration, and the largest error of the torque within them (SI)."""
+        speed, acceleration, torque = self._own.validity
+        return speed, acceleration, torque
+
+    def phase(self, position: npt.ArrayLike) -> npt.NDArray[np.uint32]:
+        """Phase words of positions of the drive link (rad, or m)."""
+        return self._own.phase(np.ascontiguousarray(np.atleast_1d(position), dtype=np.float64))
+
+    def torque(self, phase: npt.ArrayLike, omega: npt.ArrayLike, alpha: npt.ArrayLike) -> npt.NDArray[Any]:
+        """Inverse dynamics: the drive torque at phase words, speeds and accelerations."""
+        return self._own._torque(self._phases(phase), self._numbers("omega", omega), self._numbers("alpha", alpha))
+
+    def acceleration(self, phase: npt.ArrayLike, omega: npt.ArrayLike, torque: npt.ArrayLike) -> npt.NDArray[Any]:
+        """Forward dynamics: the acceleration that a drive torque gives."""
+        return self._own._acceleration(self._phases(phase), self._numbers("omega", omega), self._numbers("torque", torque))
+
+    @staticmethod
+    def _phases(phase: npt.ArrayLike) -> npt.NDArray[np.uint32]:
+        array = np.atleast_1d(phase)
+        if array.dtype != np.uint32:
+            raise TypeError(f"phase has {array.dtype}; phase words are uint32: use model.phase(position)")
+        return np.ascontiguousarray(array)
+
+    def _numbers(self, name: str, values: npt.ArrayLike) -> npt.NDArray[Any]:
+        array = np.atleast_1d(values)
+        if self.dtype.kind == "f":
+            if not np.isfinite(array).all():
+                raise ValueError(f"{name} has numbers that are not finite")
+            return np.ascontiguousarray(array, dtype=np.float32)
+        if array.dtype != self.dtype:
+            raise TypeError(f"{name} has {array.dtype}; this model takes the raw {self.dtype} of {self.format}")
+        return np.ascontiguousarray(array)
+
+
+@lru_cache(maxsize=16)
+def _study(name: str, text: str, folder: str, catalogue: tuple[str, ...], drive: str | None, steps: int) -> _jred.Study:
+    return _jred.Study(name, text, Path(folder), [Path(path) for path in catalogue], drive, steps)
+
+
+def evaluate(
+    machine: Machine,
+    overrides: Mapping[str, Value] | None = None,
+    *,
+    catalogue: Sequence[str | Path] = (),
+    drive: str | None = None,
+    steps: int = 1000,
+) -> dict[str, Any]:
+    """Judges a drive in the machine with other values of some quantities: for optimisers, pure and picklable.
+
+    Returns ``drive``, ``holds`` and ``margins``: 1 less the used share of the limit of each rule with data, negative
+    where the rule is violated. Without ``drive`` the best one of the catalogue. Raises JredError for values that give
+    no machine.
+    """
+    study = _study(machine.name, machine.text, str(machine._own.folder), tuple(map(str, catalogue)), drive, steps)
+    values = [(path, value if isinstance(value, str) else f"{_value(value)} {machine._unit(path)}".strip()) for path, value in (overrides or {}).items()]
+    name, holds, used = study.evaluate(values)
+    return {"drive": name, "holds": holds, "margins": {rule: 1.0 - share for rule, share in used}}

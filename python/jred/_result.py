@@ -1,0 +1,162 @@
+"""Results of commands: the JSON of ``jred COMMAND --format json`` as objects."""
+
+from __future__ import annotations
+
+import json
+import re
+import tempfile
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _jred
+
+Files = Mapping[str | Path, str]
+
+
+def _attribute(key: str) -> str:
+    """The name of a key without its unit: ``rated power [W]`` is ``rated_power``, ``J_red'`` is ``J_red_1``."""
+    name = re.sub(r"\s*\[[^\]]*\]\s*$", "", key)
+    name = name.replace("''", "_2").replace("'", "_1")
+    name = re.sub(r"\W+", "_", name).strip("_")
+    return name if name[:1].isalpha() or name[:1] == "_" else f"_{name}"
+
+
+def _made(value: Any) -> Any:
+    if isinstance(value, dict):
+        return Item(value)
+    if isinstance(value, list):
+        return tuple(_made(each) for each in value)
+    return value
+
+
+class Item(Mapping[str, Any]):
+    """An object of a result: keys as in JSON, with units, or attributes without them."""
+
+    __slots__ = ("_data", "_names")
+
+    def __init__(self, data: dict[str, Any]) -> None:
+        object.__setattr__(self, "_data", data)
+        object.__setattr__(self, "_names", {_attribute(key): key for key in data})
+
+    def __getattr__(self, name: str) -> Any:
+        names: dict[str, str] = object.__getattribute__(self, "_names")
+        if name not in names:
+            raise AttributeError(f"no {name!r}; there is {', '.join(names)}")
+        return _made(self._data[names[name]])
+
+    def __setattr__(self, name: str, value: object) -> None:
+        raise AttributeError("results cannot be changed")
+
+    def __getitem__(self, key: str) -> Any:
+        return _made(self._data[key])
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._data)
+
+    def __len__(self) -> int:
+        return len(self._data)
+
+    def __dir__(self) -> list[str]:
+        return sorted({*super().__dir__(), *self._names})
+
+    def __repr__(self) -> str:
+        return f"{type(self).__name__}({', '.join(self._names)})"
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return (type(self), (self._data,))
+
+    def to_dict(self) -> dict[str, Any]:
+        """The data as in JSON."""
+        copied: dict[str, Any] = json.loads(json.dumps(self._data))
+        return copied
+
+    def table(self, key: str) -> dict[str, npt.NDArray[Any]]:
+        """The rows of a list of objects, or the columns of numbers, as arrays by name: for pandas or polars."""
+        rows = self._data[key]
+        if isinstance(rows, dict):
+            return {name: np.asarray(column) for name, column in rows.items()}
+        names = list(dict.fromkeys(name for row in rows for name in row))
+        return {name: _column([row.get(name) for row in rows]) for name in names}
+
+
+def _column(values: list[Any]) -> npt.NDArray[Any]:
+    numbers = [np.nan if value is None else value for value in values]
+    if all(isinstance(value, float | int) and not isinstance(value, bool) for value in numbers):
+        return np.asarray(numbers, dtype=np.float64)
+    column = np.empty(len(values), dtype=object)
+    column[:] = values
+    return column
+
+
+class Result(Item):
+    """The result of a command, with its exit ``code`` (1: a rule is violated) and the ``messages`` of the command."""
+
+    __slots__ = ("_again", "code", "messages")
+
+    code: int
+    messages: tuple[str, ...]
+
+    def __init__(
+        self,
+        data: dict[str, Any],
+        code: int = 0,
+        messages: Sequence[str] = (),
+        again: tuple[list[str], list[tuple[str, str]]] | None = None,
+    ) -> None:
+        super().__init__(data)
+        object.__setattr__(self, "code", code)
+        object.__setattr__(self, "messages", tuple(messages))
+        object.__setattr__(self, "_again", again)
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return (type(self), (self._data, self.code, self.messages, self._again))
+
+    @property
+    def holds(self) -> bool:
+        """Whether every requirement is satisfied."""
+        return self.code == 0
+
+    def report(self) -> str:
+        """The page of ``--report``, with drawing and plots."""
+        words, files = self._again or ([], [])
+        with tempfile.TemporaryDirectory() as folder:
+            page = Path(folder) / "report.html"
+            _jred.run([*words, "--report", str(page)], files)
+            return page.read_text(encoding="utf-8")
+
+    def _repr_html_(self) -> str | None:
+        if self._again is None or "--report" not in _jred.run([self._again[0][0], "--help"], [])[1]:
+            return None
+        page = self.report().replace("&", "&amp;").replace('"', "&quot;")
+        return f'<iframe srcdoc="{page}" style="width:100%;height:40em;border:0"></iframe>'
+
+
+def _words(options: Mapping[str, object]) -> list[str]:
+    """Options of the command line: ``top=3`` is ``--top 3``; True is the option alone, a list repeats it."""
+    words: list[str] = []
+    for name, value in options.items():
+        option = "--" + name.rstrip("_").replace("_", "-")
+        if value is None or value is False:
+            continue
+        if value is True:
+            words.append(option)
+            continue
+        each = value if isinstance(value, list | tuple) else [value]
+        for one in each:
+            words += [option, str(one)]
+    return words
+
+
+def run(command: str, *arguments: str | Path, files: Files | None = None, **options: object) -> Result:
+    """Runs a command of ``jred`` and returns its JSON.
+
+    ``files`` has texts that stand for files on disk. Raises JredError.
+    """
+    words = [command, *map(str, arguments), *_words(options)]
+    texts = [(str(path), text) for path, text in (files or {}).items()]
+    code, out, messages = _jred.run([*words, "--format", "json"], texts)
+    return Result(json.loads(out), code, messages, (words, texts))

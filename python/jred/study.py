@@ -1,0 +1,181 @@
+"""Studies over many machines as tasks of dask.distributed: on the desk, on Slurm or on Kubernetes.
+
+Each finished share of the rows is a Parquet part, written under a temporary name and renamed, with the digests of
+machine and catalogue and the options in its metadata. A restart computes the parts that are missing. Needs
+``pip install jred[study]``.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from . import _jred
+from ._machine import Machine, _study
+
+ABOUT = ("study", "version", "machine", "catalogue", "options", "rows", "share")
+
+
+class PartError(ValueError):
+    """A part belongs to another study: other machine, catalogue, options or version."""
+
+
+def vary(
+    machine: Machine,
+    axes: Sequence[str],
+    out: str | Path,
+    *,
+    catalogue: Sequence[str | Path] = (),
+    shares: int = 64,
+    steps: int = 1000,
+    client: Any = None,
+    progress: Callable[[int, int], None] | None = None,
+) -> Any:
+    """``jred vary``: every machine of a grid, sized. ``axes`` as of ``--vary``, such as "slider.mass=40..60 kg:20".
+
+    Returns the rows in their order as a pyarrow Table, equal bit for bit for any ``client`` and number of shares.
+    """
+    return _run("vary", (list(axes),), machine, out, catalogue, None, shares, steps, client, progress)
+
+
+def tolerance(
+    machine: Machine,
+    out: str | Path,
+    *,
+    given: Mapping[str, str] | None = None,
+    samples: int = 1000,
+    seed: int = 1,
+    drive: str | None = None,
+    catalogue: Sequence[str | Path] = (),
+    shares: int = 64,
+    steps: int = 1000,
+    client: Any = None,
+    progress: Callable[[int, int], None] | None = None,
+) -> Any:
+    """``jred tolerance``: machines that scatter about this one, with one drive judged in each.
+
+    ``given``: amounts by path, such as {"slider.mass": "normal: 2 %"}, besides those of ``[tolerance]``.
+    """
+    asked = (list((given or {}).items()), samples, seed)
+    return _run("tolerance", asked, machine, out, catalogue, drive, shares, steps, client, progress)
+
+
+def share(
+    kind: str,
+    asked: tuple[Any, ...],
+    machine: Machine,
+    out: str,
+    catalogue: tuple[str, ...],
+    drive: str | None,
+    steps: int,
+    index: int,
+    count: int,
+) -> int:
+    """One share of a study, as a part in ``out``: a task with the same rows on any worker, any number of times."""
+    import pyarrow as pa
+    import pyarrow.parquet as pq
+
+    path = Path(out) / f"part-{index:05}-of-{count:05}.parquet"
+    study = _study(machine.name, machine.text, str(machine._own.folder), catalogue, drive, steps)
+    if path.exists() and _read(path) is not None:
+        return index
+    found = getattr(study, kind)(*asked, [index, count])
+    about = {**found["about"], "share": f"{index}/{count}"}
+    table = pa.table({name: _typed(pa, column) for name, column in found["columns"].items()})
+    table = table.replace_schema_metadata({key: about[key] for key in ABOUT})
+    partial = path.with_suffix(f".{os.getpid()}.partial")
+    try:
+        pq.write_table(table, partial)
+        os.replace(partial, path)
+    except OSError:
+        partial.unlink(missing_ok=True)
+        raise
+    return index
+
+
+def _typed(pa: Any, column: Any) -> Any:
+    """Numbers as float64, row numbers as they are, anything else as text."""
+    if all(value is None for value in column):
+        return pa.nulls(len(column))
+    if all(value is None or isinstance(value, float) for value in column):
+        return pa.array(column, type=pa.float64())
+    if all(isinstance(value, int) for value in column):
+        return pa.array(column, type=pa.uint64())
+    return pa.array([None if value is None else str(value) for value in column], type=pa.string())
+
+
+def _read(path: Path) -> dict[str, str] | None:
+    """What a part says of itself; None if it is damaged."""
+    import pyarrow as pa
+    import pyarrow.parquet as pq
+
+    try:
+        table = pq.read_table(path)
+    except (pa.ArrowInvalid, OSError):
+        return None
+    return {key.decode(): value.decode() for key, value in (table.schema.metadata or {}).items() if key.decode() in ABOUT}
+
+
+def _run(
+    kind: str,
+    asked: tuple[Any, ...],
+    machine: Machine,
+    out: str | Path,
+    catalogue: Sequence[str | Path],
+    drive: str | None,
+    shares: int,
+    steps: int,
+    client: Any,
+    progress: Callable[[int, int], None] | None,
+) -> Any:
+    import pyarrow as pa
+    import pyarrow.parquet as pq
+
+    if not 1 <= shares <= 100_000:
+        raise ValueError(f"shares = {shares}; give 1 to 100000")
+    folder = Path(out)
+    folder.mkdir(parents=True, exist_ok=True)
+    files = tuple(str(Path(path).resolve()) for path in catalogue)
+    # The study of these options: its first share has no row beyond the last, so that nothing is computed twice.
+    study = _study(machine.name, machine.text, str(machine._own.folder), files, drive, steps)
+    own = getattr(study, kind)(*asked, [2**62, 1])["about"]
+    for path in sorted(folder.glob("part-*.parquet")):
+        known = _read(path)
+        if known is None:
+            path.unlink()
+            continue
+        differs = [key for key in ABOUT[:-1] if known.get(key) != own[key]]
+        count = known.get("share", "").partition("/")[2]
+        if differs or count != str(shares):
+            words = ", ".join(differs) or f"number of shares ({count}, not {shares})"
+            raise PartError(f"{path} is of another study: {words} differs; choose another folder, or remove its parts")
+    tasks = [(kind, asked, machine, str(folder.resolve()), files, drive, steps, k, shares) for k in range(shares)]
+    if client is None:
+        for done, task in enumerate(tasks, 1):
+            share(*task)
+            if progress:
+                progress(done, shares)
+    else:
+        _on(client, tasks, progress)
+    parts = [pq.read_table(folder / f"part-{k:05}-of-{shares:05}.parquet") for k in range(shares)]
+    rows = pa.concat_tables(parts, promote_options="permissive")
+    rows = rows.sort_by("row")
+    return rows.replace_schema_metadata({key: own[key] for key in ABOUT[:-1]})
+
+
+def _on(client: Any, tasks: list[tuple[Any, ...]], progress: Callable[[int, int], None] | None) -> None:
+    """Runs the tasks on a cluster; a task whose worker dies is run again elsewhere."""
+    from distributed import as_completed
+
+    client.run_on_scheduler(_bear_failures)
+    futures = [client.submit(share, *task, pure=False, retries=10) for task in tasks]
+    for done, future in enumerate(as_completed(futures), 1):
+        future.result()
+        if progress:
+            progress(done, len(tasks))
+
+
+def _bear_failures(dask_scheduler: Any) -> None:
+    dask_scheduler.allowed_failures = max(10, dask_scheduler.allowed_failures)

@@ -1,0 +1,135 @@
+//! A machine: its text, its curves.
+
+use std::path::PathBuf;
+
+use numpy::{PyArray1, ToPyArray as _};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use jred_analysis::checked;
+use jred_analysis::reduce::{Over, Request, Sets, reduce};
+use jred_file::model::machine::MachineFile;
+use jred_file::number::columns::Columns;
+use jred_file::problem;
+use jred_file::text::problem::{Problem, Result};
+use jred_sizing::study::edit::{Document, Edit};
+use jred_file::units::literal;
+
+use crate::error::failed;
+
+/// A machine file that was read and checked.
+#[pyclass(frozen, module = "jred._jred")]
+pub(crate) struct Machine {
+    /// Name in messages.
+    #[pyo3(get)]
+    name: String,
+    /// The text of the machine file.
+    #[pyo3(get)]
+    text: String,
+    /// The folder from which the files that it names are read.
+    #[pyo3(get)]
+    folder: PathBuf,
+    file: MachineFile,
+}
+
+impl Machine {
+    pub(crate) fn new(name: &str, text: String, folder: PathBuf) -> Result<Self> {
+        Ok(Self {
+            name: name.to_owned(),
+            file: checked::parse(name, &text, &*folder)?,
+            text,
+            folder,
+        })
+    }
+
+    fn changed(&self, path: &str, value: &str) -> Result<Self> {
+        let text = with(&self.text, &[(path, value)])?;
+        Self::new(&self.name, text, self.folder.clone())
+    }
+}
+
+/// A machine text with other values of some quantities, each by its path.
+pub(crate) fn with(text: &str, values: &[(&str, &str)]) -> Result<String> {
+    let document = Document::parse(text.to_owned())?;
+    let read = values.iter().map(|(path, value)| {
+        let quantity = document.find(path)?;
+        let value = literal::read(value).map_err(|why| {
+            problem!(help = "write a number with its unit, such as \"60 kg\"", "`{path}` = \"{value}\" cannot be used: {why}")
+        })?;
+        Ok((quantity, value))
+    });
+    let read = read.collect::<Result<Vec<_>>>()?;
+    let edits: Vec<Edit> = (read.iter())
+        .map(|(quantity, value)| Edit {
+            quantity: *quantity,
+            number: value.number,
+            unit: &value.unit,
+        })
+        .collect();
+    Ok(document.with(&edits))
+}
+
+#[pymethods]
+impl Machine {
+    /// Title of the machine.
+    #[getter]
+    fn title(&self) -> &str {
+        &self.file.title
+    }
+
+    /// A machine with another value of the quantity at `path`, such as "slider.mass" and "60 kg".
+    fn _set(&self, py: Python<'_>, path: &str, value: &str) -> PyResult<Self> {
+        py.detach(|| self.changed(path, value))
+            .map_err(|problem| failed(py, problem))
+    }
+
+    /// Paths of the quantities that can be set, each with its value.
+    #[getter]
+    fn quantities(&self, py: Python<'_>) -> PyResult<Vec<(String, String)>> {
+        let document = Document::parse(self.text.clone()).map_err(|problem| failed(py, problem))?;
+        let all = document.quantities().iter();
+        Ok(all.map(|own| (own.path.clone(), own.shown())).collect())
+    }
+
+    #[pyo3(signature = (positions, over, state, links, points, forces, energy))]
+    #[expect(clippy::too_many_arguments, reason = "the keywords of one call")]
+    fn _curves<'py>(
+        &self,
+        py: Python<'py>,
+        positions: usize,
+        over: &str,
+        state: Option<[f64; 2]>,
+        links: bool,
+        points: bool,
+        forces: bool,
+        energy: bool,
+    ) -> PyResult<Bound<'py, PyDict>> {
+        let request = Request {
+            over: if over == "time" { Over::Time } else { Over::Angle },
+            positions,
+            sets: Sets {
+                curves: !(points || forces || energy),
+                links,
+                torques: false,
+                points,
+                reactions: forces,
+                energy,
+            },
+            state,
+        };
+        let columns = py.detach(|| reduce(&self.file, &request).map_err(Problem::of));
+        arrays(py, &columns.map_err(|problem| failed(py, problem))?)
+    }
+}
+
+/// Columns as arrays by title; an empty cell is NaN.
+fn arrays<'py>(py: Python<'py>, columns: &Columns) -> PyResult<Bound<'py, PyDict>> {
+    let found = PyDict::new(py);
+    for (k, name) in columns.names().into_iter().enumerate() {
+        let cell = |row: &Vec<Option<f64>>| row.get(k).copied().flatten().unwrap_or(f64::NAN);
+        let values: Vec<f64> = columns.rows().iter().map(cell).collect();
+        let array: Bound<'py, PyArray1<f64>> = values.to_pyarray(py);
+        found.set_item(name, array)?;
+    }
+    Ok(found)
+}

@@ -1,0 +1,240 @@
+"""The package against the command, closed forms, and itself on a cluster."""
+
+from __future__ import annotations
+
+import json
+import pickle
+import subprocess
+import sys
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+from typing import Any
+
+import jred
+import numpy as np
+import pytest
+from jred import Machine, evaluate, study
+
+MACHINES = Path(__file__).parents[2] / "machines"
+PRESS = MACHINES / "press.toml"
+JRED = [sys.executable, "-c", "import jred; jred.main()"]
+
+
+def command(*words: str) -> tuple[int, str]:
+    run = subprocess.run([*JRED, *words], capture_output=True, text=True, check=False)
+    return run.returncode, run.stdout
+
+
+def sizeable() -> list[Path]:
+    return [path for path in sorted(MACHINES.glob("*.toml")) if "[motion]" in path.read_text(encoding="utf-8")]
+
+
+@pytest.mark.parametrize("path", sizeable(), ids=lambda path: path.stem)
+def test_results_are_those_of_the_command(path: Path) -> None:
+    words = ["size", str(path), "--format", "json", "--top", "3"]
+    code, out = command(*words)
+    if code == 2:
+        with pytest.raises(jred.JredError):
+            Machine(path).size(top=3)
+        return
+    found = Machine(path).size(top=3)
+    assert found.code == code
+    assert found.to_dict() == json.loads(out)
+
+
+def test_curves_are_those_of_the_command() -> None:
+    for path in [PRESS, MACHINES / "six-link.toml", MACHINES / "four-bar.toml"]:
+        for options in [{}, {"points": True}, {"energy": True}]:
+            found = Machine(path).curves(50, **options)
+            words = [f"--{name}" for name in options]
+            _, out = command("reduce", str(path), "--positions", "50", "--format", "csv", *words)
+            header, *rows = out.strip().splitlines()
+            columns = np.array([[float(x or "nan") for x in row.split(",")] for row in rows]).T
+            assert [name.replace('"', "") for name in header.split(",")] == list(found)
+            for name, column in zip(found, columns, strict=True):
+                np.testing.assert_array_equal(found[name], column)
+
+
+def test_reduced_inertia_of_a_slider_crank() -> None:
+    r, l, mass = 0.03, 0.18, 42.0
+    text = """gravity = ["0 m/s^2", "0 m/s^2"]
+[mechanism]
+type = "slider-crank"
+crank = { length = "30 mm", mass = "0 kg", inertia = "0.001 kg m^2", com = ["0 mm", "0 mm"] }
+rod = { length = "180 mm", mass = "0 kg", inertia = "0 kg m^2", com = ["0 mm", "0 mm"] }
+slider = { mass = "42 kg" }
+"""
+    machine = Machine(text)
+    found = machine.curves(64)
+    phi = np.deg2rad(found["phi [deg]"])
+    slope = -r * np.sin(phi) - r * r * np.sin(phi) * np.cos(phi) / np.sqrt(l * l - (r * np.sin(phi)) ** 2)
+    np.testing.assert_allclose(found["J_red [kg m^2]"], 1e-3 + mass * slope**2, rtol=0, atol=1e-13)
+    twice = machine.set("slider.mass", "84 kg").curves(64)
+    np.testing.assert_allclose(twice["J_red [kg m^2]"] - 1e-3, 2 * (found["J_red [kg m^2]"] - 1e-3), rtol=0, atol=1e-14)
+    def bar(length: str) -> dict[str, Any]:
+        inertia = "0.001 kg m^2" if length == "30 mm" else "0 kg m^2"
+        return {"length": length, "mass": "0 kg", "inertia": inertia, "com": ["0 mm", "0 mm"]}
+
+    as_dict = {
+        "gravity": ["0 m/s^2", "0 m/s^2"],
+        "mechanism": {"type": "slider-crank", "crank": bar("30 mm"), "rod": bar("180 mm"), "slider": {"mass": "42 kg"}},
+    }
+    same = Machine(as_dict).curves(64)
+    for name, column in found.items():
+        np.testing.assert_array_equal(same[name], column)
+
+
+@pytest.mark.parametrize(("kind", "digits"), [("f32", 1e-5), ("i32", 1e-5), ("i16", 1e-2)])
+def test_ticks_are_those_of_firmware(kind: str, digits: float, tmp_path: Path) -> None:
+    model = Machine(PRESS).model(type=kind, torque_error="0.05 N m" if kind != "i16" else "2 N m")
+    path = tmp_path / "press.jred"
+    error = "0.05 N m" if kind != "i16" else "2 N m"
+    command("export", str(PRESS), "--type", kind, "--torque-error", error, "--out", str(path))
+    assert path.read_bytes() == model.image
+    curves = Machine(PRESS).curves(32, speed=10.0, acceleration=50.0)
+    position = np.deg2rad(curves["phi [deg]"])
+    phase = model.phase(position)
+    torque_base, speed_base, acceleration_base = model.scale
+    if model.dtype == np.float32:
+        omega, alpha, unit = np.full(32, 10, np.float32), np.full(32, 50, np.float32), 1.0
+    else:
+        one = 2.0 ** (8 * model.dtype.itemsize - 1)
+        omega = np.full(32, round(10.0 / speed_base * one), model.dtype)
+        alpha = np.full(32, round(50.0 / acceleration_base * one), model.dtype)
+        unit = torque_base / one
+    torque = model.torque(phase, omega, alpha)
+    assert torque.dtype == model.dtype
+    due = curves["T_drive [N m]"]
+    assert np.abs(torque * unit - due).max() < digits * np.abs(due).max() + 3 * model.validity[2]
+    back = model.acceleration(phase, omega, torque)
+    assert np.abs(back.astype(float) - alpha).max() <= 1e-3 * np.abs(alpha).max() + 200
+    again = pickle.loads(pickle.dumps(model))
+    np.testing.assert_array_equal(again.torque(phase, omega, alpha), torque)
+
+
+def test_evaluate_is_pure_and_picklable() -> None:
+    machine = pickle.loads(pickle.dumps(Machine(PRESS)))
+    drive = "sgm7a-30a-brake+tp004mf-4"
+    heavy = evaluate(machine, {"slider.mass": 60.0}, drive=drive)
+    assert heavy == evaluate(machine, {"mechanism.slider.mass": "60 kg"}, drive=drive)
+    strong = evaluate(machine, {"load.pressing force.force.1": "-12 kN"}, drive=drive)
+    assert strong["margins"]["peak torque"] < evaluate(machine, drive=drive)["margins"]["peak torque"]
+    sized = Machine(PRESS).size(top=1)
+    best = evaluate(machine)
+    checks = {check.rule: check for check in sized.fit[0].checks if check.get("used [%]") is not None}
+    assert best["holds"] and best["drive"].startswith(sized.fit[0].motor)
+    for rule, check in checks.items():
+        if rule in best["margins"]:
+            assert best["margins"][rule] == pytest.approx(1 - check["used [%]"] / 100, abs=1e-9)
+    with ThreadPoolExecutor(4) as pool:
+        for found in pool.map(lambda _: evaluate(machine, {"slider.mass": 60.0}, drive=drive), range(8)):
+            assert found == heavy
+
+
+BAD: list[tuple[Any, type[Exception], str]] = [
+    (lambda m: m.set("slider.mass", "60 apples"), jred.JredError, "apples"),
+    (lambda m: m.set("slider.mas", "60 kg"), jred.JredError, "slider.mass"),
+    (lambda m: evaluate(m, {"crank.lenght": 1.0}), jred.JredError, "crank.length"),
+    (lambda m: m.curves(1), ValueError, "positions"),
+    (lambda m: m.curves(speed=float("nan")), ValueError, "finite"),
+    (lambda m: m.curves(over="turn"), ValueError, "time"),
+    (lambda m: m.size(tops=3), jred.JredError, "--top"),
+    (lambda _: Machine("gravity = [\n"), jred.JredError, "TOML"),
+    (lambda _: Machine({"gravity": object()}), TypeError, "object"),
+    (lambda _: Machine(Path("none.toml")), OSError, "none.toml"),
+    (lambda _: jred.Model(b"abc"), ValueError, "4 bytes"),
+    (lambda m: jred.Model(m.model(torque_error="0.05 N m").image[:-8]), ValueError, ""),
+    (lambda m: m.model(torque_error="0.05 N m").torque(np.zeros(2, np.uint32), [1.0], [1.0, 2.0]), ValueError, "2 phases, 1 speeds"),
+    (lambda m: m.model(torque_error="0.05 N m").torque(np.zeros(1, np.uint32), [np.nan], [1.0]), ValueError, "finite"),
+    (lambda m: m.model(torque_error="0.05 N m").torque(np.zeros(1), [1.0], [1.0]), TypeError, "uint32"),
+    (lambda m: m.model(type="i32", torque_error="0.05 N m").torque(np.zeros(1, np.uint32), [1.0], [1.0]), TypeError, "int32"),
+]
+
+
+@pytest.mark.parametrize(("call", "kind", "words"), BAD)
+def test_bad_input_is_named(call: Any, kind: type[Exception], words: str) -> None:
+    with pytest.raises(kind) as raised:
+        call(Machine(PRESS))
+    assert words in str(raised.value)
+
+
+def test_an_error_keeps_its_place() -> None:
+    text = PRESS.read_text(encoding="utf-8").replace('"42 kg"', '"42 km"')
+    with pytest.raises(jred.JredError) as raised:
+        Machine(text, name="heavy.toml")
+    error = pickle.loads(pickle.dumps(raised.value))
+    line = next(k for k, line in enumerate(text.splitlines(), 1) if "42 km" in line)
+    assert (error.file, error.line, error.quantity) == ("heavy.toml", line, "mass")
+    assert "42 km" in error.excerpt and error.cure
+
+
+def test_a_large_text_is_refused_quickly() -> None:
+    with pytest.raises(jred.JredError):
+        Machine("x = 1\n" * 180_000)
+
+
+def test_tables_for_frames() -> None:
+    import pandas as pd
+    import polars as pl
+
+    sized = Machine(PRESS).size(top=5)
+    table = sized.table("fit")
+    assert pd.DataFrame(table)["motor"][0] == sized.fit[0].motor
+    curves = Machine(PRESS).curves(16)
+    assert pl.DataFrame(curves).shape == (16, len(curves))
+    assert "<svg" in sized.report()
+    assert sized._repr_html_().startswith("<iframe")
+
+
+AXES = ["slider.mass=40..60 kg:5", "segment.1.duration=0.4..0.5 s:4"]
+
+
+def test_a_study_on_a_cluster_has_the_same_rows(tmp_path: Path) -> None:
+    from distributed import Client, LocalCluster
+
+    machine = Machine(PRESS)
+    alone = study.vary(machine, AXES, tmp_path / "alone", shares=3, steps=200)
+    assert alone.num_rows == 20
+    with LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster, Client(cluster) as client:
+        killed = iter(list(cluster.workers.values()))
+
+        def kill(done: int, _: int) -> None:
+            worker = next(killed, None) if done in (2, 4) else None
+            if worker is not None:
+                worker.process.process.kill()
+
+        found = study.vary(machine, AXES, tmp_path / "cluster", shares=7, steps=200, client=client, progress=kill)
+    assert found.drop_columns([]).equals(alone)
+    part = tmp_path / "alone" / "part-00001-of-00003.parquet"
+    part.write_bytes(part.read_bytes()[:100])
+    assert study.vary(machine, AXES, tmp_path / "alone", shares=3, steps=200).equals(alone)
+    with pytest.raises(study.PartError, match="machine differs"):
+        study.vary(machine.set("slider.mass", "43 kg"), AXES, tmp_path / "alone", shares=3, steps=200)
+    with pytest.raises(study.PartError, match="number of shares"):
+        study.vary(machine, AXES, tmp_path / "alone", shares=4, steps=200)
+
+
+def test_a_study_has_the_rows_of_the_command(tmp_path: Path) -> None:
+    rows = study.vary(Machine(PRESS), AXES, tmp_path, shares=4, steps=200).to_pylist()
+    words = [word for axis in AXES for word in ("--vary", axis)]
+    _, out = command("vary", str(PRESS), "--steps", "200", "--format", "json", *words)
+    due = [json.loads(line) for line in out.splitlines()[1:]]
+    assert len(rows) == len(due) == 20
+    for row, own in zip(rows, due, strict=True):
+        for name in ["verdict", "motor", "gearbox", "margin", "worst rule"]:
+            assert row[name] == own[name]
+
+
+def test_tolerance_in_shares(tmp_path: Path) -> None:
+    given = {"slider.mass": "normal: 5 %"}
+    options: dict[str, Any] = {"given": given, "samples": 12, "drive": "sgm7a-30a-brake+tp004mf-4", "steps": 200}
+    one = study.tolerance(Machine(PRESS), tmp_path / "one", shares=1, **options)
+    many = study.tolerance(Machine(PRESS), tmp_path / "many", shares=5, **options)
+    assert one.num_rows == 12
+    assert one.equals(many)
+
+
+def test_the_command_in_the_package() -> None:
+    code, out = command("--version")
+    assert (code, out.split()[-1]) == (0, jred.__version__)
+    assert command("size", "none.toml")[0] == 2
