@@ -6,13 +6,16 @@ import json
 from collections.abc import Mapping, Sequence
 from functools import lru_cache
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _jred
-from ._result import Result, run
+from ._result import Result, _words, run
+
+if TYPE_CHECKING:
+    from ._answers import Balance, Check, Fastest, Gentlest, Require, Sensitivity, Simulate, Size, Steady
 
 Array = npt.NDArray[np.float64]
 Value = str | float | int
@@ -155,41 +158,41 @@ class Machine:
         path = Path(self._own.folder) / self.name
         return run(command, path, *arguments, files={path: self.text}, **options)
 
-    def check(self, **options: object) -> Result:
+    def check(self, **options: object) -> Check:
         """``jred check``: closure, mobility, energy balance, noise of a recorded motion."""
-        return self.run("check", **options)
+        return cast("Check", self.run("check", **options))
 
-    def size(self, **options: object) -> Result:
+    def size(self, **options: object) -> Size:
         """``jred size``: drives that satisfy every rule, ranked; ``catalogue``, ``motor``, ``top`` … as of the command."""
-        return self.run("size", **options)
+        return cast("Size", self.run("size", **options))
 
-    def require(self, **options: object) -> Result:
+    def require(self, **options: object) -> Require:
         """``jred require``: what any maker needs to quote a drive."""
-        return self.run("require", **options)
+        return cast("Require", self.run("require", **options))
 
-    def fastest(self, **options: object) -> Result:
+    def fastest(self, **options: object) -> Fastest:
         """``jred fastest``: the time-optimal motion along the same way."""
-        return self.run("fastest", **options)
+        return cast("Fastest", self.run("fastest", **options))
 
-    def gentlest(self, **options: object) -> Result:
+    def gentlest(self, **options: object) -> Gentlest:
         """``jred gentlest``: the motion with the least RMS torque or loss."""
-        return self.run("gentlest", **options)
+        return cast("Gentlest", self.run("gentlest", **options))
 
-    def steady(self, **options: object) -> Result:
+    def steady(self, **options: object) -> Steady:
         """``jred steady``: the steady cycle under a motor, and the flywheel that smooths it."""
-        return self.run("steady", **options)
+        return cast("Steady", self.run("steady", **options))
 
-    def simulate(self, **options: object) -> Result:
+    def simulate(self, **options: object) -> Simulate:
         """``jred simulate``: the free motion of ``[simulation]``."""
-        return self.run("simulate", **options)
+        return cast("Simulate", self.run("simulate", **options))
 
-    def balance(self, **options: object) -> Result:
+    def balance(self, **options: object) -> Balance:
         """``jred balance``: counterweights and springs."""
-        return self.run("balance", **options)
+        return cast("Balance", self.run("balance", **options))
 
-    def sensitivity(self, **options: object) -> Result:
+    def sensitivity(self, **options: object) -> Sensitivity:
         """``jred sensitivity``: how each quantity moves the rules."""
-        return self.run("sensitivity", **options)
+        return cast("Sensitivity", self.run("sensitivity", **options))
 
     def model(self, **options: object) -> Model:
         """The firmware's table of ``jred export`` with its ticks; ``type="i32"``, ``torque_error="0.01 N m"`` …"""
@@ -198,8 +201,6 @@ class Machine:
         with tempfile.TemporaryDirectory() as folder:
             out = Path(folder) / "table.jred"
             path = Path(self._own.folder) / self.name
-            from ._result import _words
-
             words = ["export", str(path), "--out", str(out), *_words(options)]
             _jred.run(words, [(str(path), self.text)])
             return Model(out.read_bytes())

@@ -6,6 +6,7 @@ import json
 import re
 import tempfile
 from collections.abc import Iterator, Mapping, Sequence
+from keyword import iskeyword
 from pathlib import Path
 from typing import Any
 
@@ -17,12 +18,17 @@ from . import _jred
 Files = Mapping[str | Path, str]
 
 
+#: Names of a mapping and of a result, which no figure can have.
+_TAKEN = {"get", "items", "keys", "values", "to_dict", "table", "code", "messages", "report"}
+
+
 def _attribute(key: str) -> str:
-    """The name of a key without its unit: ``rated power [W]`` is ``rated_power``, ``J_red'`` is ``J_red_1``."""
+    """The name of a key without its unit: ``rated power [W]`` is ``rated_power``, ``J_red'`` is ``J_red_1``, ``from`` is ``from_``."""
     name = re.sub(r"\s*\[[^\]]*\]\s*$", "", key)
     name = name.replace("''", "_2").replace("'", "_1")
     name = re.sub(r"\W+", "_", name).strip("_")
-    return name if name[:1].isalpha() or name[:1] == "_" else f"_{name}"
+    name = name if name[:1].isalpha() or name[:1] == "_" else f"_{name}"
+    return f"{name}_" if name in _TAKEN or iskeyword(name) else name
 
 
 def _made(value: Any) -> Any:

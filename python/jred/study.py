@@ -171,7 +171,7 @@ def _on(client: Any, tasks: list[tuple[Any, ...]], progress: Callable[[int, int]
 
     client.run_on_scheduler(_bear_failures)
     futures = [client.submit(share, *task, pure=False, retries=10) for task in tasks]
-    for done, future in enumerate(as_completed(futures), 1):
+    for done, future in enumerate(as_completed(futures), 1):  # type: ignore[no-untyped-call]
         future.result()
         if progress:
             progress(done, len(tasks))

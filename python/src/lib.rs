@@ -14,8 +14,6 @@ use jred_cli::embedded;
 
 use error::{failed, refused};
 use machine::Machine;
-use model::Model;
-use study::Study;
 
 /// Runs a command of `jred` and returns its exit code, its standard output and its messages. `files` has texts that stand for files on disk.
 #[pyfunction]
@@ -42,13 +40,18 @@ fn read(py: Python<'_>, name: &str, text: String, folder: PathBuf) -> PyResult<M
         .map_err(|problem| failed(py, problem))
 }
 
+/// The native part of the package.
 #[pymodule]
-fn _jred(module: &Bound<'_, PyModule>) -> PyResult<()> {
-    module.add("__version__", env!("CARGO_PKG_VERSION"))?;
-    module.add_function(wrap_pyfunction!(run, module)?)?;
-    module.add_function(wrap_pyfunction!(command, module)?)?;
-    module.add_function(wrap_pyfunction!(read, module)?)?;
-    module.add_class::<Machine>()?;
-    module.add_class::<Model>()?;
-    module.add_class::<Study>()
+mod _jred {
+    #[pymodule_export]
+    use super::machine::Machine;
+    #[pymodule_export]
+    use super::model::Model;
+    #[pymodule_export]
+    use super::study::Study;
+    #[pymodule_export]
+    use super::{command, read, run};
+    #[pymodule_export]
+    #[expect(non_upper_case_globals, reason = "the name that Python gives it")]
+    const __version__: &str = env!("CARGO_PKG_VERSION");
 }

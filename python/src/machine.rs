@@ -12,8 +12,8 @@ use jred_file::model::machine::MachineFile;
 use jred_file::number::columns::Columns;
 use jred_file::problem;
 use jred_file::text::problem::{Problem, Result};
-use jred_sizing::study::edit::{Document, Edit};
 use jred_file::units::literal;
+use jred_sizing::study::edit::{Document, Edit};
 
 use crate::error::failed;
 
@@ -54,7 +54,10 @@ pub(crate) fn with(text: &str, values: &[(&str, &str)]) -> Result<String> {
     let read = values.iter().map(|(path, value)| {
         let quantity = document.find(path)?;
         let value = literal::read(value).map_err(|why| {
-            problem!(help = "write a number with its unit, such as \"60 kg\"", "`{path}` = \"{value}\" cannot be used: {why}")
+            problem!(
+                help = "write a number with its unit, such as \"60 kg\"",
+                "`{path}` = \"{value}\" cannot be used: {why}"
+            )
         })?;
         Ok((quantity, value))
     });
@@ -91,7 +94,7 @@ impl Machine {
         Ok(all.map(|own| (own.path.clone(), own.shown())).collect())
     }
 
-    #[pyo3(signature = (positions, over, state, links, points, forces, energy))]
+    #[pyo3(signature = (positions, over, state, links, points, forces, energy) -> "dict[str, numpy.typing.NDArray[numpy.float64]]")]
     #[expect(clippy::too_many_arguments, reason = "the keywords of one call")]
     fn _curves<'py>(
         &self,
@@ -105,7 +108,11 @@ impl Machine {
         energy: bool,
     ) -> PyResult<Bound<'py, PyDict>> {
         let request = Request {
-            over: if over == "time" { Over::Time } else { Over::Angle },
+            over: if over == "time" {
+                Over::Time
+            } else {
+                Over::Angle
+            },
             positions,
             sets: Sets {
                 curves: !(points || forces || energy),

@@ -56,7 +56,10 @@ fn equal(lengths: [usize; 3]) -> PyResult<()> {
     if lengths.iter().all(|length| *length == lengths[0]) {
         return Ok(());
     }
-    Err(wrong(format!("the arrays have {} phases, {} speeds and {} values: give as many of each", lengths[0], lengths[1], lengths[2])))
+    Err(wrong(format!(
+        "the arrays have {} phases, {} speeds and {} values: give as many of each",
+        lengths[0], lengths[1], lengths[2]
+    )))
 }
 
 macro_rules! tick {
@@ -136,9 +139,14 @@ impl Model {
     fn new(image: &[u8]) -> PyResult<Self> {
         let chunks = image.chunks_exact(4);
         if !chunks.remainder().is_empty() {
-            return Err(wrong(format!("an image has whole words of 4 bytes, not {} bytes", image.len())));
+            return Err(wrong(format!(
+                "an image has whole words of 4 bytes, not {} bytes",
+                image.len()
+            )));
         }
-        let words: Vec<u32> = chunks.map(|word| u32::from_le_bytes([word[0], word[1], word[2], word[3]])).collect();
+        let words: Vec<u32> = chunks
+            .map(|word| u32::from_le_bytes([word[0], word[1], word[2], word[3]]))
+            .collect();
         let found = Image::new(&words).map_err(wrong)?;
         macro_rules! each {
             ($($name:literal: $format:ty, $kind:ident;)*) => {
@@ -147,8 +155,13 @@ impl Model {
         }
         let tried = formats!(each);
         let fits = tried.iter().find(|(_, error)| error.is_none());
-        let other = |error: &&ImageError| !matches!(error, ImageError::NumberType(_) | ImageError::Layout(_));
-        let why = tried.iter().filter_map(|(_, error)| error.as_ref()).find(other);
+        let other = |error: &&ImageError| {
+            !matches!(error, ImageError::NumberType(_) | ImageError::Layout(_))
+        };
+        let why = tried
+            .iter()
+            .filter_map(|(_, error)| error.as_ref())
+            .find(other);
         let Some((format, _)) = fits else {
             return Err(why.map_or_else(|| wrong("an image of an unknown format"), wrong));
         };
@@ -178,21 +191,46 @@ impl Model {
     }
 
     /// Phase words of positions (rad, or m).
-    fn phase<'py>(&self, py: Python<'py>, position: PyReadonlyArray1<'_, f64>) -> PyResult<Bound<'py, PyArray1<u32>>> {
+    #[pyo3(signature = (position: "numpy.typing.NDArray[numpy.float64]") -> "numpy.typing.NDArray[numpy.uint32]")]
+    fn phase<'py>(
+        &self,
+        py: Python<'py>,
+        position: PyReadonlyArray1<'_, f64>,
+    ) -> PyResult<Bound<'py, PyArray1<u32>>> {
         let domain = self.image().domain();
         let position = position.as_slice().map_err(wrong)?;
         if let Some(k) = position.iter().position(|x| !x.is_finite()) {
-            return Err(wrong(format!("position[{k}] is {}; positions must be finite", position[k])));
+            return Err(wrong(format!(
+                "position[{k}] is {}; positions must be finite",
+                position[k]
+            )));
         }
-        let phases: Vec<u32> = position.iter().map(|x| domain.to::<f64>().phase(*x).to_bits()).collect();
+        let phases: Vec<u32> = position
+            .iter()
+            .map(|x| domain.to::<f64>().phase(*x).to_bits())
+            .collect();
         Ok(phases.to_pyarray(py))
     }
 
-    fn _torque<'py>(&self, py: Python<'py>, phase: PyReadonlyArray1<'_, u32>, omega: &Bound<'_, PyAny>, alpha: &Bound<'_, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+    #[pyo3(signature = (phase: "numpy.typing.NDArray[numpy.uint32]", omega: "numpy.typing.NDArray[typing.Any]", alpha: "numpy.typing.NDArray[typing.Any]") -> "numpy.typing.NDArray[typing.Any]")]
+    fn _torque<'py>(
+        &self,
+        py: Python<'py>,
+        phase: PyReadonlyArray1<'_, u32>,
+        omega: &Bound<'_, PyAny>,
+        alpha: &Bound<'_, PyAny>,
+    ) -> PyResult<Bound<'py, PyAny>> {
         self.tick(py, &phase, omega, alpha, true)
     }
 
-    fn _acceleration<'py>(&self, py: Python<'py>, phase: PyReadonlyArray1<'_, u32>, omega: &Bound<'_, PyAny>, torque: &Bound<'_, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+    #[pyo3(signature = (phase: "numpy.typing.NDArray[numpy.uint32]", omega: "numpy.typing.NDArray[typing.Any]", torque: "numpy.typing.NDArray[typing.Any]") -> "numpy.typing.NDArray[typing.Any]")]
+    fn _acceleration<'py>(
+        &self,
+        py: Python<'py>,
+        phase: PyReadonlyArray1<'_, u32>,
+        omega: &Bound<'_, PyAny>,
+        torque: &Bound<'_, PyAny>,
+    ) -> PyResult<Bound<'py, PyAny>> {
         self.tick(py, &phase, omega, torque, false)
     }
 }

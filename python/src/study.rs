@@ -5,10 +5,14 @@ use std::path::PathBuf;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
+use jred_file::model::tolerance::Tolerance;
+use jred_file::problem;
 use jred_file::text::problem::{Problem, Result};
+use jred_file::units::literal;
 use jred_sizing::catalogue::{Catalogue, Sources};
 use jred_sizing::cell::Cell;
 use jred_sizing::select::filter::Filter;
+use jred_sizing::select::size::Selection;
 use jred_sizing::study::axis::{Grid, Variation};
 use jred_sizing::study::chosen::ChosenDrive;
 use jred_sizing::study::common::Study as Common;
@@ -17,10 +21,6 @@ use jred_sizing::study::grid::GridStudy;
 use jred_sizing::study::sensitivity::shares;
 use jred_sizing::study::task::RowSource;
 use jred_sizing::study::tolerance::{Samples, Scatter};
-use jred_sizing::select::size::Selection;
-use jred_file::units::literal;
-use jred_file::model::tolerance::Tolerance;
-use jred_file::problem;
 
 use crate::error::failed;
 
@@ -46,10 +46,16 @@ impl Study {
     }
 
     /// The name of the drive, whether it satisfies every rule, and the share of each limit that it uses.
-    fn evaluated(&self, values: &[(String, String)]) -> Result<(String, bool, Vec<(&'static str, f64)>)> {
+    fn evaluated(
+        &self,
+        values: &[(String, String)],
+    ) -> Result<(String, bool, Vec<(&'static str, f64)>)> {
         let read = values.iter().map(|(path, value)| {
             let value = literal::read(value).map_err(|why| {
-                problem!(help = "write a number with its unit, such as \"60 kg\"", "`{path}` = \"{value}\" cannot be used: {why}")
+                problem!(
+                    help = "write a number with its unit, such as \"60 kg\"",
+                    "`{path}` = \"{value}\" cannot be used: {why}"
+                )
             })?;
             Ok((path.clone(), value))
         });
@@ -59,29 +65,43 @@ impl Study {
         let named = |findings, name: String| {
             let used = shares(rules, &findings).into_iter();
             let holds = jred_sizing::judge::broken(rules, &findings).is_none();
-            (name, holds, used.map(|(rule, share)| (rule.name(), share)).collect())
+            (
+                name,
+                holds,
+                used.map(|(rule, share)| (rule.name(), share)).collect(),
+            )
         };
         if let Some(drive) = &self.drive {
             return Ok(named(drive.findings(&machine), drive.name()));
         }
         let motors = self.common.catalogue.prepare(site);
-        let selection = Selection::new(&self.common.catalogue, &motors, &machine.cycle, site, rules);
+        let selection =
+            Selection::new(&self.common.catalogue, &motors, &machine.cycle, site, rules);
         let best = selection.fit.first().or(selection.refused.first());
         let best = best.ok_or_else(|| problem!("no drive can be built for this machine"))?;
         let own = ChosenDrive::of(&best.drive, &self.common.catalogue);
         Ok(named(own.findings(&machine), own.name()))
     }
 
-    fn rows<'py>(&self, py: Python<'py>, task: &(impl RowSource + ?Sized), share: [u64; 2]) -> PyResult<Bound<'py, PyDict>> {
+    fn rows<'py>(
+        &self,
+        py: Python<'py>,
+        task: &(impl RowSource + ?Sized),
+        share: [u64; 2],
+    ) -> PyResult<Bound<'py, PyDict>> {
         let header = task.header();
-        let rows: Vec<u64> = (share[0]..header.rows).step_by(share[1].max(1) as usize).collect();
+        let rows: Vec<u64> = (share[0]..header.rows)
+            .step_by(share[1].max(1) as usize)
+            .collect();
         let cells: Vec<Vec<Cell>> = py.detach(|| rows.iter().map(|row| task.row(*row)).collect());
         let found = PyDict::new(py);
         found.set_item("row", rows)?;
         for (k, name) in header.columns.iter().enumerate() {
             let column = cells.iter().map(|row| match row.get(k) {
                 Some(Cell::Number(x)) => x.into_pyobject(py).map(|x| x.into_any().unbind()).ok(),
-                Some(Cell::Text(words)) => words.into_pyobject(py).map(|x| x.into_any().unbind()).ok(),
+                Some(Cell::Text(words)) => {
+                    words.into_pyobject(py).map(|x| x.into_any().unbind()).ok()
+                }
                 _ => None,
             });
             found.set_item(name, column.collect::<Vec<_>>())?;
@@ -96,7 +116,12 @@ impl Study {
         ];
         let both = PyDict::new(py);
         both.set_item("columns", found)?;
-        both.set_item("about", about.into_iter().collect::<std::collections::BTreeMap<_, _>>())?;
+        both.set_item(
+            "about",
+            about
+                .into_iter()
+                .collect::<std::collections::BTreeMap<_, _>>(),
+        )?;
         Ok(both)
     }
 }
@@ -119,9 +144,7 @@ impl Study {
                 catalogues,
                 ..Sources::default()
             };
-            let catalogue = Catalogue::open(&sources).map_err(|error| {
-                problem!("{error}")
-            })?;
+            let catalogue = Catalogue::open(&sources).map_err(|error| problem!("{error}"))?;
             let common = Common::new(name, text, Box::new(folder), catalogue, None, steps)?;
             let drive = match drive {
                 Some(name) => Some(ChosenDrive::of(&common.drive(name)?.1, &common.catalogue)),
@@ -133,14 +156,27 @@ impl Study {
     }
 
     /// The drive's name, whether it satisfies every rule, and the share of each limit that it uses, for these values of quantities.
-    fn evaluate(&self, py: Python<'_>, values: Vec<(String, String)>) -> PyResult<(String, bool, Vec<(&'static str, f64)>)> {
-        py.detach(|| self.evaluated(&values)).map_err(|problem| failed(py, problem))
+    fn evaluate(
+        &self,
+        py: Python<'_>,
+        values: Vec<(String, String)>,
+    ) -> PyResult<(String, bool, Vec<(&'static str, f64)>)> {
+        py.detach(|| self.evaluated(&values))
+            .map_err(|problem| failed(py, problem))
     }
 
     /// Rows of a share of `jred vary`: the columns, and what the study is.
-    fn vary<'py>(&self, py: Python<'py>, axes: Vec<String>, share: [u64; 2]) -> PyResult<Bound<'py, PyDict>> {
+    #[pyo3(signature = (axes, share) -> "dict[str, dict[str, typing.Any]]")]
+    fn vary<'py>(
+        &self,
+        py: Python<'py>,
+        axes: Vec<String>,
+        share: [u64; 2],
+    ) -> PyResult<Bound<'py, PyDict>> {
         let read = || -> Result<Grid> {
-            let axes = axes.iter().map(|text| Variation::parse(&self.common.document, text));
+            let axes = axes
+                .iter()
+                .map(|text| Variation::parse(&self.common.document, text));
             Grid::new(axes.collect::<Result<_, Problem>>()?)
         };
         let task = GridStudy {
@@ -153,10 +189,23 @@ impl Study {
     }
 
     /// Rows of a share of `jred tolerance`.
-    fn tolerance<'py>(&self, py: Python<'py>, given: Vec<(String, String)>, samples: u64, seed: u64, share: [u64; 2]) -> PyResult<Bound<'py, PyDict>> {
+    #[pyo3(signature = (given, samples, seed, share) -> "dict[str, dict[str, typing.Any]]")]
+    fn tolerance<'py>(
+        &self,
+        py: Python<'py>,
+        given: Vec<(String, String)>,
+        samples: u64,
+        seed: u64,
+        share: [u64; 2],
+    ) -> PyResult<Bound<'py, PyDict>> {
         let read = || -> Result<_> {
             let given = given.iter().map(|(path, amount)| {
-                Tolerance::parse(path, amount).map_err(|why| problem!(help = "write \"5 %\", \"0.1 mm\" or \"normal: 2 %\"", "`{path}` = \"{amount}\" cannot be used: {why}"))
+                Tolerance::parse(path, amount).map_err(|why| {
+                    problem!(
+                        help = "write \"5 %\", \"0.1 mm\" or \"normal: 2 %\"",
+                        "`{path}` = \"{amount}\" cannot be used: {why}"
+                    )
+                })
             });
             let scatters = Scatter::all(&self.common, &given.collect::<Result<Vec<_>>>()?)?;
             let machine = self.common.machine(&[])?;
