@@ -7,7 +7,7 @@
 # A study of the press in eight shares:
 #
 #   sbatch machines/cluster/vary.slurm.sh
-#   jred merge press.csv press.part-*.csv
+#   (head -n 1 press.part-0.csv; tail -q -n +2 press.part-*.csv | sort -n) > press.csv
 #
 # The index begins at 0. A task that was stopped or requeued goes on where it was.
 set -euo pipefail

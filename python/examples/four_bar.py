@@ -60,7 +60,10 @@ def _(constant, exact, mo, motion, np, plt, table):
     above.legend()
     below.plot(motion["t [s]"], 1e3 * (table - exact))
     below.set(xlabel="t [s]", ylabel="table − exact [mN m]")
-    left = {name: float(np.sqrt(np.mean((exact - other) ** 2))) for name, other in [("constant inertia", constant), ("jred table", table)]}
+    left = {
+        name: float(np.sqrt(np.mean((exact - other) ** 2)))
+        for name, other in [("constant inertia", constant), ("jred table", table)]
+    }
     for name, rms in left.items():
         print(f"left to the controller with {name}: {rms:.4f} N m RMS")
     mo.vstack([lines, mo.md(" · ".join(f"{name}: {rms:.4f} N m RMS left to the controller" for name, rms in left.items()))])

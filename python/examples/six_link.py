@@ -136,7 +136,9 @@ def _(before, cma_best, judged, mo, names, optuna_best, simplex):
     for method, values in rows:
         rms, kept = judged(values)
         dimensions = {name.removeprefix("mechanism."): round(float(value), 2) for name, value in zip(names, values)}
-        results.append({"method": method, "RMS torque [N m]": round(rms, 3), "least margin": round(min(kept.values()), 4)} | dimensions)
+        results.append(
+            {"method": method, "RMS torque [N m]": round(rms, 3), "least margin": round(min(kept.values()), 4)} | dimensions
+        )
         print(f"{method}: {rms:.3f} N m, at first {before:.3f}; least margin {min(kept.values()):.4f}")
     assert min(result["RMS torque [N m]"] for result in results) < before
     mo.ui.table(results)

@@ -11,10 +11,10 @@ import sys
 from ._errors import JredError
 from ._jred import __version__
 from ._jred import command as _command
-from ._machine import Machine, Model, evaluate
+from ._machine import Machine, Model, catalogue, evaluate
 from ._result import Result, run
 
-__all__ = ["JredError", "Machine", "Model", "Result", "__version__", "evaluate", "main", "run"]
+__all__ = ["JredError", "Machine", "Model", "Result", "__version__", "catalogue", "evaluate", "main", "run"]
 
 
 def main() -> None:

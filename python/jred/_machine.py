@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import tempfile
 from collections.abc import Mapping, Sequence
 from functools import lru_cache
 from pathlib import Path
@@ -12,10 +13,10 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _jred
-from ._result import Result, _words, run
+from ._result import Result, run
 
 if TYPE_CHECKING:
-    from ._answers import Balance, Check, Fastest, Gentlest, Require, Sensitivity, Simulate, Size, Steady
+    from ._answers import Balance, Check, Export, Fastest, Gentlest, Require, Sensitivity, Simulate, Size, Steady
 
 Array = npt.NDArray[np.float64]
 Value = str | float | int
@@ -35,7 +36,9 @@ def _toml(data: Mapping[str, Any], path: str = "") -> str:
             return repr(value.item() if isinstance(value, np.number) else value)
         if isinstance(value, str | Path):
             return json.dumps(str(value), ensure_ascii=False)
-        raise TypeError(f"{path or 'the machine'}: {type(value).__name__} cannot be written; use texts, numbers, lists and dicts")
+        raise TypeError(
+            f"{path or 'the machine'}: {type(value).__name__} cannot be written; use texts, numbers, lists and dicts"
+        )
 
     def is_table(value: Any) -> bool:
         return isinstance(value, Mapping) or (
@@ -68,7 +71,7 @@ class Machine:
     Raises JredError with file, line, quantity and cure; OSError for a file that cannot be read.
     """
 
-    __slots__ = ("_own",)
+    __slots__ = ("_own", "_units")
 
     def __init__(self, source: str | Path | Mapping[str, Any], *, name: str | None = None, folder: str | Path = ".") -> None:
         if isinstance(source, Mapping):
@@ -81,15 +84,16 @@ class Machine:
         if path is not None:
             name, folder = name or path.name, path.parent
         self._own = _jred.read(name or "machine.toml", text, Path(folder))
+        self._units: dict[str, str] = {}
 
     @classmethod
     def _of(cls, own: _jred.Machine) -> Machine:
         machine = object.__new__(cls)
-        machine._own = own
+        machine._own, machine._units = own, {}
         return machine
 
     def __reduce__(self) -> tuple[object, ...]:
-        return (_restored, (self.name, self.text, str(self._own.folder)))
+        return (_restored, (self.name, self.text, str(Path(self._own.folder).resolve())))
 
     def __repr__(self) -> str:
         return f"Machine({self.title!r})"
@@ -116,14 +120,18 @@ class Machine:
 
     def set(self, path: str, value: Value) -> Machine:
         """The machine with another value: ``machine.set("slider.mass", "60 kg")``; a number has the unit of the file."""
-        if not isinstance(value, str):
-            unit = self._unit(path)
-            value = f"{_value(value)} {unit}".strip()
-        return Machine._of(self._own._set(path, value))
+        return Machine._of(self._own._set(path, self._in_unit(path, value)))
 
-    def _unit(self, path: str) -> str:
-        found = [own for own in self.quantities if own == path or own.endswith("." + path)]
-        return self.quantities[found[0]].partition(" ")[2] if len(found) == 1 else ""
+    def _in_unit(self, path: str, value: Value) -> str:
+        """A value as text; a number gets the unit of the file."""
+        if isinstance(value, str):
+            return value
+        if not np.isfinite(value):
+            raise ValueError(f"{path} = {value}; give a finite number")
+        if path not in self._units:
+            found = [shown for own, shown in self.quantities.items() if own == path or own.endswith("." + path)]
+            self._units[path] = found[0].partition(" ")[2] if len(found) == 1 else ""
+        return f"{_value(value)} {self._units[path]}".strip()
 
     def curves(
         self,
@@ -194,15 +202,15 @@ class Machine:
         """``jred sensitivity``: how each quantity moves the rules."""
         return cast("Sensitivity", self.run("sensitivity", **options))
 
-    def model(self, **options: object) -> Model:
-        """The firmware's table of ``jred export`` with its ticks; ``type="i32"``, ``torque_error="0.01 N m"`` …"""
-        import tempfile
+    def export(self, out: str | Path, **options: object) -> Export:
+        """``jred export``: the firmware's table, written to the file ``out``; its errors and limits."""
+        return cast("Export", self.run("export", out=out, **options))
 
+    def model(self, **options: object) -> Model:
+        """The firmware's table of ``jred export`` with its ticks; ``type="i32"``, ``torque_error="0.01 N m"`` …."""
         with tempfile.TemporaryDirectory() as folder:
             out = Path(folder) / "table.jred"
-            path = Path(self._own.folder) / self.name
-            words = ["export", str(path), "--out", str(out), *_words(options)]
-            _jred.run(words, [(str(path), self.text)])
+            self.export(out, **options)
             return Model(out.read_bytes())
 
 
@@ -283,6 +291,14 @@ class Model:
         return np.ascontiguousarray(array)
 
 
+def catalogue(table: str = "motors", **options: object) -> dict[str, npt.NDArray[Any]]:
+    """A table of the catalogue by columns, for pandas or polars.
+
+    ``table``: "motors", "linear-motors", "gearboxes", "amplifiers" or "resistors"; options as of ``jred catalogue list``.
+    """
+    return run("catalogue", "list", table, **options).table("rows")
+
+
 @lru_cache(maxsize=16)
 def _study(name: str, text: str, folder: str, catalogue: tuple[str, ...], drive: str | None, steps: int) -> _jred.Study:
     return _jred.Study(name, text, Path(folder), [Path(path) for path in catalogue], drive, steps)
@@ -303,6 +319,6 @@ def evaluate(
     no machine.
     """
     study = _study(machine.name, machine.text, str(machine._own.folder), tuple(map(str, catalogue)), drive, steps)
-    values = [(path, value if isinstance(value, str) else f"{_value(value)} {machine._unit(path)}".strip()) for path, value in (overrides or {}).items()]
+    values = [(path, machine._in_unit(path, value)) for path, value in (overrides or {}).items()]
     name, holds, used = study.evaluate(values)
     return {"drive": name, "holds": holds, "margins": {rule: 1.0 - share for rule, share in used}}

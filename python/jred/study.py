@@ -12,7 +12,6 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from . import _jred
 from ._machine import Machine, _study
 
 ABOUT = ("study", "version", "machine", "catalogue", "options", "rows", "share")
@@ -118,6 +117,16 @@ def _read(path: Path) -> dict[str, str] | None:
     return {key.decode(): value.decode() for key, value in (table.schema.metadata or {}).items() if key.decode() in ABOUT}
 
 
+def _same(path: Path, known: dict[str, str], own: dict[str, str], shares: int) -> None:
+    """Refuses a part of another study."""
+    differs = [key for key in ABOUT[:-1] if known.get(key) != own[key]]
+    count = known.get("share", "").partition("/")[2]
+    if not differs and count == str(shares):
+        return
+    words = ", ".join(differs) or f"number of shares ({count}, not {shares})"
+    raise PartError(f"{path} is of another study: {words} differs; choose another folder, or remove its parts")
+
+
 def _run(
     kind: str,
     asked: tuple[Any, ...],
@@ -142,15 +151,10 @@ def _run(
     study = _study(machine.name, machine.text, str(machine._own.folder), files, drive, steps)
     own = getattr(study, kind)(*asked, [2**62, 1])["about"]
     for path in sorted(folder.glob("part-*.parquet")):
-        known = _read(path)
-        if known is None:
+        if (known := _read(path)) is None:
             path.unlink()
-            continue
-        differs = [key for key in ABOUT[:-1] if known.get(key) != own[key]]
-        count = known.get("share", "").partition("/")[2]
-        if differs or count != str(shares):
-            words = ", ".join(differs) or f"number of shares ({count}, not {shares})"
-            raise PartError(f"{path} is of another study: {words} differs; choose another folder, or remove its parts")
+        else:
+            _same(path, known, own, shares)
     tasks = [(kind, asked, machine, str(folder.resolve()), files, drive, steps, k, shares) for k in range(shares)]
     if client is None:
         for done, task in enumerate(tasks, 1):
@@ -159,8 +163,11 @@ def _run(
                 progress(done, shares)
     else:
         _on(client, tasks, progress)
-    parts = [pq.read_table(folder / f"part-{k:05}-of-{shares:05}.parquet") for k in range(shares)]
-    rows = pa.concat_tables(parts, promote_options="permissive")
+    paths = [folder / f"part-{k:05}-of-{shares:05}.parquet" for k in range(shares)]
+    for path in paths:
+        # A worker may have another version of jred, of the catalogue or of a file that the machine names.
+        _same(path, _read(path) or {}, own, shares)
+    rows = pa.concat_tables([pq.read_table(path) for path in paths], promote_options="permissive")
     rows = rows.sort_by("row")
     return rows.replace_schema_metadata({key: own[key] for key in ABOUT[:-1]})
 

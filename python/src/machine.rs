@@ -12,7 +12,7 @@ use jred_file::model::machine::MachineFile;
 use jred_file::number::columns::Columns;
 use jred_file::problem;
 use jred_file::text::problem::{Problem, Result};
-use jred_file::units::literal;
+use jred_file::units::literal::{self, Literal};
 use jred_sizing::study::edit::{Document, Edit};
 
 use crate::error::failed;
@@ -42,16 +42,20 @@ impl Machine {
         })
     }
 
-    fn changed(&self, path: &str, value: &str) -> Result<Self> {
-        let text = with(&self.text, &[(path, value)])?;
+    fn changed(&self, path: String, value: String) -> Result<Self> {
+        let document = Document::parse(self.text.clone())?;
+        let literals = literals(&document, &[(path, value)])?;
+        let text = document.with(&edits(&literals));
         Self::new(&self.name, text, self.folder.clone())
     }
 }
 
-/// A machine text with other values of some quantities, each by its path.
-pub(crate) fn with(text: &str, values: &[(&str, &str)]) -> Result<String> {
-    let document = Document::parse(text.to_owned())?;
-    let read = values.iter().map(|(path, value)| {
+/// Quantities of a document, each by its path, with values as texts.
+pub(crate) fn literals(
+    document: &Document,
+    values: &[(String, String)],
+) -> Result<Vec<(usize, Literal)>> {
+    let literal = |(path, value): &(String, String)| {
         let quantity = document.find(path)?;
         let value = literal::read(value).map_err(|why| {
             problem!(
@@ -60,16 +64,19 @@ pub(crate) fn with(text: &str, values: &[(&str, &str)]) -> Result<String> {
             )
         })?;
         Ok((quantity, value))
-    });
-    let read = read.collect::<Result<Vec<_>>>()?;
-    let edits: Vec<Edit> = (read.iter())
-        .map(|(quantity, value)| Edit {
-            quantity: *quantity,
-            number: value.number,
-            unit: &value.unit,
-        })
-        .collect();
-    Ok(document.with(&edits))
+    };
+    values.iter().map(literal).collect()
+}
+
+/// The edits that write these values.
+pub(crate) fn edits(literals: &[(usize, Literal)]) -> Vec<Edit<'_>> {
+    let all = literals.iter();
+    all.map(|(quantity, value)| Edit {
+        quantity: *quantity,
+        number: value.number,
+        unit: &value.unit,
+    })
+    .collect()
 }
 
 #[pymethods]
@@ -81,7 +88,7 @@ impl Machine {
     }
 
     /// A machine with another value of the quantity at `path`, such as "slider.mass" and "60 kg".
-    fn _set(&self, py: Python<'_>, path: &str, value: &str) -> PyResult<Self> {
+    fn _set(&self, py: Python<'_>, path: String, value: String) -> PyResult<Self> {
         py.detach(|| self.changed(path, value))
             .map_err(|problem| failed(py, problem))
     }

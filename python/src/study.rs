@@ -8,7 +8,6 @@ use pyo3::types::PyDict;
 use jred_file::model::tolerance::Tolerance;
 use jred_file::problem;
 use jred_file::text::problem::{Problem, Result};
-use jred_file::units::literal;
 use jred_sizing::catalogue::{Catalogue, Sources};
 use jred_sizing::cell::Cell;
 use jred_sizing::select::filter::Filter;
@@ -16,13 +15,13 @@ use jred_sizing::select::size::Selection;
 use jred_sizing::study::axis::{Grid, Variation};
 use jred_sizing::study::chosen::ChosenDrive;
 use jred_sizing::study::common::Study as Common;
-use jred_sizing::study::edit::Edit;
 use jred_sizing::study::grid::GridStudy;
 use jred_sizing::study::sensitivity::shares;
 use jred_sizing::study::task::RowSource;
 use jred_sizing::study::tolerance::{Samples, Scatter};
 
 use crate::error::failed;
+use crate::machine::{edits, literals};
 
 /// A machine over a catalogue.
 #[pyclass(frozen, module = "jred._jred")]
@@ -32,35 +31,14 @@ pub(crate) struct Study {
     drive: Option<ChosenDrive>,
 }
 
-impl Study {
-    /// Values of quantities as edits.
-    fn edits<'v>(&self, values: &'v [(String, literal::Literal)]) -> Result<Vec<Edit<'v>>> {
-        let edit = |(path, value): &'v (String, literal::Literal)| {
-            Ok(Edit {
-                quantity: self.common.document.find(path)?,
-                number: value.number,
-                unit: &value.unit,
-            })
-        };
-        values.iter().map(edit).collect()
-    }
+/// The name of a drive, whether it satisfies every rule, and the share of each limit that it uses.
+type Evaluated = (String, bool, Vec<(&'static str, f64)>);
 
-    /// The name of the drive, whether it satisfies every rule, and the share of each limit that it uses.
-    fn evaluated(
-        &self,
-        values: &[(String, String)],
-    ) -> Result<(String, bool, Vec<(&'static str, f64)>)> {
-        let read = values.iter().map(|(path, value)| {
-            let value = literal::read(value).map_err(|why| {
-                problem!(
-                    help = "write a number with its unit, such as \"60 kg\"",
-                    "`{path}` = \"{value}\" cannot be used: {why}"
-                )
-            })?;
-            Ok((path.clone(), value))
-        });
-        let read = read.collect::<Result<Vec<_>>>()?;
-        let machine = self.common.machine(&self.edits(&read)?)?;
+impl Study {
+    /// The judgement of the drive in a machine with these values.
+    fn evaluated(&self, values: &[(String, String)]) -> Result<Evaluated> {
+        let read = literals(&self.common.document, values)?;
+        let machine = self.common.machine(&edits(&read))?;
         let (site, rules) = (&machine.file.site, &machine.file.rules);
         let named = |findings, name: String| {
             let used = shares(rules, &findings).into_iter();
@@ -75,9 +53,12 @@ impl Study {
             return Ok(named(drive.findings(&machine), drive.name()));
         }
         let motors = self.common.catalogue.prepare(site);
-        let selection =
-            Selection::new(&self.common.catalogue, &motors, &machine.cycle, site, rules);
-        let best = selection.fit.first().or(selection.refused.first());
+        let catalogue = &self.common.catalogue;
+        let found = Selection::best(catalogue, &motors, &machine.cycle, site, rules);
+        let best = found.or_else(|| {
+            let all = Selection::new(catalogue, &motors, &machine.cycle, site, rules);
+            all.refused.first().copied()
+        });
         let best = best.ok_or_else(|| problem!("no drive can be built for this machine"))?;
         let own = ChosenDrive::of(&best.drive, &self.common.catalogue);
         Ok(named(own.findings(&machine), own.name()))
@@ -156,11 +137,7 @@ impl Study {
     }
 
     /// The drive's name, whether it satisfies every rule, and the share of each limit that it uses, for these values of quantities.
-    fn evaluate(
-        &self,
-        py: Python<'_>,
-        values: Vec<(String, String)>,
-    ) -> PyResult<(String, bool, Vec<(&'static str, f64)>)> {
+    fn evaluate(&self, py: Python<'_>, values: Vec<(String, String)>) -> PyResult<Evaluated> {
         py.detach(|| self.evaluated(&values))
             .map_err(|problem| failed(py, problem))
     }

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import pickle
 import subprocess
 import sys
@@ -10,14 +11,17 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
-import jred
 import numpy as np
 import pytest
+
+import jred
 from jred import Machine, evaluate, study
 
 MACHINES = Path(__file__).parents[2] / "machines"
 PRESS = MACHINES / "press.toml"
-JRED = [sys.executable, "-c", "import jred; jred.main()"]
+#: The command: the program of the tool where it is built, else that of the package.
+OWN = [sys.executable, "-c", "import jred; jred.main()"]
+JRED = [os.environ["JRED_COMMAND"]] if os.environ.get("JRED_COMMAND") else OWN
 
 
 def command(*words: str) -> tuple[int, str]:
@@ -25,21 +29,36 @@ def command(*words: str) -> tuple[int, str]:
     return run.returncode, run.stdout
 
 
-def sizeable() -> list[Path]:
-    return [path for path in sorted(MACHINES.glob("*.toml")) if "[motion]" in path.read_text(encoding="utf-8")]
-
-
-@pytest.mark.parametrize("path", sizeable(), ids=lambda path: path.stem)
+@pytest.mark.parametrize("path", sorted(MACHINES.glob("*.toml")), ids=lambda path: path.stem)
 def test_results_are_those_of_the_command(path: Path) -> None:
-    words = ["size", str(path), "--format", "json", "--top", "3"]
-    code, out = command(*words)
-    if code == 2:
-        with pytest.raises(jred.JredError):
-            Machine(path).size(top=3)
-        return
-    found = Machine(path).size(top=3)
-    assert found.code == code
-    assert found.to_dict() == json.loads(out)
+    for name, options in [("size", {"top": 3}), ("check", {})]:
+        words = [name, str(path), "--format", "json"]
+        code, out = command(*words, *[word for key, value in options.items() for word in (f"--{key}", str(value))])
+        if code == 2:
+            with pytest.raises(jred.JredError):
+                Machine(path).run(name, **options)
+            continue
+        found = Machine(path).run(name, **options)
+        assert found.code == code
+        assert found.to_dict() == json.loads(out)
+
+
+def test_every_figure_is_an_attribute() -> None:
+    def look(item: Any) -> int:
+        count = 0
+        for name in dir(item):
+            value = getattr(item, name) if not name.startswith("_") else None
+            if isinstance(value, jred.Result | type(item)) and hasattr(value, "to_dict"):
+                count += look(value)
+            count += isinstance(value, float | int) and not isinstance(value, bool)
+        return count
+
+    sized = Machine(PRESS).size(top=2)
+    assert look(sized.fit[0]) > 5
+    with pytest.raises(AttributeError, match="motor"):
+        sized.fit[0].moter
+    with pytest.raises(AttributeError):
+        sized.code = 0
 
 
 def test_curves_are_those_of_the_command() -> None:
@@ -56,7 +75,7 @@ def test_curves_are_those_of_the_command() -> None:
 
 
 def test_reduced_inertia_of_a_slider_crank() -> None:
-    r, l, mass = 0.03, 0.18, 42.0
+    r, rod, mass = 0.03, 0.18, 42.0
     text = """gravity = ["0 m/s^2", "0 m/s^2"]
 [mechanism]
 type = "slider-crank"
@@ -67,10 +86,11 @@ slider = { mass = "42 kg" }
     machine = Machine(text)
     found = machine.curves(64)
     phi = np.deg2rad(found["phi [deg]"])
-    slope = -r * np.sin(phi) - r * r * np.sin(phi) * np.cos(phi) / np.sqrt(l * l - (r * np.sin(phi)) ** 2)
+    slope = -r * np.sin(phi) - r * r * np.sin(phi) * np.cos(phi) / np.sqrt(rod * rod - (r * np.sin(phi)) ** 2)
     np.testing.assert_allclose(found["J_red [kg m^2]"], 1e-3 + mass * slope**2, rtol=0, atol=1e-13)
     twice = machine.set("slider.mass", "84 kg").curves(64)
     np.testing.assert_allclose(twice["J_red [kg m^2]"] - 1e-3, 2 * (found["J_red [kg m^2]"] - 1e-3), rtol=0, atol=1e-14)
+
     def bar(length: str) -> dict[str, Any]:
         inertia = "0.001 kg m^2" if length == "30 mm" else "0 kg m^2"
         return {"length": length, "mass": "0 kg", "inertia": inertia, "com": ["0 mm", "0 mm"]}
@@ -135,6 +155,11 @@ BAD: list[tuple[Any, type[Exception], str]] = [
     (lambda m: m.set("slider.mass", "60 apples"), jred.JredError, "apples"),
     (lambda m: m.set("slider.mas", "60 kg"), jred.JredError, "slider.mass"),
     (lambda m: evaluate(m, {"crank.lenght": 1.0}), jred.JredError, "crank.length"),
+    (lambda m: evaluate(m, {"slider.mass": float("nan")}), ValueError, "finite"),
+    (lambda m: evaluate(m, {"slider.mass": "60 s"}), jred.JredError, "60 s"),
+    (lambda m: evaluate(m, {"slider.mass": -3.0}), jred.JredError, "mass"),
+    (lambda m: evaluate(m, drive="no-such-drive"), jred.JredError, "no-such-drive"),
+    (lambda m: evaluate(m, catalogue=["no-such-folder"]), jred.JredError, "no-such-folder"),
     (lambda m: m.curves(1), ValueError, "positions"),
     (lambda m: m.curves(speed=float("nan")), ValueError, "finite"),
     (lambda m: m.curves(over="turn"), ValueError, "time"),
@@ -144,7 +169,11 @@ BAD: list[tuple[Any, type[Exception], str]] = [
     (lambda _: Machine(Path("none.toml")), OSError, "none.toml"),
     (lambda _: jred.Model(b"abc"), ValueError, "4 bytes"),
     (lambda m: jred.Model(m.model(torque_error="0.05 N m").image[:-8]), ValueError, ""),
-    (lambda m: m.model(torque_error="0.05 N m").torque(np.zeros(2, np.uint32), [1.0], [1.0, 2.0]), ValueError, "2 phases, 1 speeds"),
+    (
+        lambda m: m.model(torque_error="0.05 N m").torque(np.zeros(2, np.uint32), [1.0], [1.0, 2.0]),
+        ValueError,
+        "2 phases, 1 speeds",
+    ),
     (lambda m: m.model(torque_error="0.05 N m").torque(np.zeros(1, np.uint32), [np.nan], [1.0]), ValueError, "finite"),
     (lambda m: m.model(torque_error="0.05 N m").torque(np.zeros(1), [1.0], [1.0]), TypeError, "uint32"),
     (lambda m: m.model(type="i32", torque_error="0.05 N m").torque(np.zeros(1, np.uint32), [1.0], [1.0]), TypeError, "int32"),
@@ -214,6 +243,43 @@ def test_a_study_on_a_cluster_has_the_same_rows(tmp_path: Path) -> None:
         study.vary(machine, AXES, tmp_path / "alone", shares=4, steps=200)
 
 
+def test_a_full_disk_loses_no_part(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    import pyarrow.parquet as pq
+
+    machine, written = Machine(PRESS), pq.write_table
+
+    def full(table: Any, where: Any, **options: Any) -> None:
+        if "part-00002" in str(where):
+            Path(where).write_bytes(b"PAR1")
+            raise OSError(28, "No space left on device")
+        written(table, where, **options)
+
+    monkeypatch.setattr(pq, "write_table", full)
+    with pytest.raises(OSError, match="No space left"):
+        study.vary(machine, AXES, tmp_path, shares=4, steps=200)
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["part-00000-of-00004.parquet", "part-00001-of-00004.parquet"]
+    monkeypatch.undo()
+    before = [path.stat().st_mtime_ns for path in sorted(tmp_path.iterdir())]
+    assert study.vary(machine, AXES, tmp_path, shares=4, steps=200).num_rows == 20
+    assert [path.stat().st_mtime_ns for path in sorted(tmp_path.iterdir())][:2] == before
+
+
+def test_two_versions_of_a_catalogue_are_told_apart(tmp_path: Path) -> None:
+    machine, folder = Machine(PRESS), tmp_path / "catalogue"
+    folder.mkdir()
+    head = (
+        "key,maker,model,rated_torque [N m],rated_speed [rpm],peak_torque [N m],max_speed [rpm],rotor_inertia [kg cm^2],source"
+    )
+    motors = folder / "motors.csv"
+    motors.write_text(f"{head}\nm1,A,M,40,3000,160,6000,40,data sheet\n", encoding="utf-8")
+    options: dict[str, Any] = {"catalogue": [folder], "shares": 2, "steps": 200}
+    assert study.vary(machine, AXES, tmp_path / "parts", **options).num_rows == 20
+    motors.write_text(f"{head}\nm1,A,M,41,3000,160,6000,40,data sheet\n", encoding="utf-8")
+    jred._machine._study.cache_clear()
+    with pytest.raises(study.PartError, match="catalogue differs"):
+        study.vary(machine, AXES, tmp_path / "parts", **options)
+
+
 def test_a_study_has_the_rows_of_the_command(tmp_path: Path) -> None:
     rows = study.vary(Machine(PRESS), AXES, tmp_path, shares=4, steps=200).to_pylist()
     words = [word for axis in AXES for word in ("--vary", axis)]
@@ -235,6 +301,20 @@ def test_tolerance_in_shares(tmp_path: Path) -> None:
 
 
 def test_the_command_in_the_package() -> None:
-    code, out = command("--version")
+    def run(*words: str) -> tuple[int, str]:
+        ran = subprocess.run([*OWN, *words], capture_output=True, text=True, check=False)
+        return ran.returncode, ran.stdout
+
+    code, out = run("--version")
     assert (code, out.split()[-1]) == (0, jred.__version__)
-    assert command("size", "none.toml")[0] == 2
+    assert run("size", "none.toml")[0] == 2
+    assert run("size", str(PRESS), "--top", "2") == command("size", str(PRESS), "--top", "2")
+
+
+def test_the_catalogue_as_a_frame() -> None:
+    import pandas as pd
+
+    for table, least in [("motors", 180), ("gearboxes", 100), ("amplifiers", 10), ("resistors", 10)]:
+        frame = pd.DataFrame(jred.catalogue(table))
+        assert len(frame) >= least and frame["key"].is_unique
+    assert pd.DataFrame(jred.catalogue("gearboxes"))["ratio"].dtype == float

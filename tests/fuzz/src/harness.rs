@@ -414,15 +414,14 @@ fn rows(text: &str) -> bool {
     };
     let study = match form {
         RowFormat::Csv => lines.peek().and_then(|row| RowFormat::study_of(row)),
-        _ => Some((first.to_owned(), "")),
+        _ => Some(first.to_owned()),
     };
-    let Some(Ok(header)) = study.map(|(study, _)| store::parse(&study, path)) else {
+    let Some(Ok(header)) = study.map(|study| store::parse(&study, path)) else {
         return false;
     };
     let mut found = 0;
     for line in lines {
-        // Without the check sum: any text is a cell.
-        let (index, cells) = match store::row(form, &header.columns, line) {
+        let (index, cells) = match form.row(line, &header.columns) {
             Some(row) => {
                 found += 1;
                 row
@@ -437,7 +436,7 @@ fn rows(text: &str) -> bool {
             }
         };
         let again = form.line(&header.columns, index, &cells, None);
-        let read = store::row(form, &header.columns, again.trim_end());
+        let read = form.row(again.trim_end(), &header.columns);
         assert!(
             read.is_some_and(|(_, cells)| cells.len() == header.columns.len()),
             "{line:?} is written as {again:?}"

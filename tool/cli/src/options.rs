@@ -115,8 +115,6 @@ pub enum Command {
     Sensitivity(search::Sensitivity),
     /// Estimate the probability that a drive satisfies its rules when quantities scatter within tolerances.
     Tolerance(search::Tolerance),
-    /// Merge the shares of a study written with `--shard`.
-    Merge(search::Merge),
     /// Check the DC bus of one or more axes: power, voltage, brake resistor, and the worst phases between axes.
     Bus(bus::Bus),
     /// Choose the drives of all axes of a machine, their supply and brake resistor, and write one document.

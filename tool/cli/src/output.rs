@@ -173,7 +173,7 @@ impl Files {
     /// Renames the files to their final names.
     ///
     /// # Errors
-    /// The disk is full, or the name of a file was taken meanwhile; the files after it are not renamed.
+    /// The disk is full; the files after the one that fails are not renamed.
     pub fn finish(self) -> Result<()> {
         for (path, output) in self.0 {
             output.finish().map_err(|error| failed(&path, &error))?;
@@ -206,8 +206,6 @@ pub struct Output {
     file: File,
     /// Temporary and final path; `None` for a file written in place.
     places: Option<[PathBuf; 2]>,
-    /// Whether the final path must be free.
-    is_new: bool,
 }
 
 impl Output {
@@ -216,18 +214,6 @@ impl Output {
     /// # Errors
     /// No permission to write the old file or its folder.
     pub fn create(path: &Path) -> IoResult<Self> {
-        Self::begin(path, false)
-    }
-
-    /// Starts a file that must not exist yet; a pipe or a device may.
-    ///
-    /// # Errors
-    /// It exists, or there is no permission to write its folder.
-    pub fn create_new(path: &Path) -> IoResult<Self> {
-        Self::begin(path, true)
-    }
-
-    fn begin(path: &Path, is_new: bool) -> IoResult<Self> {
         let old = match path.metadata() {
             Ok(old) => Some(old),
             Err(error) if error.kind() == ErrorKind::NotFound => None,
@@ -235,16 +221,11 @@ impl Output {
         };
         let write = |path: &Path| OpenOptions::new().write(true).open(path);
         let write_special = |path: &Path| patiently(path, PATIENCE);
-        let in_place = |file| Self {
-            file,
-            places: None,
-            is_new,
-        };
+        let in_place = |file| Self { file, places: None };
         let place = followed(path);
         // A file without write permission must not be replaced either.
         let old = match old {
             Some(old) if !old.is_file() => return Ok(in_place(write_special(path)?)),
-            Some(_) if is_new => return Err(ErrorKind::AlreadyExists.into()),
             Some(old) => Some((write(&place)?, old)),
             None => None,
         };
@@ -252,7 +233,6 @@ impl Output {
         let output = Self {
             file,
             places: Some([unfinished, place]),
-            is_new,
         };
         if let Some((file, old)) = old {
             if !is_given_to_owner(&output.file, &old) {
@@ -267,17 +247,13 @@ impl Output {
     /// Renames the complete file to its final name.
     ///
     /// # Errors
-    /// The disk is full, or the name was taken meanwhile.
+    /// The disk is full.
     pub fn finish(mut self) -> IoResult<()> {
         if self.file.metadata()?.is_file() {
             self.file.sync_all()?;
         }
         if let Some([unfinished, place]) = &self.places {
-            if self.is_new {
-                put_new(unfinished, place)?;
-            } else {
-                std::fs::rename(unfinished, place)?;
-            }
+            std::fs::rename(unfinished, place)?;
         }
         self.places = None;
         Ok(())
@@ -335,17 +311,6 @@ fn followed(path: &Path) -> PathBuf {
         place = place.parent().unwrap_or(Path::new("")).join(next);
     }
     place
-}
-
-/// Renames a file to a name that must be free; an error if another program took it meanwhile.
-fn put_new(unfinished: &Path, place: &Path) -> IoResult<()> {
-    match std::fs::hard_link(unfinished, place) {
-        Ok(()) => std::fs::remove_file(unfinished),
-        Err(error) if error.kind() == ErrorKind::AlreadyExists => Err(error),
-        // The file system has no hard links.
-        Err(_) if place.symlink_metadata().is_ok() => Err(ErrorKind::AlreadyExists.into()),
-        Err(_) => std::fs::rename(unfinished, place),
-    }
 }
 
 /// Gives a new file the owner and group of the old one; returns whether that worked.

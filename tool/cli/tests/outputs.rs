@@ -1,9 +1,9 @@
 //! No output overwrites an input, and an old file stays until the new one is complete. No input blocks the command without end.
 
-use std::io::{ErrorKind, Write as _};
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
-use jred_cli::output::{Output, write};
+use jred_cli::output::write;
 
 use crate::support::{Folder, edited_press, jred, jred_with, press_file, press_text, shipped};
 
@@ -133,54 +133,8 @@ fn names(folder: &Folder, file: &Path, k: usize) -> Vec<PathBuf> {
     names
 }
 
-/// A share is not merged into itself.
-#[test]
-fn a_share_is_not_overwritten_by_the_merged_file() {
-    let folder = Folder::new();
-    let share = folder.path("a.csv");
-    let press = press_file();
-    let vary = [
-        "--steps",
-        "64",
-        "--motor",
-        "sgmsh-10a",
-        "--vary",
-        "mechanism.crank.length=30,31 mm",
-        "--out",
-    ];
-    jred_with(
-        &[
-            &["vary", press.to_str().unwrap()],
-            &vary[..],
-            &[share.to_str().unwrap()],
-        ]
-        .concat(),
-    );
-    let before = std::fs::read(&share).unwrap();
-    jred([&"merge", &share, &share])
-        .ends(2)
-        .says(&["read by this command", "not overwritten"]);
-    assert_eq!(std::fs::read(&share).unwrap(), before);
-}
-
 #[cfg(unix)]
 mod unix;
-
-/// A file that another program creates meanwhile under the new name stays.
-#[test]
-fn a_new_file_replaces_nothing() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("all.csv");
-    let mut output = Output::create_new(&path).unwrap();
-    output.write_all(b"new").unwrap();
-    std::fs::write(&path, "of another").unwrap();
-    let error = output.finish().unwrap_err();
-    assert_eq!(error.kind(), ErrorKind::AlreadyExists);
-    let error = Output::create_new(&path).unwrap_err();
-    assert_eq!(error.kind(), ErrorKind::AlreadyExists);
-    assert_eq!(std::fs::read(&path).unwrap(), b"of another");
-    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
-}
 
 /// Existing temporary names, as of killed runs with the same number, do not block an output.
 #[test]

@@ -1,4 +1,4 @@
-//! `jred vary` and `jred merge`: content of a row, shares, resuming, messages.
+//! `jred vary`: content of a row, shares, resuming, messages.
 // Rows are compared digit by digit.
 #![allow(clippy::float_cmp)]
 

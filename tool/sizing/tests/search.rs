@@ -284,3 +284,17 @@ fn temperatures_are_compared_as_shares() {
     }
     assert!(compared > 0);
 }
+
+/// The search for the best drive alone finds the first of all.
+#[test]
+fn the_best_drive_is_the_first_of_all() {
+    let hoist = include_str!("../../../machines/hoist.toml");
+    for text in [&press_text(), RACK, hoist] {
+        let (case, catalogue) = (case(text, 200), catalogue());
+        let (site, rules) = (&case.file.site, &case.file.rules);
+        let motors = catalogue.prepare(site);
+        let all = Selection::new(&catalogue, &motors, &case.cycle, site, rules);
+        let best = Selection::best(&catalogue, &motors, &case.cycle, site, rules).unwrap();
+        assert!(best.is_same_drive(all.fit.first().unwrap()));
+    }
+}

@@ -11,7 +11,7 @@ use jred_file::model::coordinate::positions;
 use jred_file::model::machine::MachineFile;
 use jred_file::model::motion::Motion;
 use jred_file::model::schedule::ScheduleInstant;
-use jred_file::number::numerics::sides;
+use jred_file::number::numerics::{sides, zero};
 
 /// Time (over time only), instant, position and state of a row.
 pub(super) struct RowMotion {
@@ -94,7 +94,12 @@ pub(super) struct Pass<'m> {
     direction: f64,
     length: f64,
     turn: bool,
+    /// Distance from the start at equal steps of time.
+    passed: Vec<f64>,
 }
+
+/// Steps of time of a motion whose direction is checked.
+const STEPS: usize = 1000;
 
 impl<'m> Pass<'m> {
     pub(super) fn of(motion: &'m Motion, domain: Domain) -> Option<Self> {
@@ -103,17 +108,50 @@ impl<'m> Pass<'m> {
         let length = (end - start).abs();
         let turn = domain == Domain::Turn;
         let one_turn = !turn || (length - domain.span()).abs() < 1e-9;
-        let one_way = (0..=1000).all(|k| {
-            let t = motion.duration() * f64::from(k) / 1000.0;
-            motion.at(t).omega * direction >= -1e-12
-        });
-        (one_turn && one_way).then_some(Self {
+        let mut pass = Self {
             motion,
             start,
             direction,
             length,
             turn,
-        })
+            passed: Vec::new(),
+        };
+        for k in 0..=STEPS {
+            let (distance, state) = pass.after(pass.time(k));
+            pass.passed.push(distance);
+            if !one_turn || state.omega * direction < -1e-12 {
+                return None;
+            }
+        }
+        Some(pass)
+    }
+
+    /// The time at a step.
+    fn time(&self, step: usize) -> f64 {
+        self.motion.duration() * step as f64 / STEPS as f64
+    }
+
+    /// Distance from the start, and state, at a time.
+    fn after(&self, t: f64) -> (f64, State<f64>) {
+        let state = self.motion.at(t);
+        ((state.phi - self.start) * self.direction, state)
+    }
+
+    /// The first time at which the motion has come this far: by halves where it rests there.
+    fn reached(&self, distance: f64) -> f64 {
+        let step = self.passed.partition_point(|passed| *passed < distance);
+        let step = step.clamp(1, STEPS);
+        let ends = [step - 1, step];
+        let [low, high] = ends.map(|step| self.time(step));
+        let ahead = ends.map(|step| self.passed[step] - distance);
+        if ahead[0] < 0.0 && ahead[1] > 0.0 {
+            let way = |t: f64| Ok::<_, Infallible>(self.after(t).0 - distance);
+            let Ok(time) = zero(way, [low, high], ahead, 1e-15);
+            return time;
+        }
+        let before = |t: f64| Ok::<_, Infallible>(self.after(t).0 < distance);
+        let Ok([_, late]) = sides(before, low, high);
+        late
     }
 
     /// Time and state at which the motion passes the position `phi`, for a turn modulo 2π.
@@ -130,13 +168,12 @@ impl<'m> Pass<'m> {
         if !self.turn && !(-slack..=self.length + slack).contains(&distance) {
             return None;
         }
-        let before = |t: f64| (motion.at(t).phi - self.start) * self.direction < distance;
-        let Ok([_, late]) = sides(|t| Ok::<_, Infallible>(before(t)), 0.0, motion.duration());
+        let time = self.reached(distance);
         let state = State {
             phi,
-            ..motion.at(late)
+            ..motion.at(time)
         };
-        Some((late, state))
+        Some((time, state))
     }
 }
 

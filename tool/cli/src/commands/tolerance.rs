@@ -59,8 +59,7 @@ pub fn tolerance(options: &Options) -> Result<Completion> {
     let mut sheet = sheet(&samples, &summary, &machine.file.rules);
     if plan.shard.is_some() {
         sheet.notes.push(
-            "this is one share; after `jred merge`, run the same command with --out and --resume, without --shard, for the summary of all"
-                .to_owned(),
+            "this is one share of the rows: the shares above are those of its machines".to_owned(),
         );
     }
     let format = if plan.out.is_some() {

@@ -1,13 +1,12 @@
-//! `jred vary` and `jred merge`.
+//! `jred vary`.
 
 use std::path::Path;
 
 use miette::{Result, miette};
 
 use crate::commands::{Completion, print, warn_of_motion};
-use crate::options::search::{Merge, RowOptions, SizingOptions, Vary};
+use crate::options::search::{RowOptions, SizingOptions, Vary};
 use crate::output;
-use crate::rows::merge::merge;
 use crate::rows::run::{Plan, RunEnd, run};
 use crate::terminal;
 use jred_analysis::duty::Sampling;
@@ -172,17 +171,4 @@ pub fn stopped(ended: RunEnd, plan: &Plan) -> Completion {
         ended.rows, ended.of
     ));
     Completion::Stopped
-}
-
-/// Runs `jred merge`.
-///
-/// # Errors
-/// Shares that do not form one study.
-pub fn run_merge(options: &Merge) -> Result<Completion> {
-    let rows = merge(&options.out, &options.parts)?;
-    print(&format!(
-        "{} written to {}\n",
-        counted(rows as usize, "row", "rows"),
-        plain::path(&options.out)
-    ))
 }

@@ -223,7 +223,7 @@ pub struct RowOptions {
     /// Continue an interrupted file.
     #[arg(long, requires = "out")]
     pub resume: bool,
-    /// Compute only a share of the rows, INDEX/COUNT with INDEX from 0: "0/8" to "7/8"; `jred merge` joins the files.
+    /// Compute only a share of the rows, INDEX/COUNT with INDEX from 0: "0/8" to "7/8". A share is a task of a job array.
     #[arg(long, value_name = "INDEX/COUNT", requires = "out")]
     pub shard: Option<Shard>,
 }
@@ -258,17 +258,6 @@ pub struct Vary {
     /// Which drives.
     #[command(flatten)]
     pub search: SelectionOptions,
-}
-
-/// `jred merge`
-#[derive(Debug, Args)]
-pub struct Merge {
-    /// File to write.
-    #[arg(value_parser = super::output_file())]
-    pub out: PathBuf,
-    /// The shares.
-    #[arg(required = true)]
-    pub parts: Vec<PathBuf>,
 }
 
 /// `jred ratio`

@@ -1,5 +1,4 @@
-//! Rows of a study: computed in parallel, written in order, resumed and merged.
+//! Rows of a study: computed in parallel, written in order, resumed.
 
-pub mod merge;
 pub mod run;
 pub mod store;

@@ -40,7 +40,7 @@ pub fn study(header: &Header) -> Result<String> {
 pub fn form(line: &str, path: &Path) -> Result<RowFormat> {
     match line {
         _ if line.starts_with('{') => Ok(RowFormat::Json),
-        _ if line.starts_with("row,") && line.ends_with(",study,check") => Ok(RowFormat::Csv),
+        _ if line.starts_with("row,") && line.ends_with(",study") => Ok(RowFormat::Csv),
         _ => Err(no_rows(path)),
     }
 }
@@ -68,10 +68,7 @@ fn is_clean(text: &str) -> bool {
 const MAX_LINE: u64 = 1 << 20;
 
 /// Reads a line; returns whether there was one.
-///
-/// # Errors
-/// The file cannot be read, or its line is longer than any row.
-pub fn read_line(reader: &mut impl BufRead, line: &mut String, path: &Path) -> Result<bool> {
+fn read_line(reader: &mut impl BufRead, line: &mut String, path: &Path) -> Result<bool> {
     line.clear();
     let mut bytes = Vec::new();
     let length = reader
@@ -118,20 +115,6 @@ pub fn begin(path: &Path, lines: &str) -> Result<File> {
     file.write_all(lines.as_bytes())
         .map_err(|error| output::failed(path, &error))?;
     Ok(file)
-}
-
-/// The number and the cells of a line; `None`: not a row of these columns, or characters that rows do not contain.
-pub fn row(form: RowFormat, columns: &[String], line: &str) -> Option<(u64, Vec<Cell>)> {
-    is_clean(line).then(|| form.row(line, columns))?
-}
-
-/// Report of a line that is not a row; `what` names the file and the failed operation.
-pub fn damaged(what: &str, line: u64, text: &str) -> Report {
-    miette!(
-        help = format!("delete line {line} and all lines after it: --resume computes them again"),
-        "{what}: line {line} is damaged, it is no row of this study: \"{}\"",
-        plain::cut(text)
-    )
 }
 
 /// Opens a file of rows to resume it: the file, cut after its last complete row, and its number of rows. Each row is passed to `seen`.
@@ -183,14 +166,19 @@ pub fn resume(
                 return Err(other_form(&shown));
             }
         } else {
-            if let (2, RowFormat::Csv, Some((found, _))) = (number, form, RowFormat::study_of(text))
-            {
+            if let (2, RowFormat::Csv, Some(found)) = (number, form, RowFormat::study_of(text)) {
                 same(&parse(&found, path)?)?;
             }
             let expected = header.share().row(rows);
-            let Some((index, cells)) = row(form, &header.columns, text) else {
-                let what = format!("{shown} cannot be continued");
-                return Err(damaged(&what, number, text));
+            let row = is_clean(text).then(|| form.row(text, &header.columns));
+            let Some((index, cells)) = row.flatten() else {
+                return Err(miette!(
+                    help = format!(
+                        "delete line {number} and all lines after it: --resume computes them again"
+                    ),
+                    "{shown} cannot be continued: line {number} is damaged, it is no row of this study: \"{}\"",
+                    plain::cut(text)
+                ));
             };
             if index != expected {
                 return Err(miette!(

@@ -217,14 +217,11 @@ fn what_does_not_end_is_given_up() {
         "zero.toml",
         edited_press("[motion]", "[rules]\nset = \"/dev/zero\"\n[motion]"),
     );
-    let out = folder.path("all.csv");
-    let out = out.to_str().unwrap();
     let zero = "/dev/zero";
-    let cases: [(&[&str], &str); 9] = [
+    let cases: [(&[&str], &str); 7] = [
         (&["check", zero], "the maximum is 1 MiB"),
         (&["rules", "/dev/zero"], "the maximum is 65536 bytes"),
         (&["size", press, "--motors", zero], "the maximum is 64 MiB"),
-        (&["merge", out, zero], "the maximum is 64 MiB"),
         (
             &["reduce", from_zero.to_str().unwrap()],
             "the maximum is 65536 bytes",
@@ -235,7 +232,6 @@ fn what_does_not_end_is_given_up() {
             &["size", press, "--catalogue", pipe],
             "did not end within 5 s",
         ),
-        (&["merge", out, pipe], "did not end within 5 s"),
     ];
     let runs = cases.map(|(arguments, words)| {
         let run = Command::new(env!("CARGO_BIN_EXE_jred"))

@@ -6,6 +6,7 @@ pub(crate) mod schema;
 #[path = "../../../support/mod.rs"]
 mod shared;
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::Output;
 
@@ -14,7 +15,7 @@ use serde_json::Value;
 pub(crate) use shared::*;
 
 /// All commands.
-pub(crate) const COMMANDS: [&str; 23] = [
+pub(crate) const COMMANDS: [&str; 22] = [
     "new",
     "completion",
     "man",
@@ -27,7 +28,6 @@ pub(crate) const COMMANDS: [&str; 23] = [
     "ratio",
     "sensitivity",
     "tolerance",
-    "merge",
     "bus",
     "project",
     "simulate",
@@ -182,4 +182,20 @@ pub(crate) fn without_resistors(folder: &Folder) -> PathBuf {
         std::fs::copy(home.join(table), parts.join(table)).unwrap();
     }
     parts
+}
+
+/// Every row of the files of a study by its number: its line without the number of CSV and the study.
+pub(crate) fn study_rows(folder: &Folder, names: &[String]) -> BTreeMap<u64, String> {
+    let mut found = BTreeMap::new();
+    for name in names {
+        let text = std::fs::read_to_string(folder.path(name)).unwrap();
+        for line in text.lines().skip(1) {
+            let line = line.strip_prefix("{\"row\":").unwrap_or(line);
+            let cells = line.split_once(",\"{").map_or(line, |(cells, _)| cells);
+            let (row, cells) = cells.trim_end_matches(',').split_once(',').unwrap();
+            let before = found.insert(row.parse().unwrap(), cells.to_owned());
+            assert_eq!(before, None);
+        }
+    }
+    found
 }

@@ -1,9 +1,9 @@
-//! Files of rows: shares, merging, resuming, threads, clusters.
+//! Files of rows: shares, resuming, threads, clusters.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::Command;
 
-use crate::support::{Folder, jred, jred_of, press_file};
+use crate::support::{Folder, press_file, study_rows};
 
 const STUDY: [&str; 4] = [
     "--vary",
@@ -40,71 +40,22 @@ fn read(folder: &Folder, name: &str) -> String {
     std::fs::read_to_string(folder.path(name)).unwrap()
 }
 
-/// Merged shares equal the file of one run, byte by byte, in CSV and JSON; missing and duplicate rows are reported.
+/// The shares have the rows of one run, in CSV and JSON.
 #[test]
-fn shares_merge_to_the_whole() {
+fn shares_have_the_rows_of_the_whole() {
     for format in ["csv", "json"] {
         let folder = Folder::new();
         assert_eq!(study(&folder, "whole", &["--format", format]).0, 0);
-        let mut parts: Vec<PathBuf> = Vec::new();
-        for k in 0..3 {
-            let (name, shard) = (format!("part-{k}"), format!("{k}/3"));
-            assert_eq!(
-                study(&folder, &name, &["--format", format, "--shard", &shard]).0,
-                0
-            );
-            parts.push(folder.path(&name));
+        let names: Vec<String> = (0..3).map(|k| format!("part-{k}")).collect();
+        for (k, name) in names.iter().enumerate() {
+            let shard = format!("{k}/3");
+            let more = ["--format", format, "--shard", &shard];
+            assert_eq!(study(&folder, name, &more).0, 0);
         }
-        let out = folder.path("merged");
-        // In any order.
-        jred([&"merge", &out, &parts[2], &parts[0], &parts[1]]).ends(0);
-        assert_eq!(read(&folder, "merged"), read(&folder, "whole"));
-        assert_eq!(read(&folder, "whole").lines().count(), 14 + 1);
-
-        let again = folder.path("again");
-        jred([&"merge", &again, &parts[0], &parts[2]])
-            .ends(2)
-            .says(&["row 1 alone is missing"]);
-        jred([&"merge", &again, &parts[0], &parts[1], &parts[1], &parts[2]])
-            .ends(2)
-            .says(&["row 1 appears twice"]);
-        jred([&"merge", &out, &parts[0], &parts[1], &parts[2]])
-            .ends(2)
-            .says(&["already exists"]);
-        assert!(!again.exists() && !folder.path("again.part").exists());
-
-        // A share that was cut off within its last row.
-        let text = read(&folder, "part-1");
-        folder.file("part-1", &text[..text.len() - 9]);
-        jred([&"merge", &again, &parts[0], &parts[1], &parts[2]])
-            .ends(2)
-            .says(&["an incomplete row", "--resume"]);
-        folder.file(
-            "part-1",
-            text.lines()
-                .map(|l| format!("{l}\n"))
-                .take(3)
-                .collect::<String>(),
-        );
-        jred([&"merge", &again, &parts[0], &parts[1], &parts[2]])
-            .ends(2)
-            .says(&["is missing"]);
+        let whole = study_rows(&folder, &["whole".to_owned()]);
+        assert_eq!(study_rows(&folder, &names), whole);
+        assert_eq!(whole.len(), 14);
     }
-}
-
-#[test]
-fn shares_of_other_studies_are_refused() {
-    let folder = Folder::new();
-    assert_eq!(study(&folder, "a", &["--shard", "0/2"]).0, 0);
-    assert_eq!(
-        study(&folder, "b", &["--shard", "1/2", "--gearbox", "npt0*"]).0,
-        0
-    );
-    let [a, b, out] = ["a", "b", "out"].map(|name| folder.path(name));
-    let run = jred([&"merge", &out, &a, &b]).ends(2);
-    run.says(&["come from different studies", "the catalogue", "options"]);
-    let run = jred([&"merge", &out, &press_file()]).ends(2);
-    run.says(&["is not a file of rows"]);
 }
 
 /// Resuming a run that was cut off anywhere gives the file of an uninterrupted run.
@@ -154,16 +105,6 @@ fn a_run_that_was_cut_off_is_continued() {
     assert_eq!(read(&folder, "new"), whole);
 }
 
-/// The row with one digit in its middle incremented.
-fn flipped(row: &str) -> String {
-    let place = row.len() / 2
-        + row[row.len() / 2..]
-            .find(|c: char| c.is_ascii_digit())
-            .unwrap();
-    let digit = row.as_bytes()[place] - b'0';
-    format!("{}{}{}", &row[..place], (digit + 1) % 10, &row[place + 1..])
-}
-
 /// Damage in the middle of a file makes its line invalid: nothing is taken over, and the file stays.
 #[test]
 fn damage_in_the_middle_is_named() {
@@ -182,7 +123,6 @@ fn damage_in_the_middle_is_named() {
             format!("{}{zeros}{}", &row[..10], &row[18..]),
             format!("{}{}", &row[..row.len() / 2], lines[hurt + 1]),
             String::new(),
-            flipped(row),
         ] {
             let mut text = lines.clone();
             text[hurt] = &damaged;
@@ -195,9 +135,6 @@ fn damage_in_the_middle_is_named() {
             assert!(message.contains(&place), "{damaged:?}: {message}");
             assert!(message.contains(&cure), "{message}");
             assert_eq!(read(&folder, "hurt"), text);
-            jred([&"merge", &folder.path("out"), &folder.path("hurt")])
-                .ends(2)
-                .says(&["cannot be merged", &place, &cure]);
             // The cure.
             folder.file("hurt", lines[..hurt].join("\n") + "\n");
             let (code, message) = study(&folder, "hurt", &["--format", format, "--resume"]);
@@ -283,10 +220,10 @@ fn cluster(mut command: Command, folder: &Folder, environment: &[(&str, String)]
     );
 }
 
-/// The scripts of machines/cluster, run as a cluster would, merge to the file of one run.
+/// The script of machines/cluster, run as Slurm would, gives the rows of one run.
 #[test]
-#[cfg_attr(not(unix), ignore = "the scripts are for a Unix shell")]
-fn scripts_for_clusters() {
+#[cfg_attr(not(unix), ignore = "the script is for a Unix shell")]
+fn the_script_for_slurm() {
     let scripts = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../machines/cluster");
     let folder = Folder::new();
     let whole = folder.path("whole.csv");
@@ -300,8 +237,6 @@ fn scripts_for_clusters() {
         .status()
         .unwrap();
     assert!(status.success());
-    let whole = read(&folder, "whole.csv");
-
     for index in 0..3 {
         let mut command = Command::new("bash");
         command.arg(scripts.join("vary.slurm.sh"));
@@ -313,44 +248,9 @@ fn scripts_for_clusters() {
         ];
         cluster(command, &folder, &task);
     }
-    let part = |name: &str, k: u32| folder.path(&format!("{name}.part-{k}.csv"));
-    jred_of(
-        "merge {} {} {} {}",
-        [
-            &folder.path("slurm.csv"),
-            &part("slurm", 0),
-            &part("slurm", 1),
-            &part("slurm", 2),
-        ],
-    )
-    .ends(0);
-    assert_eq!(read(&folder, "slurm.csv"), whole);
-
-    let job = std::fs::read_to_string(scripts.join("vary.job.yaml")).unwrap();
-    assert!(job.contains("completionMode: Indexed"));
-    assert!(job.contains("command: [\"/bin/sh\", \"-euc\"]"));
-    let script: Vec<&str> = (job.lines().skip_while(|line| line.trim() != "- |").skip(1))
-        .map_while(|line| line.strip_prefix(&" ".repeat(14)))
-        .collect();
-    let script = script.join("\n");
-    assert!(script.contains("jred vary"), "{job}");
-    for index in 0..2 {
-        let mut command = Command::new("/bin/sh");
-        command.args(["-euc", &script]);
-        let task = [
-            ("JOB_COMPLETION_INDEX", format!("{index}")),
-            ("SHARDS", "2".to_owned()),
-        ];
-        cluster(command, &folder, &task);
-    }
-    jred_of(
-        "merge {} {} {}",
-        [
-            &folder.path("job.csv"),
-            &part("press", 0),
-            &part("press", 1),
-        ],
-    )
-    .ends(0);
-    assert_eq!(read(&folder, "job.csv"), whole);
+    let names: Vec<String> = (0..3).map(|k| format!("slurm.part-{k}.csv")).collect();
+    assert_eq!(
+        study_rows(&folder, &names),
+        study_rows(&folder, &["whole.csv".to_owned()])
+    );
 }

@@ -179,12 +179,6 @@ fn vary() {
         vary press.toml --vary slider.mass=40..400kg:3 --vary 'pressing force.force.1=-10,-900kN' --catalogue drives --steps 64
         vary press.toml --vary slider.mass=40..400kg:3 --out a.csv --format csv --shard 0/2 --catalogue drives --steps 64
         vary press.toml --vary slider.mass=40..400kg:3 --out b.csv --format csv --shard 1/2 --catalogue drives --steps 64
-        merge all.csv a.csv b.csv
-        merge more.csv a.csv
-        merge more.csv a.csv a.csv
-        merge a.csv a.csv b.csv
-        merge all.csv a.csv b.csv
-        merge more.csv press.toml
         vary press.toml --vary slider.mass=40..400kg:3 --out a.csv --format csv --catalogue drives --steps 64
         vary press.toml --vary slider.mass=40..400kg:3 --out a.csv --format csv --resume --rank mass --catalogue drives \
             --steps 64

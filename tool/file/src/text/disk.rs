@@ -146,19 +146,6 @@ pub fn bytes(path: &Path, limit: u64) -> Result<Vec<u8>> {
     limited(File::open(path)?, limit)
 }
 
-/// Opens a regular file for reading piece by piece, without a limit, and records it as read. Anything else is read as a whole, up to `limit` bytes.
-///
-/// # Errors
-/// Errors of [`bytes`].
-pub fn open(path: &Path, limit: u64) -> Result<Box<dyn Read>> {
-    let metadata = path.metadata()?;
-    if !metadata.is_file() {
-        return Ok(Box::new(std::io::Cursor::new(bytes(path, limit)?)));
-    }
-    remember(path, &metadata);
-    Ok(Box::new(File::open(path)?))
-}
-
 /// The content of a pipe or a device. Opening a pipe waits for its writer; so a thread opens and reads it, which lives no longer than the program.
 fn stream(path: &Path, limit: u64, patience: Duration) -> Result<Vec<u8>> {
     let (sender, receiver) = mpsc::channel();

@@ -7,7 +7,6 @@ use crate::units;
 use jred_file::number::csv;
 use jred_file::number::rounding::rounded;
 use jred_sizing::cell::Cell;
-use jred_sizing::study::header::digest;
 
 jred_file::words! {
     /// Format of rows.
@@ -28,12 +27,12 @@ impl RowFormat {
             return format!("{study}\n");
         }
         let names = columns.iter().map(String::as_str);
-        let names = std::iter::once("row").chain(names).chain([STUDY, CHECK]);
+        let names = std::iter::once("row").chain(names).chain([STUDY]);
         csv_line(names.map(Cell::from))
     }
 
-    /// Row number `index` as a line, with a check sum of everything before it. In CSV the first row of a file also contains the `study`: so every
-    /// line has the same number of cells, and every line is a row.
+    /// Row number `index` as a line. In CSV the first row of a file also contains the `study`: so every line has the same number of cells, and every
+    /// line is a row.
     pub fn line(
         self,
         columns: &[String],
@@ -47,33 +46,21 @@ impl RowFormat {
             for (name, cell) in columns.iter().zip(cells) {
                 map.insert(name.clone(), cell.json());
             }
-            let row = Value::Object(map).to_string();
-            let open = row.strip_suffix('}').unwrap_or(&row);
-            return format!("{open}{JSON_CHECK}{}\"}}\n", check_sum(open));
+            return Value::Object(map).to_string() + "\n";
         }
         let cells = cells.iter().cloned();
-        let row = csv_line(std::iter::once(Cell::Text(index.to_string())).chain(cells));
-        with_study(row.trim_end(), study)
+        let study = study.map_or(Cell::Empty, Cell::from);
+        let cells = std::iter::once(Cell::Text(index.to_string())).chain(cells);
+        csv_line(cells.chain([study]))
     }
 
-    /// The study in a row of CSV, and the cells before it; `None`: the row has no study.
-    pub fn study_of(line: &str) -> Option<(String, &str)> {
-        let (row, _) = line.rsplit_once(',')?;
-        // In a quoted cell every quote is doubled, so this finds the start of the last cell.
-        let (cells, _) = row.rsplit_once(",\"{")?;
-        let study = texts(row)?.pop().filter(|study| study.starts_with('{'))?;
-        Some((study, cells))
+    /// The study in a row of CSV; `None`: the row has no study.
+    pub fn study_of(line: &str) -> Option<String> {
+        texts(line)?.pop().filter(|study| study.starts_with('{'))
     }
 
-    /// The number and the cells of a line; `None`: not an intact row of these columns.
+    /// The number and the cells of a line; `None`: not a row of these columns.
     pub fn row(self, line: &str, columns: &[String]) -> Option<(u64, Vec<Cell>)> {
-        let (row, sum) = match self {
-            Self::Json => line.strip_suffix("\"}")?.rsplit_once(JSON_CHECK)?,
-            _ => line.rsplit_once(',')?,
-        };
-        if sum != check_sum(row) {
-            return None;
-        }
         if self == Self::Json {
             let map: Map<String, Value> = serde_json::from_str(line).ok()?;
             let index = map.get("row")?.as_u64()?;
@@ -81,7 +68,7 @@ impl RowFormat {
             let cells = columns.iter().map(cell).collect::<Option<_>>()?;
             return Some((index, cells));
         }
-        let texts = texts(row)?;
+        let texts = texts(line)?;
         let (_, texts) = texts.split_last()?;
         let (index, texts) = texts.split_first()?;
         let index = index.parse().ok()?;
@@ -104,30 +91,8 @@ fn texts(row: &str) -> Option<Vec<String>> {
     Some(record.iter().map(str::to_owned).collect())
 }
 
-/// A row of CSV with its study and check sum.
-pub fn with_study(cells: &str, study: Option<&str>) -> String {
-    let study = csv_line(std::iter::once(study.map_or(Cell::Empty, Cell::from)));
-    // A single empty cell is written in quotes.
-    let study = study.trim_end().trim_start_matches("\"\"");
-    let row = format!("{cells},{study}");
-    format!("{row},{}\n", check_sum(&row))
-}
-
 /// The column of the study.
 const STUDY: &str = "study";
-
-/// The column of the check sums.
-const CHECK: &str = "check";
-
-/// Text before the check sum of a row in JSON.
-const JSON_CHECK: &str = ",\"check\":\"";
-
-/// Eight hex digits of a SHA-256: the chance that a changed digit goes unnoticed is one in four thousand million.
-fn check_sum(row: &str) -> String {
-    let mut sum = digest(&row);
-    sum.truncate(8);
-    sum
-}
 
 /// Cells as a line of CSV.
 pub fn csv_line(cells: impl Iterator<Item = Cell>) -> String {

@@ -1,5 +1,6 @@
 //! Sizing: checks and ranks every drive of a catalogue.
 
+use std::cmp::Ordering;
 use std::collections::HashSet;
 
 use crate::catalogue::{Catalogue, Drive, DriveId, Resistor};
@@ -172,6 +173,37 @@ impl<'c> Selection<'c> {
         };
         let judged = threads::fold(catalogue.motors.len(), SHARE, empty, judge, Self::join);
         judged.in_order(&screen)
+    }
+
+    /// The first of all drives that fit; `None`: none fits. Drives that would rank after one that fits are not judged.
+    pub fn best(
+        catalogue: &'c Catalogue,
+        motors: &'c [MotorLimits],
+        cycle: &'c Cycle,
+        site: &'c Site,
+        rules: &'c RuleSet,
+    ) -> Option<Candidate<'c>> {
+        let selection = Self::empty(catalogue, motors, cycle, site, rules);
+        let screen = selection.screen(catalogue);
+        // The order affects the time only: small motors of known voltage are likely first.
+        let motors = &catalogue.motors;
+        let late = |k: &usize| (motors[*k].made_for().is_none(), motors[*k].rated_power());
+        let mut likely: Vec<usize> = (0..motors.len()).collect();
+        likely.sort_by(|a, b| late(a).partial_cmp(&late(b)).unwrap_or(Ordering::Equal));
+        let mut best: Option<RankBound> = None;
+        let drives = likely
+            .into_iter()
+            .flat_map(|k| catalogue.drives_of(k..k + 1));
+        for (id, drive) in drives {
+            let first = |bound: &Order| best.is_none_or(|best| *bound < best.bound);
+            if first(&Order::from(drive, &Outcome::NOTHING, id)) {
+                let (found, outcome) = selection.bound(&screen, &DriveWithId { drive, id });
+                if !outcome.fails() && first(&found.bound) {
+                    best = Some(found);
+                }
+            }
+        }
+        best.map(|best| selection.in_full(&best.placed()))
     }
 
     fn empty(

@@ -58,7 +58,8 @@ fn plainly(
 fn doubt(drive: &Drive, found: &Outcome) -> i32 {
     let amplifier = drive.amplifier;
     let stranger = amplifier.is_some_and(|a| a.maker != drive.motor.maker);
-    let lacks = drive.motor.lacks_amplifier || found.not_checked.has(Rule::BrakeTorque);
+    let unknown = drive.gearbox.is_some_and(|g| g.peak_torque.is_none());
+    let lacks = drive.motor.lacks_amplifier || unknown || found.not_checked.has(Rule::BrakeTorque);
     if found.voltage_unknown {
         5
     } else if stranger && !drive.motor.amplifiers_listed {

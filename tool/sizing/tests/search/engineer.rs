@@ -176,6 +176,9 @@ fn drives_stand_in_the_order_in_which_a_buyer_takes_them() {
         let found = selection.first_fit(usize::MAX);
         let found: Vec<Keys> = found.iter().map(|c| keys(&c.drive)).collect();
         assert_eq!(found, expected, "{name}");
+        let best = Selection::best(&catalogue, &motors, &cycle, &file.site, &file.rules);
+        let best = best.map(|best| keys(&best.drive));
+        assert_eq!(best.as_ref(), expected.first(), "{name}");
         ranked += found.len();
         // One line for each motor: its first drive.
         let mut lines: Vec<(usize, Keys)> = Vec::new();

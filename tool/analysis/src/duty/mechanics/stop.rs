@@ -23,7 +23,7 @@ use crate::duty::{Instant, Panel, Smooth};
 const SAME_INERTIA: f64 = 1e-12;
 
 /// Share of the largest d by which the hull may cut off the curve between two of its states.
-const CUT_OFF: f64 = 1e-10;
+const CUT_OFF: f64 = 1e-8;
 
 /// Most parts of the step between the instants next to a state on the hull.
 const MOST_PARTS: f64 = 256.0;

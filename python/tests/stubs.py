@@ -1,7 +1,8 @@
-"""Writes the stubs: jred/_answers.py, the types of the commands' answers, from the JSON schemas in docs/schemas; and
-jred/_jred.pyi, the native part, from what ``maturin generate-stubs --out FOLDER`` wrote.
+"""Writes the stubs.
 
-``python stubs.py FOLDER`` writes the files, ``python stubs.py FOLDER --check`` compares them.
+jred/_answers.py has the types of the commands' answers, from the JSON schemas in docs/schemas; jred/_jred.pyi is the
+native part, from what ``maturin generate-stubs --out FOLDER`` wrote.
+``python tests/stubs.py FOLDER`` writes the files, ``python tests/stubs.py FOLDER --check`` compares them.
 """
 
 from __future__ import annotations
@@ -13,7 +14,7 @@ from typing import Any
 
 from jred._result import _attribute
 
-HERE = Path(__file__).parent
+HERE = Path(__file__).parents[1]
 #: Answers of the methods of a machine.
 ANSWERS = ("balance", "bus", "check", "export", "fastest", "gentlest", "project", "ratio", "reduce", "require",
            "sensitivity", "simulate", "size", "split", "steady", "tolerance")  # fmt: skip
@@ -117,7 +118,7 @@ def main() -> None:
         if "--check" not in sys.argv:
             path.write_text(content, encoding="utf-8")
         elif path.read_text(encoding="utf-8") != content:
-            sys.exit(f"{path} is not what is generated: run `python stubs.py FOLDER`")
+            sys.exit(f"{path} is not what is generated: run `python tests/stubs.py FOLDER`")
 
 
 main()
