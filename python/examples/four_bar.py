@@ -41,7 +41,7 @@ def _(arm, plt):
 def _(arm, np):
     # The motion with its exact torque, and the table that the firmware loads.
     motion = arm.curves(1000, over="time")
-    model = arm.model()
+    model = arm.model(torque_error="0.02 N m")
     phase = model.phase(np.radians(motion["phi [deg]"]))
     omega, alpha = motion["omega [rad/s]"], motion["alpha [rad/s^2]"]
     exact = motion["T_drive [N m]"]

@@ -53,7 +53,7 @@ def _(Path, jred, np):
         curves = changed.curves(200, over="time")
         rms = float(np.sqrt(np.mean(curves["T_input [N m]"] ** 2)))
         points = changed.curves(181, points=True)
-        ram = points["slider x [m]"]
+        ram = points["slider com x [m]"]
         margins = jred.evaluate(changed, drive=drive)["margins"]
         # A warning of the catalogue, not a limit.
         margins.pop("gearbox cycles", None)
@@ -67,7 +67,7 @@ def _(Path, jred, np):
         except jred.JredError:
             return 1e3
         outside = np.abs(values - np.clip(values, *bounds.T)).sum()
-        return rms + 100.0 * sum(-margin for margin in margins.values() if margin < 0) + outside
+        return rms + 100.0 * sum(1e-3 - margin for margin in margins.values() if margin < 1e-3) + outside
 
     before, margins = judged(start)
     return bounds, before, cost, drive, judged, margins, names, start
@@ -92,14 +92,15 @@ def _(bounds, jred, judged, names):
             rms, margins = judged(values)
         except jred.JredError as error:
             raise optuna.TrialPruned(str(error)) from error
-        trial.set_user_attr("violated", [-margin for margin in margins.values()])
+        for rule, margin in margins.items():
+            trial.set_constraint(rule, -margin)
+        trial.set_user_attr("least margin", min(margins.values()))
         return rms
 
-    sampler = optuna.samplers.TPESampler(seed=1, constraints_func=lambda trial: trial.user_attrs.get("violated", [1.0]))
-    study = optuna.create_study(sampler=sampler)
+    study = optuna.create_study(sampler=optuna.samplers.TPESampler(seed=1))
     study.enqueue_trial(dict(zip(names, [80.0, 60.0, 260.0, 30.0, 10.0])))
     study.optimize(objective, n_trials=150)
-    feasible = [t for t in study.trials if t.value is not None and max(t.user_attrs["violated"]) <= 0]
+    feasible = [t for t in study.trials if t.value is not None and t.user_attrs["least margin"] >= 0]
     optuna_best = min(feasible, key=lambda trial: trial.value)
     return (optuna_best,)
 

@@ -33,7 +33,7 @@ def _(mo):
         """
         # Tolerances of a press
 
-        Masses scatter by 5 %, lengths by 0.2 mm, friction by 30 %. Every machine is judged with the drive of the nominal one.
+        The mass of the ram scatters by 8 %, the pressing force by 5 %, lengths by 0.2 mm. Every machine is judged with the drive of the nominal one.
         """
     )
 
@@ -41,8 +41,8 @@ def _(mo):
 @app.cell
 def _(Client, LocalCluster, Path, machine, samples, study, tempfile, time):
     scatter = {
-        "mechanism.slider.mass": "normal: 5 %",
-        "mechanism.rod.mass": "normal: 5 %",
+        "mechanism.slider.mass": "normal: 8 %",
+        "load.pressing force.force.1": "normal: 5 %",
         "mechanism.crank.length": "0.2 mm",
         "mechanism.rod.length": "0.2 mm",
     }
@@ -62,7 +62,7 @@ def _(Client, LocalCluster, Path, machine, samples, study, tempfile, time):
 def _(mo, rows):
     # A pyarrow Table: pandas and polars take it.
     frame = rows.to_pandas()
-    kept = (frame["verdict"] != "violated").mean()
+    kept = (frame["verdict"] == "holds").mean()
     print(f"{kept:.2%} of the machines keep every rule")
     mo.ui.table(frame.describe().reset_index())
 

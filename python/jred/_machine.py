@@ -13,10 +13,10 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _jred
-from ._result import Result, run
+from ._result import Result, _words, run
 
 if TYPE_CHECKING:
-    from ._answers import Balance, Check, Export, Fastest, Gentlest, Require, Sensitivity, Simulate, Size, Steady
+    from ._answers import Balance, Check, Fastest, Gentlest, Require, Sensitivity, Simulate, Size, Steady
 
 Array = npt.NDArray[np.float64]
 Value = str | float | int
@@ -202,9 +202,14 @@ class Machine:
         """``jred sensitivity``: how each quantity moves the rules."""
         return cast("Sensitivity", self.run("sensitivity", **options))
 
-    def export(self, out: str | Path, **options: object) -> Export:
-        """``jred export``: the firmware's table, written to the file ``out``; its errors and limits."""
-        return cast("Export", self.run("export", out=out, **options))
+    def export(self, out: str | Path, **options: object) -> str:
+        """``jred export``: writes the firmware's table to the file ``out``; returns what the command prints of it.
+
+        ``format="rust"``, ``type="i32"``, ``torque_error="0.01 N m"`` … as of the command.
+        """
+        path = str(Path(self._own.folder) / self.name)
+        _, printed, _ = _jred.run(["export", path, "--out", str(out), *_words(options)], [(path, self.text)])
+        return printed
 
     def model(self, **options: object) -> Model:
         """The firmware's table of ``jred export`` with its ticks; ``type="i32"``, ``torque_error="0.01 N m"`` …."""
@@ -291,7 +296,7 @@ class Model:
         return np.ascontiguousarray(array)
 
 
-def catalogue(table: str = "motors", **options: object) -> dict[str, npt.NDArray[Any]]:
+def catalogue(table: str = "motors", **options: Any) -> dict[str, npt.NDArray[Any]]:
     """A table of the catalogue by columns, for pandas or polars.
 
     ``table``: "motors", "linear-motors", "gearboxes", "amplifiers" or "resistors"; options as of ``jred catalogue list``.

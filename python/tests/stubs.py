@@ -16,7 +16,7 @@ from jred._result import _attribute
 
 HERE = Path(__file__).parents[1]
 #: Answers of the methods of a machine.
-ANSWERS = ("balance", "bus", "check", "export", "fastest", "gentlest", "project", "ratio", "reduce", "require",
+ANSWERS = ("balance", "bus", "check", "fastest", "gentlest", "project", "ratio", "reduce", "require",
            "sensitivity", "simulate", "size", "split", "steady", "tolerance")  # fmt: skip
 PLAIN = {"number": "float", "integer": "int", "string": "str", "boolean": "bool", "null": "None"}
 

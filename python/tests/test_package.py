@@ -156,7 +156,7 @@ BAD: list[tuple[Any, type[Exception], str]] = [
     (lambda m: m.set("slider.mas", "60 kg"), jred.JredError, "slider.mass"),
     (lambda m: evaluate(m, {"crank.lenght": 1.0}), jred.JredError, "crank.length"),
     (lambda m: evaluate(m, {"slider.mass": float("nan")}), ValueError, "finite"),
-    (lambda m: evaluate(m, {"slider.mass": "60 s"}), jred.JredError, "60 s"),
+    (lambda m: evaluate(m, {"slider.mass": "60 s"}), jred.JredError, "mass"),
     (lambda m: evaluate(m, {"slider.mass": -3.0}), jred.JredError, "mass"),
     (lambda m: evaluate(m, drive="no-such-drive"), jred.JredError, "no-such-drive"),
     (lambda m: evaluate(m, catalogue=["no-such-folder"]), jred.JredError, "no-such-folder"),
