@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use numpy::{PyArray1, ToPyArray as _};
+use numpy::{IntoPyArray as _, PyArray1};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
@@ -142,7 +142,7 @@ fn arrays<'py>(py: Python<'py>, columns: &Columns) -> PyResult<Bound<'py, PyDict
     for (k, name) in columns.names().into_iter().enumerate() {
         let cell = |row: &Vec<Option<f64>>| row.get(k).copied().flatten().unwrap_or(f64::NAN);
         let values: Vec<f64> = columns.rows().iter().map(cell).collect();
-        let array: Bound<'py, PyArray1<f64>> = values.to_pyarray(py);
+        let array: Bound<'py, PyArray1<f64>> = values.into_pyarray(py);
         found.set_item(name, array)?;
     }
     Ok(found)

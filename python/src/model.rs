@@ -1,6 +1,6 @@
 //! Ticks over a table image, bit for bit those of firmware.
 
-use numpy::{PyArray1, PyReadonlyArray1, ToPyArray as _};
+use numpy::{IntoPyArray as _, PyArray1, PyReadonlyArray1};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
@@ -69,8 +69,7 @@ macro_rules! tick {
         equal([$phase.len(), omega.len(), third.len()])?;
         let model = $image.any_model::<$format>().map_err(wrong)?;
         let samples = $phase.iter().zip(omega).zip(third);
-        let found: Vec<f32> = samples
-            .map(|((phase, omega), third)| {
+        let found: Vec<f32> = $py.detach(|| samples.map(|((phase, omega), third)| {
                 let phase = Phase::from_bits(*phase);
                 if $inverse {
                     model.torque(phase, *omega, *third)
@@ -78,8 +77,8 @@ macro_rules! tick {
                     model.acceleration(phase, *omega, *third).value
                 }
             })
-            .collect();
-        found.to_pyarray($py).into_any()
+            .collect());
+        found.into_pyarray($py).into_any()
     }};
     (q31, $($rest:tt)*) => { tick!(@fixed i32, Q31, $($rest)*) };
     (q15, $($rest:tt)*) => { tick!(@fixed i16, Q15, $($rest)*) };
@@ -89,8 +88,7 @@ macro_rules! tick {
         equal([$phase.len(), omega.len(), third.len()])?;
         let model = $image.any_model::<$format>().map_err(wrong)?;
         let samples = $phase.iter().zip(omega).zip(third);
-        let found: Vec<$bits> = samples
-            .map(|((phase, omega), third)| {
+        let found: Vec<$bits> = $py.detach(|| samples.map(|((phase, omega), third)| {
                 let phase = Phase::from_bits(*phase);
                 let omega = Speed::<$number>::of(<$number>::from_bits(*omega));
                 let third = <$number>::from_bits(*third);
@@ -100,8 +98,8 @@ macro_rules! tick {
                     model.acceleration(phase, omega, Torque::of(third)).value.number().to_bits()
                 }
             })
-            .collect();
-        found.to_pyarray($py).into_any()
+            .collect());
+        found.into_pyarray($py).into_any()
     }};
 }
 
@@ -209,7 +207,7 @@ impl Model {
             .iter()
             .map(|x| domain.to::<f64>().phase(*x).to_bits())
             .collect();
-        Ok(phases.to_pyarray(py))
+        Ok(phases.into_pyarray(py))
     }
 
     #[pyo3(signature = (phase: "numpy.typing.NDArray[numpy.uint32]", omega: "numpy.typing.NDArray[typing.Any]", alpha: "numpy.typing.NDArray[typing.Any]") -> "numpy.typing.NDArray[typing.Any]")]
