@@ -304,8 +304,23 @@ def catalogue(table: str = "motors", **options: Any) -> dict[str, npt.NDArray[An
     return run("catalogue", "list", table, **options).table("rows")
 
 
+def _stamp(path: str) -> tuple[tuple[str, int, int], ...]:
+    """Names, times and sizes of the files of a catalogue: a changed one is read again."""
+    own = Path(path)
+    files = sorted(own.iterdir()) if own.is_dir() else [own] if own.exists() else []
+    return tuple((file.name, file.stat().st_mtime_ns, file.stat().st_size) for file in files)
+
+
+def _study(machine: Machine, catalogue: Sequence[str | Path], drive: str | None, steps: int) -> _jred.Study:
+    files = tuple(map(str, catalogue))
+    folder = str(Path(machine._own.folder).resolve())
+    return _kept_study(machine.name, machine.text, folder, files, drive, steps, tuple(map(_stamp, files)))
+
+
 @lru_cache(maxsize=16)
-def _study(name: str, text: str, folder: str, catalogue: tuple[str, ...], drive: str | None, steps: int) -> _jred.Study:
+def _kept_study(
+    name: str, text: str, folder: str, catalogue: tuple[str, ...], drive: str | None, steps: int, _: object
+) -> _jred.Study:
     return _jred.Study(name, text, Path(folder), [Path(path) for path in catalogue], drive, steps)
 
 
@@ -323,7 +338,7 @@ def evaluate(
     where the rule is violated. Without ``drive`` the best one of the catalogue. Raises JredError for values that give
     no machine.
     """
-    study = _study(machine.name, machine.text, str(machine._own.folder), tuple(map(str, catalogue)), drive, steps)
+    study = _study(machine, catalogue, drive, steps)
     values = [(path, machine._in_unit(path, value)) for path, value in (overrides or {}).items()]
     name, holds, used = study.evaluate(values)
     return {"drive": name, "holds": holds, "margins": {rule: 1.0 - share for rule, share in used}}

@@ -77,7 +77,7 @@ def share(
     import pyarrow.parquet as pq
 
     path = Path(out) / f"part-{index:05}-of-{count:05}.parquet"
-    study = _study(machine.name, machine.text, str(machine._own.folder), catalogue, drive, steps)
+    study = _study(machine, catalogue, drive, steps)
     if path.exists() and _read(path) is not None:
         return index
     found = getattr(study, kind)(*asked, [index, count])
@@ -146,9 +146,9 @@ def _run(
         raise ValueError(f"shares = {shares}; give 1 to 100000")
     folder = Path(out)
     folder.mkdir(parents=True, exist_ok=True)
-    files = tuple(str(Path(path).resolve()) for path in catalogue)
+    files = tuple(str(path) if str(path) == "built-in" else str(Path(path).resolve()) for path in catalogue)
     # The study of these options: its first share has no row beyond the last, so that nothing is computed twice.
-    study = _study(machine.name, machine.text, str(machine._own.folder), files, drive, steps)
+    study = _study(machine, files, drive, steps)
     own = getattr(study, kind)(*asked, [2**62, 1])["about"]
     for path in sorted(folder.glob("part-*.parquet")):
         if (known := _read(path)) is None:

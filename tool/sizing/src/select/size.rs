@@ -190,20 +190,25 @@ impl<'c> Selection<'c> {
         let late = |k: &usize| (motors[*k].made_for().is_none(), motors[*k].rated_power());
         let mut likely: Vec<usize> = (0..motors.len()).collect();
         likely.sort_by(|a, b| late(a).partial_cmp(&late(b)).unwrap_or(Ordering::Equal));
-        let mut best: Option<RankBound> = None;
+        let mut best: Option<Candidate> = None;
         let drives = likely
             .into_iter()
             .flat_map(|k| catalogue.drives_of(k..k + 1));
         for (id, drive) in drives {
-            let first = |bound: &Order| best.is_none_or(|best| *bound < best.bound);
-            if first(&Order::from(drive, &Outcome::NOTHING, id)) {
-                let (found, outcome) = selection.bound(&screen, &DriveWithId { drive, id });
-                if !outcome.fails() && first(&found.bound) {
-                    best = Some(found);
+            let first = |bound: &Order| best.is_none_or(|best| *bound < Order::of(&best));
+            if !first(&Order::from(drive, &Outcome::NOTHING, id)) {
+                continue;
+            }
+            let placed = DriveWithId { drive, id };
+            let (found, outcome) = selection.bound(&screen, &placed);
+            if !outcome.fails() && first(&found.bound) {
+                let candidate = selection.in_full(&placed);
+                if !candidate.outcome.fails() && first(&Order::of(&candidate)) {
+                    best = Some(candidate);
                 }
             }
         }
-        best.map(|best| selection.in_full(&best.placed()))
+        best
     }
 
     fn empty(
