@@ -15,12 +15,13 @@ pub(crate) struct Options {
 }
 
 /// Everything that a page refers to: it is copied beside the book.
-const STAGED: [&str; 9] = [
+const STAGED: [&str; 10] = [
     "ffi/include",
     "*.md",
     "docs",
     "machines",
     "examples",
+    "python/examples",
     "benches",
     "deny.toml",
     "tests/fuzz",
