@@ -76,7 +76,9 @@ class Machine:
     def __init__(self, source: str | Path | Mapping[str, Any], *, name: str | None = None, folder: str | Path = ".") -> None:
         if isinstance(source, Mapping):
             text, path = _toml(source), None
-        elif isinstance(source, Path) or "\n" not in source:
+        elif not isinstance(source, str | Path):
+            raise TypeError(f"a machine from {type(source).__name__}: give a path, a text or a dict")
+        elif isinstance(source, Path) or (source.strip() and "\n" not in source):
             path = Path(source)
             text = path.read_text(encoding="utf-8")
         else:
@@ -126,6 +128,8 @@ class Machine:
         """A value as text; a number gets the unit of the file."""
         if isinstance(value, str):
             return value
+        if isinstance(value, bool) or not isinstance(value, int | float | np.number):
+            raise TypeError(f'{path} = {value!r}; give a text with a unit, such as "60 kg", or a number in the unit of the file')
         if not np.isfinite(value):
             raise ValueError(f"{path} = {value}; give a finite number")
         if path not in self._units:

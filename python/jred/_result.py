@@ -70,7 +70,11 @@ class Item(Mapping[str, Any]):
         return sorted({*super().__dir__(), *self._names})
 
     def __repr__(self) -> str:
-        return f"{type(self).__name__}({', '.join(self._names)})"
+        def short(value: Any) -> str:
+            return "…" if isinstance(value, dict | list) else repr(value)
+
+        shown = (f"{name}={short(self._data[key])}" for name, key in self._names.items())
+        return f"{type(self).__name__}({', '.join(shown)})"
 
     def __reduce__(self) -> tuple[object, ...]:
         return (type(self), (self._data,))

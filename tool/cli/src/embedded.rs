@@ -54,7 +54,9 @@ pub fn run(words: &[String], files: Vec<(PathBuf, String)>) -> Result<Ran, Repor
         }
         Err(error) => {
             let text = error.render().to_string();
-            return Err(miette!("{}", text.trim().trim_start_matches("error: ")));
+            let text = text.trim().trim_start_matches("error: ");
+            let hint = "\n\nFor more information, try '--help'.";
+            return Err(miette!("{}", text.strip_suffix(hint).unwrap_or(text)));
         }
     };
     let (done, kept) = terminal::kept(|| {
