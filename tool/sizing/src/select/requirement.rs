@@ -98,8 +98,8 @@ pub struct Requirement {
     /// Torque of the holding brake; `None`: the machine stays where it is without current.
     #[serde(rename = "brake torque [N m]")]
     pub brake_torque: Option<f64>,
-    /// Work of this brake in the worst stop by it alone, with the largest rotor of the window, if it has its torque after 20 ms and after 100 ms;
-    /// infinite: it holds the machine but does not stop it.
+    /// Work of this brake in the worst stop by it alone, with any rotor of the window, if it has its torque after 20 ms and after 100 ms; infinite: it
+    /// holds the machine but does not stop it; `None` also for a window without an end.
     #[serde(rename = "brake work if closed after 20 ms and 100 ms [J]")]
     #[schemars(with = "Option<[Option<f64>; 2]>")]
     pub brake_work: Option<[f64; 2]>,
@@ -315,19 +315,8 @@ impl Inquiry<'_> {
         let brake_torque = (measured.get(Rule::BrakeTorque))
             .filter(|_| self.file.rules.limit(Rule::BrakeTorque).is_set())
             .map(|found| found.value / self.share(Rule::BrakeTorque));
-        let inertia = self.coefficients(ratio, ends[1]).0[0] / ratio.unwrap_or(1.0);
-        let brake_work = brake_torque.map(|torque| {
-            CLOSING_TIMES.map(|time| {
-                let brake = MotorBrake {
-                    torque,
-                    time,
-                    inertia,
-                    ratio: ratio.unwrap_or(1.0),
-                };
-                let stop = self.cycle.mechanics().run_on.worst(&brake);
-                stop.work / self.share(Rule::BrakeWork)
-            })
-        });
+        let brake_work = brake_torque.filter(|_| rotor[1].is_finite());
+        let brake_work = brake_work.map(|torque| self.brake_work(ratio, ends, torque));
         let site = &self.file.site.surroundings;
         let derated = Amplifier::default().derated(site).factor;
         let mut found = Requirement {
@@ -356,6 +345,24 @@ impl Inquiry<'_> {
         found.gearbox = ratio.map(|ratio| self.gearbox_requirement(ratio, &found, ends));
         found.possible = self.is_possible(&found, &measured);
         found
+    }
+
+    /// Work of a brake in the worst stop by it alone, for [`CLOSING_TIMES`]. With the inertia J it falls and rises: ½·J·ω₀² + ω₀·d·t + ½·d²·t²/J when
+    /// the brake closes, convex in J, so one end of the window has the most.
+    fn brake_work(&self, ratio: Option<f64>, ends: [f64; 2], torque: f64) -> [f64; 2] {
+        let step = ratio.unwrap_or(1.0);
+        CLOSING_TIMES.map(|time| {
+            let works = ends.map(|rotor| {
+                let brake = MotorBrake {
+                    torque,
+                    time,
+                    inertia: self.coefficients(ratio, rotor).0[0] / step,
+                    ratio: step,
+                };
+                self.cycle.mechanics().run_on.worst(&brake).work
+            });
+            works[0].max(works[1]) / self.share(Rule::BrakeWork)
+        })
     }
 
     /// Whether belts, screws and pinions satisfy their rules, and shafts and drive train leave room for a gearbox, or, coupled directly, satisfy the
