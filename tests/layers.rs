@@ -239,7 +239,7 @@ const TOOL: [(&str, &[&str]); 8] = [
     (
         "cli",
         &[
-            "browser", "busy", "output", "terminal", "options", "rows", "commands",
+            "browser", "busy", "output", "terminal", "options", "rows", "commands", "embedded",
         ],
     ),
 ];

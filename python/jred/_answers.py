@@ -1069,8 +1069,8 @@ class RequireRatioData(Item):
     brake_torque: float | None
     """[N m]. Torque of the holding brake; `None`: the machine stays where it is without current."""
     brake_work_if_closed_after_20_ms_and_100_ms: tuple[float | None, float | None] | None
-    """[J]. Work of this brake in the worst stop by it alone, with the largest rotor of the window, if it has its torque after 20 ms and after 100 ms;
-infinite: it holds the machine but does not stop it."""
+    """[J]. Work of this brake in the worst stop by it alone, with any rotor of the window, if it has its torque after 20 ms and after 100 ms; infinite: it
+holds the machine but does not stop it; `None` also for a window without an end."""
     continuous_and_peak_current_times_torque_constant: tuple[float, float]
     """[N m]. Continuous and peak current of the amplifier, times the torque constant of the motor, as its data sheet
 states them."""

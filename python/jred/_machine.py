@@ -129,7 +129,9 @@ class Machine:
         if isinstance(value, str):
             return value
         if isinstance(value, bool) or not isinstance(value, int | float | np.number):
-            raise TypeError(f'{path} = {value!r}; give a text with a unit, such as "60 kg", or a number in the unit of the file')
+            raise TypeError(
+                f'{path} = {value!r}; give a text with a unit, such as "60 kg", or a number in the unit of the file'
+            )
         if not np.isfinite(value):
             raise ValueError(f"{path} = {value}; give a finite number")
         if path not in self._units:

@@ -166,6 +166,8 @@ def run(command: str, *arguments: str | Path, files: Files | None = None, **opti
 
     ``files`` has texts that stand for files on disk. Raises JredError.
     """
+    if command in ("vary", "export"):
+        raise ValueError(f"{command} has no JSON; use jred.study.vary, Machine.export or Machine.model")
     words = [command, *map(str, arguments), *_words(options)]
     texts = [(str(path), text) for path, text in (files or {}).items()]
     code, out, messages = _jred.run([*words, "--format", "json"], texts)

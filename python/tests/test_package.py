@@ -163,6 +163,7 @@ BAD: list[tuple[Any, type[Exception], str]] = [
     (lambda m: m.curves(1), ValueError, "positions"),
     (lambda m: m.curves(speed=float("nan")), ValueError, "finite"),
     (lambda m: m.curves(over="turn"), ValueError, "time"),
+    (lambda m: m.run("vary", vary="slider.mass=40,50 kg"), ValueError, "study.vary"),
     (lambda m: m.size(tops=3), jred.JredError, "--top"),
     (lambda m: evaluate(m, {"slider.mass": True}), TypeError, "60 kg"),
     (lambda m: m.set("slider.mass", None), TypeError, "60 kg"),

@@ -4,6 +4,7 @@
 //! For commands without rows to count (`rows/run.rs` counts those). Ctrl-C ends the command at once: nothing is written before the result is
 //! complete, and a file is written under a temporary name.
 
+use std::cell::Cell;
 use std::io::{IsTerminal as _, Write};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
@@ -34,10 +35,19 @@ struct ProgressLine {
     thread: JoinHandle<()>,
 }
 
+thread_local! {
+    static SILENT: Cell<bool> = const { Cell::new(false) };
+}
+
+/// Whether no line is shown for the tasks of this thread.
+pub fn silence(on: bool) {
+    SILENT.set(on);
+}
+
 /// Starts the line for the task `what`, such as `checking the machine`.
 pub fn begin(what: &'static str) {
     end();
-    if crate::terminal::is_kept() {
+    if SILENT.get() {
         return;
     }
     let line = if std::io::stderr().is_terminal() {

@@ -13,7 +13,7 @@ use crate::options::help::FIRST;
 use crate::terminal;
 use jred_file::plain;
 
-/// What a command returned.
+/// The result of a command.
 #[derive(Clone, Debug)]
 pub struct Ran {
     /// Exit code: 0, or 1 where a rule is violated.

@@ -20,7 +20,7 @@ use jred_file::plain;
 use jred_report::table::screen::Screen;
 use jred_report::units;
 
-/// What a command prints on its thread, kept instead of printed.
+/// Output of a command on its thread, kept instead of printed.
 #[derive(Debug, Default)]
 pub struct Kept {
     /// Standard output.
@@ -36,12 +36,14 @@ thread_local! {
 /// Runs a command of which nothing is printed, and returns what it would print.
 pub fn kept<T>(run: impl FnOnce() -> T) -> (T, Kept) {
     KEPT.set(Some(Kept::default()));
+    busy::silence(true);
     let done = run();
+    busy::silence(false);
     (done, KEPT.take().unwrap_or_default())
 }
 
 /// Whether output is kept.
-pub(crate) fn is_kept() -> bool {
+fn is_kept() -> bool {
     KEPT.with_borrow(Option::is_some)
 }
 
