@@ -141,11 +141,13 @@ def test_evaluate_is_pure_and_picklable() -> None:
     assert strong["margins"]["peak torque"] < evaluate(machine, drive=drive)["margins"]["peak torque"]
     sized = Machine(PRESS).size(top=1)
     best = evaluate(machine)
-    checks = {check.rule: check for check in sized.fit[0].checks if check.get("used [%]") is not None}
+    margins = {check.rule: check.margin for check in sized.fit[0].checks if check.margin is not None}
     assert best["holds"] and best["drive"].startswith(sized.fit[0].motor)
-    for rule, check in checks.items():
-        if rule in best["margins"]:
-            assert best["margins"][rule] == pytest.approx(1 - check["used [%]"] / 100, abs=1e-9)
+    # The command takes 2000 steps.
+    fine = evaluate(machine, steps=2000)["margins"]
+    assert len(margins) > 10
+    for rule, margin in margins.items():
+        assert fine[rule] == pytest.approx(margin, abs=1e-9)
     with ThreadPoolExecutor(4) as pool:
         for found in pool.map(lambda _: evaluate(machine, {"slider.mass": 60.0}, drive=drive), range(8)):
             assert found == heavy
