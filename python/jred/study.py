@@ -105,20 +105,21 @@ def _typed(pa: Any, column: Any) -> Any:
     return pa.array([None if value is None else str(value) for value in column], type=pa.string())
 
 
-def _read(path: Path) -> dict[str, str] | None:
-    """What a part says of itself; None if it is damaged."""
+def _read(path: Path) -> Any:
+    """A part; None if it is damaged."""
     import pyarrow as pa
     import pyarrow.parquet as pq
 
     try:
-        table = pq.read_table(path)
+        return pq.read_table(path)
     except (pa.ArrowInvalid, OSError):
         return None
-    return {key.decode(): value.decode() for key, value in (table.schema.metadata or {}).items() if key.decode() in ABOUT}
 
 
-def _same(path: Path, known: dict[str, str], own: dict[str, str], shares: int) -> None:
+def _same(path: Path, part: Any, own: dict[str, str], shares: int) -> None:
     """Refuses a part of another study."""
+    metadata = {} if part is None else part.schema.metadata or {}
+    known = {key.decode(): value.decode() for key, value in metadata.items()}
     differs = [key for key in ABOUT[:-1] if known.get(key) != own[key]]
     count = known.get("share", "").partition("/")[2]
     if not differs and count == str(shares):
@@ -140,7 +141,6 @@ def _run(
     progress: Callable[[int, int], None] | None,
 ) -> Any:
     import pyarrow as pa
-    import pyarrow.parquet as pq
 
     if not 1 <= shares <= 100_000:
         raise ValueError(f"shares = {shares}; give 1 to 100000")
@@ -151,10 +151,10 @@ def _run(
     study = _study(machine, files, drive, steps)
     own = getattr(study, kind)(*asked, [2**62, 1])["about"]
     for path in sorted(folder.glob("part-*.parquet")):
-        if (known := _read(path)) is None:
+        if (part := _read(path)) is None:
             path.unlink()
         else:
-            _same(path, known, own, shares)
+            _same(path, part, own, shares)
     tasks = [(kind, asked, machine, str(folder.resolve()), files, drive, steps, k, shares) for k in range(shares)]
     if client is None:
         for done, task in enumerate(tasks, 1):
@@ -164,11 +164,11 @@ def _run(
     else:
         _on(client, tasks, progress)
     paths = [folder / f"part-{k:05}-of-{shares:05}.parquet" for k in range(shares)]
-    for path in paths:
+    parts = [_read(path) for path in paths]
+    for path, part in zip(paths, parts):
         # A worker may have another version of jred, of the catalogue or of a file that the machine names.
-        _same(path, _read(path) or {}, own, shares)
-    rows = pa.concat_tables([pq.read_table(path) for path in paths], promote_options="permissive")
-    rows = rows.sort_by("row")
+        _same(path, part, own, shares)
+    rows = pa.concat_tables(parts, promote_options="permissive").sort_by("row")
     return rows.replace_schema_metadata({key: own[key] for key in ABOUT[:-1]})
 
 

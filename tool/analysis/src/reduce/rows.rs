@@ -108,6 +108,9 @@ impl<'m> Pass<'m> {
         let length = (end - start).abs();
         let turn = domain == Domain::Turn;
         let one_turn = !turn || (length - domain.span()).abs() < 1e-9;
+        if !one_turn {
+            return None;
+        }
         let mut pass = Self {
             motion,
             start,
@@ -119,7 +122,7 @@ impl<'m> Pass<'m> {
         for k in 0..=STEPS {
             let (distance, state) = pass.after(pass.time(k));
             pass.passed.push(distance);
-            if !one_turn || state.omega * direction < -1e-12 {
+            if state.omega * direction < -1e-12 {
                 return None;
             }
         }

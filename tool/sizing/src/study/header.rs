@@ -65,7 +65,7 @@ impl Header {
             (self.options != other.options, "the options"),
             (self.rows != other.rows, "the number of rows"),
             (self.columns != other.columns, "the columns"),
-            // Part of the header, so that merged files equal the output of a single run.
+            // Part of the header, so that a continued file equals the output of a single run.
             (
                 self.machine != other.machine,
                 "the name of the machine file",

@@ -1,7 +1,7 @@
 //! Studies of many machines: quantities of a machine file are varied over ranges, and every machine is sized with the catalogue.
 //!
 //! A machine file is changed as text ([`edit`]) and read by the ordinary reader, so that every check applies to every machine of a study. A refused
-//! machine is a row with the reason. Rows are computed in parallel and written in order. A study may be cut into shares ([`shard`]) and merged, or
+//! machine is a row with the reason. Rows are computed in parallel and written in order. A study may be cut into shares ([`shard`]), or
 //! stopped and continued: the file always equals that of an undisturbed run, byte for byte.
 
 pub mod axis;
