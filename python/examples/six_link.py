@@ -55,8 +55,6 @@ def _(Path, jred, np):
         points = changed.curves(181, points=True)
         ram = points["slider com x [m]"]
         margins = jred.evaluate(changed, drive=drive)["margins"]
-        # A warning of the catalogue, not a limit.
-        margins.pop("gearbox cycles", None)
         margins["stroke"] = 0.01 - abs((ram.max() - ram.min()) / 0.120 - 1.0)
         return rms, margins
 

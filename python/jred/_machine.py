@@ -13,13 +13,14 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _jred
+from ._errors import JredError
 from ._result import Result, _words, run
 
 if TYPE_CHECKING:
     from ._answers import Balance, Check, Fastest, Gentlest, Require, Sensitivity, Simulate, Size, Steady
 
 Array = npt.NDArray[np.float64]
-Value = str | float | int
+Value = str | float | int | np.number[Any]
 
 
 def _toml(data: Mapping[str, Any], path: str = "") -> str:
@@ -58,10 +59,6 @@ def _toml(data: Mapping[str, Any], path: str = "") -> str:
 
 def _key(key: str) -> str:
     return key if key.replace("_", "").replace("-", "").isalnum() and key.isascii() else json.dumps(key)
-
-
-def _value(value: Value) -> str:
-    return value if isinstance(value, str) else repr(float(value) if isinstance(value, np.floating) else value)
 
 
 class Machine:
@@ -128,16 +125,14 @@ class Machine:
         """A value as text; a number gets the unit of the file."""
         if isinstance(value, str):
             return value
-        if isinstance(value, bool) or not isinstance(value, int | float | np.number):
-            raise TypeError(
-                f'{path} = {value!r}; give a text with a unit, such as "60 kg", or a number in the unit of the file'
-            )
+        value = value.item() if isinstance(value, np.generic | np.ndarray) and value.ndim == 0 else value
+        if isinstance(value, bool) or not isinstance(value, int | float):
+            raise TypeError(f'{path} = {value!r}; give a text with a unit, such as "60 kg", or a number in the unit of the file')
         if not np.isfinite(value):
             raise ValueError(f"{path} = {value}; give a finite number")
         if path not in self._units:
-            found = [shown for own, shown in self.quantities.items() if own == path or own.endswith("." + path)]
-            self._units[path] = found[0].partition(" ")[2] if len(found) == 1 else ""
-        return f"{_value(value)} {self._units[path]}".strip()
+            self._units[path] = self._own._unit(path)
+        return f"{value!r} {self._units[path]}".strip()
 
     def curves(
         self,
@@ -214,7 +209,10 @@ class Machine:
         ``format="rust"``, ``type="i32"``, ``torque_error="0.01 N m"`` … as of the command.
         """
         path = str(Path(self._own.folder) / self.name)
-        _, printed, _ = _jred.run(["export", path, "--out", str(out), *_words(options)], [(path, self.text)])
+        words = ["export", path, "--out", str(out), *_words(options)]
+        code, printed, messages = _jred.run(words, [(path, self.text)])
+        if code:
+            raise JredError("\n".join([printed.strip(), *messages]).strip())
         return printed
 
     def model(self, **options: object) -> Model:
@@ -317,8 +315,8 @@ def _stamp(path: str) -> tuple[tuple[str, int, int], ...]:
     return tuple((file.name, file.stat().st_mtime_ns, file.stat().st_size) for file in files)
 
 
-def _study(machine: Machine, catalogue: Sequence[str | Path], drive: str | None, steps: int) -> _jred.Study:
-    files = tuple(map(str, catalogue))
+def _study(machine: Machine, catalogue: str | Path | Sequence[str | Path], drive: str | None, steps: int) -> _jred.Study:
+    files = tuple(map(str, [catalogue] if isinstance(catalogue, str | Path) else catalogue))
     folder = str(Path(machine._own.folder).resolve())
     return _kept_study(machine.name, machine.text, folder, files, drive, steps, tuple(map(_stamp, files)))
 
@@ -334,17 +332,19 @@ def evaluate(
     machine: Machine,
     overrides: Mapping[str, Value] | None = None,
     *,
-    catalogue: Sequence[str | Path] = (),
+    catalogue: str | Path | Sequence[str | Path] = (),
     drive: str | None = None,
     steps: int = 1000,
 ) -> dict[str, Any]:
     """Judges a drive in the machine with other values of some quantities: for optimisers, pure and picklable.
 
-    Returns ``drive``, ``holds`` and ``margins``: 1 less the used share of the limit of each rule with data, negative
-    where the rule is violated. Without ``drive`` the best one of the catalogue. Raises JredError for values that give
+    Returns ``drive``, ``holds``, and ``margins``: 1 less the used share of the limit of each rule with data, negative
+    where it is violated; in ``warnings`` those of rules that only warn. Without ``drive`` the best one of the catalogue. Raises JredError for values that give
     no machine.
     """
     study = _study(machine, catalogue, drive, steps)
     values = [(path, machine._in_unit(path, value)) for path, value in (overrides or {}).items()]
     name, holds, used = study.evaluate(values)
-    return {"drive": name, "holds": holds, "margins": {rule: 1.0 - share for rule, share in used}}
+    margins = {rule: 1.0 - share for rule, share, is_limit in used if is_limit}
+    warnings = {rule: 1.0 - share for rule, share, is_limit in used if not is_limit}
+    return {"drive": name, "holds": holds, "margins": margins, "warnings": warnings}

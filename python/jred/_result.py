@@ -14,6 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _jred
+from ._errors import JredError
 
 Files = Mapping[str | Path, str]
 
@@ -87,6 +88,9 @@ class Item(Mapping[str, Any]):
     def table(self, key: str) -> dict[str, npt.NDArray[Any]]:
         """The rows of a list of objects, or the columns of numbers, as arrays by name: for pandas or polars."""
         rows = self._data[key]
+        if rows and not isinstance(rows[0], dict) and isinstance(self._data.get("columns"), list):
+            names = self._data["columns"]
+            return {name: _column(list(column)) for name, column in zip(names, zip(*self._data["rows"]))}
         if isinstance(rows, dict):
             return {name: np.asarray(column) for name, column in rows.items()}
         names = list(dict.fromkeys(name for row in rows for name in row))
@@ -141,7 +145,11 @@ class Result(Item):
     def _repr_html_(self) -> str | None:
         if self._again is None or "--report" not in _jred.run([self._again[0][0], "--help"], [])[1]:
             return None
-        page = self.report().replace("&", "&amp;").replace('"', "&quot;")
+        try:
+            page = self.report()
+        except JredError:
+            return None
+        page = page.replace("&", "&amp;").replace('"', "&quot;")
         return f'<iframe srcdoc="{page}" style="width:100%;height:40em;border:0"></iframe>'
 
 

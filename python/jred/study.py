@@ -26,7 +26,7 @@ def vary(
     axes: Sequence[str],
     out: str | Path,
     *,
-    catalogue: Sequence[str | Path] = (),
+    catalogue: str | Path | Sequence[str | Path] = (),
     shares: int = 64,
     steps: int = 1000,
     client: Any = None,
@@ -47,7 +47,7 @@ def tolerance(
     samples: int = 1000,
     seed: int = 1,
     drive: str | None = None,
-    catalogue: Sequence[str | Path] = (),
+    catalogue: str | Path | Sequence[str | Path] = (),
     shares: int = 64,
     steps: int = 1000,
     client: Any = None,
@@ -112,7 +112,7 @@ def _read(path: Path) -> Any:
 
     try:
         return pq.read_table(path)
-    except (pa.ArrowInvalid, OSError):
+    except pa.ArrowInvalid:
         return None
 
 
@@ -133,7 +133,7 @@ def _run(
     asked: tuple[Any, ...],
     machine: Machine,
     out: str | Path,
-    catalogue: Sequence[str | Path],
+    catalogue: str | Path | Sequence[str | Path],
     drive: str | None,
     shares: int,
     steps: int,
@@ -144,8 +144,9 @@ def _run(
 
     if not 1 <= shares <= 100_000:
         raise ValueError(f"shares = {shares}; give 1 to 100000")
-    folder = Path(out)
+    folder = Path(out).expanduser()
     folder.mkdir(parents=True, exist_ok=True)
+    catalogue = [catalogue] if isinstance(catalogue, str | Path) else catalogue
     files = tuple(str(path) if str(path) == "built-in" else str(Path(path).resolve()) for path in catalogue)
     # The study of these options: its first share has no row beyond the last, so that nothing is computed twice.
     study = _study(machine, files, drive, steps)

@@ -101,6 +101,17 @@ impl Machine {
         Ok(all.map(|own| (own.path.clone(), own.shown())).collect())
     }
 
+    /// The unit of the quantity at `path`; empty for a plain number.
+    fn _unit(&self, py: Python<'_>, path: &str) -> PyResult<String> {
+        let unit = || -> Result<String> {
+            let document = Document::parse(self.text.clone())?;
+            let quantity = document.find(path)?;
+            let quantity = document.quantities().get(quantity);
+            Ok(quantity.map_or_else(String::new, |own| own.unit().to_owned()))
+        };
+        unit().map_err(|problem| failed(py, problem))
+    }
+
     #[pyo3(signature = (positions, over, state, links, points, forces, energy) -> "dict[str, numpy.typing.NDArray[numpy.float64]]")]
     #[expect(clippy::too_many_arguments, reason = "the keywords of one call")]
     fn _curves<'py>(
@@ -131,7 +142,12 @@ impl Machine {
             },
             state,
         };
-        let columns = py.detach(|| reduce(&self.file, &request).map_err(Problem::of));
+        let columns = py.detach(|| {
+            if request.over == Over::Time && state.is_none() {
+                self.file.required_motion()?;
+            }
+            reduce(&self.file, &request).map_err(Problem::of)
+        });
         arrays(py, &columns.map_err(|problem| failed(py, problem))?)
     }
 }

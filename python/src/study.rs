@@ -31,8 +31,8 @@ pub(crate) struct Study {
     drive: Option<ChosenDrive>,
 }
 
-/// The name of a drive, whether it satisfies every rule, and the share of each limit that it uses.
-type Evaluated = (String, bool, Vec<(&'static str, f64)>);
+/// The name of a drive, whether it satisfies every rule, and of each rule the used share, and whether it is a limit or only warns.
+type Evaluated = (String, bool, Vec<(&'static str, f64, bool)>);
 
 impl Study {
     /// The judgement of the drive in a machine with these values.
@@ -46,7 +46,8 @@ impl Study {
             (
                 name,
                 holds,
-                used.map(|(rule, share)| (rule.name(), share)).collect(),
+                used.map(|(rule, share)| (rule.name(), share, rules.limit(rule).fail.is_some()))
+                    .collect(),
             )
         };
         if let Some(drive) = &self.drive {

@@ -42,8 +42,8 @@ pub fn kept<T>(run: impl FnOnce() -> T) -> (T, Kept) {
     (done, KEPT.take().unwrap_or_default())
 }
 
-/// Whether output is kept.
-fn is_kept() -> bool {
+/// Whether output is kept: the command runs in another program.
+pub fn is_kept() -> bool {
     KEPT.with_borrow(Option::is_some)
 }
 

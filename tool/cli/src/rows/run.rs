@@ -12,6 +12,7 @@ use rayon::prelude::*;
 use super::store;
 use crate::busy;
 use crate::output;
+use crate::terminal;
 use jred_report::table::rows::RowFormat;
 use jred_sizing::cell::Cell;
 use jred_sizing::study::shard::Shard;
@@ -76,7 +77,10 @@ pub fn run(
     plan: &Plan,
     seen: &mut dyn FnMut(u64, &[Cell]),
 ) -> Result<RunEnd> {
-    heed_signals();
+    STOP.store(false, Ordering::Relaxed);
+    if !terminal::is_kept() {
+        heed_signals();
+    }
     let mut header = task.header();
     header.shard = plan.shard;
     let shard = header.share();
