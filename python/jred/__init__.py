@@ -19,4 +19,8 @@ __all__ = ["JredError", "Machine", "Model", "Result", "__version__", "catalogue"
 
 def main() -> None:
     """The command ``jred``."""
+    import signal
+
+    # Ctrl-C ends a command, as without Python.
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
     sys.exit(_command(sys.argv[1:]))

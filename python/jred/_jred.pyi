@@ -18,10 +18,14 @@ class Machine:
     """
     A machine file that was read and checked.
     """
-    def _curves(self, /, positions: SupportsIndex, over: str, state: SupportsLenAndGetItem[SupportsFloat | SupportsIndex] | None, links: bool, points: bool, forces: bool, energy: bool) -> "dict[str, numpy.typing.NDArray[numpy.float64]]": ...
+    def _curves(self, /, positions: SupportsIndex, over: str, speed: SupportsFloat | SupportsIndex | str | None, acceleration: SupportsFloat | SupportsIndex | str | None, links: bool, points: bool, forces: bool, energy: bool) -> "dict[str, numpy.typing.NDArray[numpy.float64]]": ...
     def _set(self, /, path: str, value: str) -> Machine:
         """
         A machine with another value of the quantity at `path`, such as "slider.mass" and "60 kg".
+        """
+    def _unit(self, /, path: str) -> str:
+        """
+        The unit of the quantity at `path`; empty for a plain number.
         """
     @property
     def folder(self, /) -> Path:
@@ -58,7 +62,7 @@ class Model:
         """
         The model of an image as `jred export` writes it.
         """
-    def _acceleration(self, /, phase: "numpy.typing.NDArray[numpy.uint32]", omega: "numpy.typing.NDArray[typing.Any]", torque: "numpy.typing.NDArray[typing.Any]") -> "numpy.typing.NDArray[typing.Any]": ...
+    def _outcome(self, /, phase: "numpy.typing.NDArray[numpy.uint32]", omega: "numpy.typing.NDArray[typing.Any]", torque: "numpy.typing.NDArray[typing.Any]") -> "tuple[numpy.typing.NDArray[typing.Any], numpy.typing.NDArray[numpy.bool_]]": ...
     def _torque(self, /, phase: "numpy.typing.NDArray[numpy.uint32]", omega: "numpy.typing.NDArray[typing.Any]", alpha: "numpy.typing.NDArray[typing.Any]") -> "numpy.typing.NDArray[typing.Any]": ...
     @property
     def format(self, /) -> str:
@@ -86,9 +90,14 @@ class Study:
     A machine over a catalogue.
     """
     def __new__(cls, /, name: str, text: str, folder: str | PathLike[str], catalogues: SupportsGetItem[int, str | PathLike[str]], drive: str | None, steps: SupportsIndex) -> Study: ...
-    def evaluate(self, /, values: SupportsGetItem[int, tuple[str, str]]) -> tuple[str, bool, list[tuple[str, float]]]:
+    def evaluate(self, /, values: SupportsGetItem[int, tuple[str, str]]) -> tuple[str, bool, list[tuple[str, float, bool]]]:
         """
         The drive's name, whether it satisfies every rule, and the share of each limit that it uses, for these values of quantities.
+        """
+    @property
+    def files(self, /) -> list[Path]:
+        """
+        The files that were read for the machine, besides its own.
         """
     def tolerance(self, /, given: SupportsGetItem[int, tuple[str, str]], samples: SupportsIndex, seed: SupportsIndex, share: SupportsLenAndGetItem[SupportsIndex]) -> "dict[str, dict[str, typing.Any]]":
         """
@@ -111,5 +120,5 @@ def read(name: str, text: str, folder: str | PathLike[str]) -> Machine:
 
 def run(words: SupportsGetItem[int, str], files: SupportsGetItem[int, tuple[str | PathLike[str], str]]) -> tuple[int, str, list[str]]:
     """
-    Runs a command of `jred` and returns its exit code, its standard output and its messages. `files` has texts that stand for files on disk.
+    Runs a command of `jred` on a thread of its own, so that Ctrl-C is heeded, and returns its exit code, its standard output and its messages. `files` has texts that stand for files on disk.
     """

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import tempfile
 from collections.abc import Mapping, Sequence
-from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
 
@@ -14,13 +13,29 @@ import numpy.typing as npt
 
 from . import _jred
 from ._errors import JredError
-from ._result import Result, _words, run
+from ._result import Result, run, whole, words_of
 
 if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
     from ._answers import Balance, Check, Fastest, Gentlest, Require, Sensitivity, Simulate, Size, Steady
+    from ._options import (
+        BalanceOptions,
+        CatalogueListOptions,
+        CheckOptions,
+        ExportOptions,
+        FastestOptions,
+        GentlestOptions,
+        RequireOptions,
+        SensitivityOptions,
+        SimulateOptions,
+        SizeOptions,
+        SteadyOptions,
+    )
 
 Array = npt.NDArray[np.float64]
 Value = str | float | int | np.number[Any]
+Paths = str | Path | Sequence[str | Path]
 
 
 def _toml(data: Mapping[str, Any], path: str = "") -> str:
@@ -76,13 +91,14 @@ class Machine:
         elif not isinstance(source, str | Path):
             raise TypeError(f"a machine from {type(source).__name__}: give a path, a text or a dict")
         elif isinstance(source, Path) or (source.strip() and "\n" not in source):
-            path = Path(source)
-            text = path.read_text(encoding="utf-8")
+            path = Path(source).expanduser()
+            # Line ends stay as they are: the digests are those of the command.
+            text = path.read_bytes().decode("utf-8")
         else:
             text, path = source, None
         if path is not None:
             name, folder = name or path.name, path.parent
-        self._own = _jred.read(name or "machine.toml", text, Path(folder))
+        self._own = _jred.read(name or "machine.toml", text, Path(folder).expanduser().resolve())
         self._units: dict[str, str] = {}
 
     @classmethod
@@ -92,10 +108,16 @@ class Machine:
         return machine
 
     def __reduce__(self) -> tuple[object, ...]:
-        return (_restored, (self.name, self.text, str(Path(self._own.folder).resolve())))
+        return (_restored, (self.name, self.text, str(self._own.folder)))
 
     def __repr__(self) -> str:
         return f"Machine({self.title!r})"
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Machine) and self.__reduce__() == other.__reduce__()
+
+    def __hash__(self) -> int:
+        return hash(self.__reduce__())
 
     @property
     def name(self) -> str:
@@ -118,104 +140,105 @@ class Machine:
         return dict(self._own.quantities)
 
     def set(self, path: str, value: Value) -> Machine:
-        """The machine with another value: ``machine.set("slider.mass", "60 kg")``; a number has the unit of the file."""
+        """The machine with another value: ``machine.set("slider.mass", "60 kg")``; a number has the unit of the file.
+
+        Only quantities that the file gives can be set; words and keys are changed in its text.
+        """
         return Machine._of(self._own._set(path, self._in_unit(path, value)))
 
     def _in_unit(self, path: str, value: Value) -> str:
         """A value as text; a number gets the unit of the file."""
         if isinstance(value, str):
             return value
-        value = value.item() if isinstance(value, np.generic | np.ndarray) and value.ndim == 0 else value
-        if isinstance(value, bool) or not isinstance(value, int | float):
-            raise TypeError(f'{path} = {value!r}; give a text with a unit, such as "60 kg", or a number in the unit of the file')
-        if not np.isfinite(value):
-            raise ValueError(f"{path} = {value}; give a finite number")
+        number: object = value.item() if isinstance(value, np.generic | np.ndarray) and value.ndim == 0 else value
+        if isinstance(number, bool) or not isinstance(number, int | float):
+            raise TypeError(
+                f'{path} = {value!r}; give a text with a unit, such as "60 kg", or a number in the unit of the file'
+            )
+        if not np.isfinite(number):
+            raise ValueError(f"{path} = {number}; give a finite number")
         if path not in self._units:
             self._units[path] = self._own._unit(path)
-        return f"{value!r} {self._units[path]}".strip()
+        return f"{number!r} {self._units[path]}".strip()
 
     def curves(
         self,
         positions: int = 360,
         *,
         over: str = "angle",
-        speed: float | None = None,
-        acceleration: float = 0.0,
+        speed: float | str | None = None,
+        acceleration: float | str | None = None,
         links: bool = False,
         points: bool = False,
         forces: bool = False,
         energy: bool = False,
     ) -> dict[str, Array]:
-        """Arrays of ``positions`` numbers by title and unit, NaN where there is none.
+        """Arrays of ``positions`` numbers by title and unit; NaN for an empty cell.
 
         By default the reduced inertia J_red with its derivatives, the terms of the reduced torque, and the torque that
         the motion needs; with ``links`` also each link's share. Instead: ``points`` (and links) with their velocities,
-        ``forces`` in the joints, ``energy``. ``over``: "angle", or "time" of the motion. ``speed`` (rad/s, or m/s) and
-        ``acceleration`` of the drive link replace those of the motion.
+        ``forces`` in the joints, ``energy``. ``over``: "angle", or "time" of the motion. ``speed`` and ``acceleration`` of
+        the drive link (numbers in rad/s and rad/s², or m/s and m/s²; texts such as "60 rpm") replace those of the motion.
         """
         if over not in ("angle", "time"):
             raise ValueError(f'over = {over!r}; write "angle" or "time"')
-        if not 2 <= positions <= 1_000_000:
-            raise ValueError(f"positions = {positions}; give 2 to 1000000")
-        state = None if speed is None else [float(speed), float(acceleration)]
-        if state is not None and not np.isfinite(state).all():
-            raise ValueError(f"speed and acceleration are {state}; both must be finite")
-        return self._own._curves(positions, over, state, links, points, forces, energy)
+        whole("positions", positions, 2, 1_000_000)
+        return self._own._curves(positions, over, speed, acceleration, links, points, forces, energy)
 
     def run(self, command: str, *arguments: str | Path, **options: object) -> Result:
         """Runs a command of ``jred`` with this machine, such as ``machine.run("size", top=3)``: its JSON as an object."""
         path = Path(self._own.folder) / self.name
         return run(command, path, *arguments, files={path: self.text}, **options)
 
-    def check(self, **options: object) -> Check:
+    def check(self, **options: Unpack[CheckOptions]) -> Check:
         """``jred check``: closure, mobility, energy balance, noise of a recorded motion."""
         return cast("Check", self.run("check", **options))
 
-    def size(self, **options: object) -> Size:
+    def size(self, **options: Unpack[SizeOptions]) -> Size:
         """``jred size``: drives that satisfy every rule, ranked; ``catalogue``, ``motor``, ``top`` … as of the command."""
         return cast("Size", self.run("size", **options))
 
-    def require(self, **options: object) -> Require:
+    def require(self, **options: Unpack[RequireOptions]) -> Require:
         """``jred require``: what any maker needs to quote a drive."""
         return cast("Require", self.run("require", **options))
 
-    def fastest(self, **options: object) -> Fastest:
+    def fastest(self, **options: Unpack[FastestOptions]) -> Fastest:
         """``jred fastest``: the time-optimal motion along the same way."""
         return cast("Fastest", self.run("fastest", **options))
 
-    def gentlest(self, **options: object) -> Gentlest:
+    def gentlest(self, **options: Unpack[GentlestOptions]) -> Gentlest:
         """``jred gentlest``: the motion with the least RMS torque or loss."""
         return cast("Gentlest", self.run("gentlest", **options))
 
-    def steady(self, **options: object) -> Steady:
+    def steady(self, **options: Unpack[SteadyOptions]) -> Steady:
         """``jred steady``: the steady cycle under a motor, and the flywheel that smooths it."""
         return cast("Steady", self.run("steady", **options))
 
-    def simulate(self, **options: object) -> Simulate:
+    def simulate(self, **options: Unpack[SimulateOptions]) -> Simulate:
         """``jred simulate``: the free motion of ``[simulation]``."""
         return cast("Simulate", self.run("simulate", **options))
 
-    def balance(self, **options: object) -> Balance:
+    def balance(self, **options: Unpack[BalanceOptions]) -> Balance:
         """``jred balance``: counterweights and springs."""
         return cast("Balance", self.run("balance", **options))
 
-    def sensitivity(self, **options: object) -> Sensitivity:
+    def sensitivity(self, **options: Unpack[SensitivityOptions]) -> Sensitivity:
         """``jred sensitivity``: how each quantity moves the rules."""
         return cast("Sensitivity", self.run("sensitivity", **options))
 
-    def export(self, out: str | Path, **options: object) -> str:
+    def export(self, out: str | Path, **options: Unpack[ExportOptions]) -> str:
         """``jred export``: writes the firmware's table to the file ``out``; returns what the command prints of it.
 
         ``format="rust"``, ``type="i32"``, ``torque_error="0.01 N m"`` … as of the command.
         """
         path = str(Path(self._own.folder) / self.name)
-        words = ["export", path, "--out", str(out), *_words(options)]
+        words = ["export", path, "--out", str(out), *words_of("export", options)]
         code, printed, messages = _jred.run(words, [(path, self.text)])
         if code:
             raise JredError("\n".join([printed.strip(), *messages]).strip())
         return printed
 
-    def model(self, **options: object) -> Model:
+    def model(self, **options: Unpack[ExportOptions]) -> Model:
         """The firmware's table of ``jred export`` with its ticks; ``type="i32"``, ``torque_error="0.01 N m"`` …."""
         with tempfile.TemporaryDirectory() as folder:
             out = Path(folder) / "table.jred"
@@ -270,37 +293,51 @@ class Model:
         speed, acceleration, torque = self._own.validity
         return speed, acceleration, torque
 
+    def __repr__(self) -> str:
+        return f"Model({self.format}, {len(self._image)} bytes)"
+
     def phase(self, position: npt.ArrayLike) -> npt.NDArray[np.uint32]:
         """Phase words of positions of the drive link (rad, or m)."""
-        return self._own.phase(np.ascontiguousarray(np.atleast_1d(position), dtype=np.float64))
+        array = np.asarray(position, dtype=np.float64)
+        return self._own.phase(np.ascontiguousarray(array.ravel())).reshape(array.shape)
 
     def torque(self, phase: npt.ArrayLike, omega: npt.ArrayLike, alpha: npt.ArrayLike) -> npt.NDArray[Any]:
-        """Inverse dynamics: the drive torque at phase words, speeds and accelerations."""
-        return self._own._torque(self._phases(phase), self._numbers("omega", omega), self._numbers("alpha", alpha))
+        """Inverse dynamics: the drive torque at phase words, speeds and accelerations, which are broadcast as in NumPy."""
+        shape, arrays = self._arrays(phase, omega=omega, alpha=alpha)
+        return self._own._torque(*arrays).reshape(shape)
 
     def acceleration(self, phase: npt.ArrayLike, omega: npt.ArrayLike, torque: npt.ArrayLike) -> npt.NDArray[Any]:
         """Forward dynamics: the acceleration that a drive torque gives."""
-        return self._own._acceleration(self._phases(phase), self._numbers("omega", omega), self._numbers("torque", torque))
+        return self.outcome(phase, omega, torque)[0]
 
-    @staticmethod
-    def _phases(phase: npt.ArrayLike) -> npt.NDArray[np.uint32]:
-        array = np.atleast_1d(phase)
-        if array.dtype != np.uint32:
-            raise TypeError(f"phase has {array.dtype}; phase words are uint32: use model.phase(position)")
-        return np.ascontiguousarray(array)
+    def outcome(
+        self, phase: npt.ArrayLike, omega: npt.ArrayLike, torque: npt.ArrayLike
+    ) -> tuple[npt.NDArray[Any], npt.NDArray[np.bool_]]:
+        """``acceleration``, and where a number of fixed point was saturated on the way."""
+        shape, arrays = self._arrays(phase, omega=omega, torque=torque)
+        value, saturated = self._own._outcome(*arrays)
+        return value.reshape(shape), saturated.reshape(shape)
 
-    def _numbers(self, name: str, values: npt.ArrayLike) -> npt.NDArray[Any]:
-        array = np.atleast_1d(values)
-        if self.dtype.kind == "f":
-            if not np.isfinite(array).all():
-                raise ValueError(f"{name} has numbers that are not finite")
-            return np.ascontiguousarray(array, dtype=np.float32)
-        if array.dtype != self.dtype:
-            raise TypeError(f"{name} has {array.dtype}; this model takes the raw {self.dtype} of {self.format}")
-        return np.ascontiguousarray(array)
+    def _arrays(self, phase: npt.ArrayLike, **numbers: npt.ArrayLike) -> tuple[tuple[int, ...], list[npt.NDArray[Any]]]:
+        """Arrays of one shape, each in a row and of the type of its numbers."""
+        arrays = [np.asarray(phase)]
+        if arrays[0].dtype != np.uint32:
+            raise TypeError(f"phase has {arrays[0].dtype}; phase words are uint32: use model.phase(position)")
+        for name, values in numbers.items():
+            array = np.asarray(values)
+            if self.dtype.kind == "f":
+                with np.errstate(over="ignore"):
+                    array = array.astype(np.float32)
+                if not np.isfinite(array).all():
+                    raise ValueError(f"{name} has numbers that are not finite in float32")
+            elif array.dtype != self.dtype:
+                raise TypeError(f"{name} has {array.dtype}; this model takes the raw {self.dtype} of {self.format}")
+            arrays.append(array)
+        shape = np.broadcast_shapes(*(array.shape for array in arrays))
+        return shape, [np.ascontiguousarray(np.broadcast_to(array, shape).ravel()) for array in arrays]
 
 
-def catalogue(table: str = "motors", **options: Any) -> dict[str, npt.NDArray[Any]]:
+def catalogue(table: str = "motors", **options: Unpack[CatalogueListOptions]) -> dict[str, npt.NDArray[Any]]:
     """A table of the catalogue by columns, for pandas or polars.
 
     ``table``: "motors", "linear-motors", "gearboxes", "amplifiers" or "resistors"; options as of ``jred catalogue list``.
@@ -311,36 +348,43 @@ def catalogue(table: str = "motors", **options: Any) -> dict[str, npt.NDArray[An
 def _stamp(path: str) -> tuple[tuple[str, int, int], ...]:
     """Names, times and sizes of the files of a catalogue: a changed one is read again."""
     own = Path(path)
-    files = sorted(own.iterdir()) if own.is_dir() else [own] if own.exists() else []
-    return tuple((file.name, file.stat().st_mtime_ns, file.stat().st_size) for file in files)
+    files = sorted(own.rglob("*")) if own.is_dir() else [own] if own.exists() else []
+    return tuple((str(file), file.stat().st_mtime_ns, file.stat().st_size) for file in files)
 
 
-def _study(machine: Machine, catalogue: str | Path | Sequence[str | Path], drive: str | None, steps: int) -> _jred.Study:
+#: The studies that were made last, each with the stamps of the files that were read for it.
+_KEPT: dict[object, tuple[_jred.Study, object]] = {}
+
+
+def _study(machine: Machine, catalogue: Paths, drive: str | None, steps: int) -> _jred.Study:
+    """A machine over a catalogue, read once."""
+    whole("steps", steps, 16, 200_000)
     files = tuple(map(str, [catalogue] if isinstance(catalogue, str | Path) else catalogue))
-    folder = str(Path(machine._own.folder).resolve())
-    return _kept_study(machine.name, machine.text, folder, files, drive, steps, tuple(map(_stamp, files)))
-
-
-@lru_cache(maxsize=16)
-def _kept_study(
-    name: str, text: str, folder: str, catalogue: tuple[str, ...], drive: str | None, steps: int, _: object
-) -> _jred.Study:
-    return _jred.Study(name, text, Path(folder), [Path(path) for path in catalogue], drive, steps)
+    stamps = tuple(map(_stamp, files))
+    key = (machine, files, drive, steps, stamps)
+    study, named = _KEPT.get(key, (None, None))
+    if study is None or named != tuple(_stamp(str(path)) for path in study.files):
+        study = _jred.Study(machine.name, machine.text, machine._own.folder, [Path(path) for path in files], drive, steps)
+        while len(_KEPT) >= 16:
+            _KEPT.pop(next(iter(_KEPT)), None)
+        _KEPT[key] = study, tuple(_stamp(str(path)) for path in study.files)
+    return study
 
 
 def evaluate(
     machine: Machine,
     overrides: Mapping[str, Value] | None = None,
     *,
-    catalogue: str | Path | Sequence[str | Path] = (),
+    catalogue: Paths = (),
     drive: str | None = None,
     steps: int = 1000,
 ) -> dict[str, Any]:
     """Judges a drive in the machine with other values of some quantities: for optimisers, pure and picklable.
 
     Returns ``drive``, ``holds``, and ``margins``: 1 less the used share of the limit of each rule with data, negative
-    where it is violated; in ``warnings`` those of rules that only warn. Without ``drive`` the best one of the catalogue. Raises JredError for values that give
-    no machine.
+    where it is violated (−inf: a limit of zero); in ``warnings`` those of rules that only warn. Without ``drive`` the best
+    one of the catalogue. ``steps`` is that of ``jred vary``; ``jred size`` takes 2000. Raises JredError for values that
+    give no machine.
     """
     study = _study(machine, catalogue, drive, steps)
     values = [(path, machine._in_unit(path, value)) for path, value in (overrides or {}).items()]

@@ -6,6 +6,8 @@ import json
 import re
 import tempfile
 from collections.abc import Iterator, Mapping, Sequence
+from difflib import get_close_matches
+from functools import lru_cache
 from keyword import iskeyword
 from pathlib import Path
 from typing import Any
@@ -59,6 +61,8 @@ class Item(Mapping[str, Any]):
         raise AttributeError("results cannot be changed")
 
     def __getitem__(self, key: str) -> Any:
+        if key not in self._data:
+            raise KeyError(f"{key}; there is {', '.join(self._data)}")
         return _made(self._data[key])
 
     def __iter__(self) -> Iterator[str]:
@@ -86,15 +90,30 @@ class Item(Mapping[str, Any]):
         return copied
 
     def table(self, key: str) -> dict[str, npt.NDArray[Any]]:
-        """The rows of a list of objects, or the columns of numbers, as arrays by name: for pandas or polars."""
-        rows = self._data[key]
+        """The rows of a list of objects, or the columns of numbers, as arrays by name: for pandas or polars.
+
+        Objects in a row become columns such as "duty.RMS torque [N m]"; the margins of checks "margin of peak torque".
+        """
+        rows = self[key] and self._data[key]
         if rows and not isinstance(rows[0], dict) and isinstance(self._data.get("columns"), list):
             names = self._data["columns"]
             return {name: _column(list(column)) for name, column in zip(names, zip(*self._data["rows"]))}
         if isinstance(rows, dict):
             return {name: np.asarray(column) for name, column in rows.items()}
+        rows = [dict(_flat(row)) for row in rows]
         names = list(dict.fromkeys(name for row in rows for name in row))
         return {name: _column([row.get(name) for row in rows]) for name in names}
+
+
+def _flat(row: dict[str, Any], before: str = "") -> Iterator[tuple[str, Any]]:
+    """The cells of a row."""
+    for name, value in row.items():
+        if isinstance(value, dict):
+            yield from _flat(value, f"{before}{name}.")
+        elif name == "checks" and not before:
+            yield from ((f"margin of {check['rule']}", check["margin"]) for check in value)
+        else:
+            yield f"{before}{name}", value
 
 
 def _column(values: list[Any]) -> npt.NDArray[Any]:
@@ -107,7 +126,7 @@ def _column(values: list[Any]) -> npt.NDArray[Any]:
 
 
 class Result(Item):
-    """The result of a command, with its exit ``code`` (1: a rule is violated) and the ``messages`` of the command."""
+    """The result of a command, with its exit ``code`` (1: a rule is violated) and the ``messages`` that it prints."""
 
     __slots__ = ("_again", "code", "messages")
 
@@ -136,28 +155,51 @@ class Result(Item):
 
     def report(self) -> str:
         """The page of ``--report``, with drawing and plots."""
-        words, files = self._again or ([], [])
+        if self._again is None or "--report" not in _options(self._again[0][0]):
+            raise ValueError("this result has no report")
+        words, files = self._again
         with tempfile.TemporaryDirectory() as folder:
             page = Path(folder) / "report.html"
             _jred.run([*words, "--report", str(page)], files)
             return page.read_text(encoding="utf-8")
 
     def _repr_html_(self) -> str | None:
-        if self._again is None or "--report" not in _jred.run([self._again[0][0], "--help"], [])[1]:
-            return None
         try:
             page = self.report()
-        except JredError:
+        except ValueError:
             return None
         page = page.replace("&", "&amp;").replace('"', "&quot;")
         return f'<iframe srcdoc="{page}" style="width:100%;height:40em;border:0"></iframe>'
 
 
-def _words(options: Mapping[str, object]) -> list[str]:
+def whole(name: str, value: object, least: int, most: int) -> None:
+    """Refuses anything but a whole number from ``least`` to ``most``."""
+    if isinstance(value, bool) or not isinstance(value, int | np.integer):
+        raise TypeError(f"{name} = {value!r}; give a whole number")
+    if not least <= value <= most:
+        raise ValueError(f"{name} = {value}; give {least} to {most}")
+
+
+@lru_cache(maxsize=64)
+def _options(command: str) -> frozenset[str]:
+    """The options of a command, such as "size" or "catalogue list"."""
+    return frozenset(re.findall(r"--[a-z][a-z-]*", _jred.run([*command.split(), "--help"], [])[1]))
+
+
+#: Options that write files besides the result; a second run for the report leaves them out.
+_WRITE = {"report", "pdf", "xlsx", "out", "profile", "cam", "plan", "plan_error"}
+
+
+def words_of(command: str, options: Mapping[str, object]) -> list[str]:
     """Options of the command line: ``top=3`` is ``--top 3``; True is the option alone, a list repeats it."""
     words: list[str] = []
     for name, value in options.items():
         option = "--" + name.rstrip("_").replace("_", "-")
+        known = _options(command) - {"--help", "--format" if command != "export" else ""}
+        if option not in known:
+            near = get_close_matches(option, known, 1)
+            cure = f"did you mean {near[0][2:].replace('-', '_')}=?" if near else None
+            raise JredError(f"`jred {command}` has no option {name}=", cure=cure, quantity=name)
         if value is None or value is False:
             continue
         if value is True:
@@ -176,7 +218,11 @@ def run(command: str, *arguments: str | Path, files: Files | None = None, **opti
     """
     if command in ("vary", "export"):
         raise ValueError(f"{command} has no JSON; use jred.study.vary, Machine.export or Machine.model")
-    words = [command, *map(str, arguments), *_words(options)]
+    words = [command, *map(str, arguments)]
+    name = " ".join(words[:2]) if command == "catalogue" else command
+    if command.startswith("-") or "--format" not in _options(name):
+        raise ValueError(f"{name} has no JSON; use the command jred")
     texts = [(str(path), text) for path, text in (files or {}).items()]
-    code, out, messages = _jred.run([*words, "--format", "json"], texts)
-    return Result(json.loads(out), code, messages, (words, texts))
+    code, out, messages = _jred.run([*words, *words_of(name, options), "--format", "json"], texts)
+    again = {option: value for option, value in options.items() if option not in _WRITE}
+    return Result(json.loads(out), code, messages, ([*words, *words_of(name, again)], texts))

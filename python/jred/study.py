@@ -11,8 +11,10 @@ import os
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
+from uuid import uuid4
 
-from ._machine import Machine, _study
+from ._machine import Machine, Paths, _study
+from ._result import whole
 
 ABOUT = ("study", "version", "machine", "catalogue", "options", "rows", "share")
 
@@ -26,7 +28,7 @@ def vary(
     axes: Sequence[str],
     out: str | Path,
     *,
-    catalogue: str | Path | Sequence[str | Path] = (),
+    catalogue: Paths = (),
     shares: int = 64,
     steps: int = 1000,
     client: Any = None,
@@ -34,9 +36,14 @@ def vary(
 ) -> Any:
     """``jred vary``: every machine of a grid, sized. ``axes`` as of ``--vary``, such as "slider.mass=40..60 kg:20".
 
-    Returns the rows in their order as a pyarrow Table, equal bit for bit for any ``client`` and number of shares.
+    Returns the rows in their order as a pyarrow Table, equal bit for bit for any ``client`` and number of shares. Columns
+    of rules have the used shares of limits. The folder ``out`` keeps the parts; ``progress`` gets how many of the shares
+    are done.
     """
-    return _run("vary", (list(axes),), machine, out, catalogue, None, shares, steps, client, progress)
+    axes = [axes] if isinstance(axes, str) else list(axes)
+    if not axes:
+        raise ValueError('axes is empty; give what varies, such as ["slider.mass=40..60 kg:20"]')
+    return _run("vary", (axes,), machine, out, catalogue, None, shares, steps, client, progress)
 
 
 def tolerance(
@@ -47,7 +54,7 @@ def tolerance(
     samples: int = 1000,
     seed: int = 1,
     drive: str | None = None,
-    catalogue: str | Path | Sequence[str | Path] = (),
+    catalogue: Paths = (),
     shares: int = 64,
     steps: int = 1000,
     client: Any = None,
@@ -57,6 +64,8 @@ def tolerance(
 
     ``given``: amounts by path, such as {"slider.mass": "normal: 2 %"}, besides those of ``[tolerance]``.
     """
+    whole("samples", samples, 1, 100_000_000)
+    whole("seed", seed, 0, 2**64 - 1)
     asked = (list((given or {}).items()), samples, seed)
     return _run("tolerance", asked, machine, out, catalogue, drive, shares, steps, client, progress)
 
@@ -77,14 +86,14 @@ def share(
     import pyarrow.parquet as pq
 
     path = Path(out) / f"part-{index:05}-of-{count:05}.parquet"
-    study = _study(machine, catalogue, drive, steps)
     if path.exists() and _read(path) is not None:
         return index
+    study = _study(machine, catalogue, drive, steps)
     found = getattr(study, kind)(*asked, [index, count])
     about = {**found["about"], "share": f"{index}/{count}"}
     table = pa.table({name: _typed(pa, column) for name, column in found["columns"].items()})
     table = table.replace_schema_metadata({key: about[key] for key in ABOUT})
-    partial = path.with_suffix(f".{os.getpid()}.partial")
+    partial = path.with_suffix(f".{uuid4().hex}.partial")
     try:
         pq.write_table(table, partial)
         os.replace(partial, path)
@@ -114,18 +123,22 @@ def _read(path: Path) -> Any:
         return pq.read_table(path)
     except pa.ArrowInvalid:
         return None
+    except OSError as error:
+        # pyarrow raises it for damaged files too, then without a number.
+        if error.errno:
+            raise
+        return None
 
 
 def _same(path: Path, part: Any, own: dict[str, str], shares: int) -> None:
     """Refuses a part of another study."""
     metadata = {} if part is None else part.schema.metadata or {}
     known = {key.decode(): value.decode() for key, value in metadata.items()}
-    differs = [key for key in ABOUT[:-1] if known.get(key) != own[key]]
-    count = known.get("share", "").partition("/")[2]
-    if not differs and count == str(shares):
-        return
-    words = ", ".join(differs) or f"number of shares ({count}, not {shares})"
-    raise PartError(f"{path} is of another study: {words} differs; choose another folder, or remove its parts")
+    known["shares"] = known.get("share", "").partition("/")[2]
+    asked = {**{key: own[key] for key in ABOUT[:-1]}, "shares": str(shares)}
+    differs = [f"{key} is {known.get(key)}, not {value}" for key, value in asked.items() if known.get(key) != value]
+    if differs:
+        raise PartError(f"{path} is of another study: {'; '.join(differs)}. Choose another folder, or remove its parts")
 
 
 def _run(
@@ -133,7 +146,7 @@ def _run(
     asked: tuple[Any, ...],
     machine: Machine,
     out: str | Path,
-    catalogue: str | Path | Sequence[str | Path],
+    catalogue: Paths,
     drive: str | None,
     shares: int,
     steps: int,
@@ -142,8 +155,7 @@ def _run(
 ) -> Any:
     import pyarrow as pa
 
-    if not 1 <= shares <= 100_000:
-        raise ValueError(f"shares = {shares}; give 1 to 100000")
+    whole("shares", shares, 1, 100_000)
     folder = Path(out).expanduser()
     folder.mkdir(parents=True, exist_ok=True)
     catalogue = [catalogue] if isinstance(catalogue, str | Path) else catalogue
@@ -152,9 +164,8 @@ def _run(
     study = _study(machine, files, drive, steps)
     own = getattr(study, kind)(*asked, [2**62, 1])["about"]
     for path in sorted(folder.glob("part-*.parquet")):
-        if (part := _read(path)) is None:
-            path.unlink()
-        else:
+        # A damaged part is computed again.
+        if (part := _read(path)) is not None:
             _same(path, part, own, shares)
     tasks = [(kind, asked, machine, str(folder.resolve()), files, drive, steps, k, shares) for k in range(shares)]
     if client is None:
@@ -177,13 +188,8 @@ def _on(client: Any, tasks: list[tuple[Any, ...]], progress: Callable[[int, int]
     """Runs the tasks on a cluster; a task whose worker dies is run again elsewhere."""
     from distributed import as_completed
 
-    client.run_on_scheduler(_bear_failures)
-    futures = [client.submit(share, *task, pure=False, retries=10) for task in tasks]
+    futures = [client.submit(share, *task, pure=False, retries=3) for task in tasks]
     for done, future in enumerate(as_completed(futures), 1):  # type: ignore[no-untyped-call]
         future.result()
         if progress:
             progress(done, len(tasks))
-
-
-def _bear_failures(dask_scheduler: Any) -> None:
-    dask_scheduler.allowed_failures = max(10, dask_scheduler.allowed_failures)

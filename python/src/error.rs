@@ -32,7 +32,13 @@ fn of(py: Python<'_>, fault: &dyn Diagnostic) -> PyErr {
             parts.set_item("file", found.name())?;
             parts.set_item("line", found.line() + 1)?;
             parts.set_item("column", found.column() + 1)?;
-            parts.set_item("excerpt", String::from_utf8_lossy(found.data()).trim())?;
+            // The span has a part of the line only.
+            if let Ok(around) = source.read_span(place.inner(), 1, 1) {
+                let text = String::from_utf8_lossy(around.data());
+                let line = text.lines().nth(found.line() - around.line());
+                parts.set_item("excerpt", line.unwrap_or_default().trim())?;
+            }
+            parts.set_item("label", place.label())?;
         }
         let error = class.call((message,), Some(&parts))?;
         Ok(PyErr::from_value(error))

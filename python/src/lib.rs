@@ -7,7 +7,13 @@ mod study;
 
 use std::ffi::OsString;
 use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{self, RecvTimeoutError};
+use std::thread::Builder;
+use std::time::Duration;
 
+use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 
 use jred_cli::embedded;
@@ -15,17 +21,46 @@ use jred_cli::embedded;
 use error::{failed, refused};
 use machine::Machine;
 
-/// Runs a command of `jred` and returns its exit code, its standard output and its messages. `files` has texts that stand for files on disk.
+/// Runs a command of `jred` on a thread of its own, so that Ctrl-C is heeded, and returns its exit code, its standard output and its messages. `files` has texts that stand for files on disk.
 #[pyfunction]
 fn run(
     py: Python<'_>,
     words: Vec<String>,
     files: Vec<(PathBuf, String)>,
 ) -> PyResult<(u8, String, Vec<String>)> {
-    let ran = py.detach(|| embedded::run(&words, files));
-    ran.map(|ran| (ran.code, ran.out, ran.messages))
-        .map_err(|fault| refused(py, fault))
+    let stop = Arc::new(AtomicBool::new(false));
+    let own = Arc::clone(&stop);
+    let (sender, mut receiver) = mpsc::channel();
+    Builder::new().stack_size(STACK).spawn(move || {
+        // Nobody receives the result of an interrupted command.
+        let _ = sender.send(embedded::run(&words, files, &own));
+    })?;
+    loop {
+        let ran;
+        (ran, receiver) = py.detach(move || (receiver.recv_timeout(INTERVAL), receiver));
+        match ran {
+            Ok(ran) => {
+                return ran
+                    .map(|ran| (ran.code, ran.out, ran.messages))
+                    .map_err(|fault| refused(py, fault));
+            }
+            Err(RecvTimeoutError::Timeout) => py
+                .check_signals()
+                .inspect_err(|_| stop.store(true, Ordering::Relaxed))?,
+            Err(RecvTimeoutError::Disconnected) => {
+                return Err(PyRuntimeError::new_err(
+                    "the command panicked, which is a fault of jred; its message is on standard error",
+                ));
+            }
+        }
+    }
 }
+
+/// Time between two looks for Ctrl-C.
+const INTERVAL: Duration = Duration::from_millis(100);
+
+/// Stack of a command's thread: that of a program.
+const STACK: usize = 8 << 20;
 
 /// The command line: words behind `jred`; returns the exit code.
 #[pyfunction]

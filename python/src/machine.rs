@@ -3,14 +3,19 @@
 use std::path::PathBuf;
 
 use numpy::{IntoPyArray as _, PyArray1};
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use jred_analysis::checked;
 use jred_analysis::reduce::{Over, Request, Sets, reduce};
+use jred_file::argument::Argument;
+use jred_file::model::coordinate::Coordinate;
 use jred_file::model::machine::MachineFile;
+use jred_file::model::variator;
 use jred_file::number::columns::Columns;
 use jred_file::problem;
+use jred_file::text::key::{ACCELERATIONS, Kinds, SPEED};
 use jred_file::text::problem::{Problem, Result};
 use jred_file::units::literal::{self, Literal};
 use jred_sizing::study::edit::{Document, Edit};
@@ -30,6 +35,28 @@ pub(crate) struct Machine {
     #[pyo3(get)]
     folder: PathBuf,
     file: MachineFile,
+}
+
+/// A quantity: a number in SI, or a text with a unit.
+#[derive(FromPyObject)]
+enum Given {
+    Number(f64),
+    Text(String),
+}
+
+impl Given {
+    /// Its value in SI.
+    fn read(&self, name: &str, kinds: Kinds, coordinate: Coordinate) -> Result<f64> {
+        let value = match self {
+            Self::Number(value) => Ok(*value),
+            Self::Text(text) => Argument::any(kinds).read(text, coordinate),
+        };
+        match value {
+            Ok(value) if value.is_finite() => Ok(value),
+            Ok(value) => Err(problem!("`{name}` is {value}; it must be finite")),
+            Err(why) => Err(problem!("`{name}` cannot be used: {why}")),
+        }
+    }
 }
 
 impl Machine {
@@ -112,25 +139,40 @@ impl Machine {
         unit().map_err(|problem| failed(py, problem))
     }
 
-    #[pyo3(signature = (positions, over, state, links, points, forces, energy) -> "dict[str, numpy.typing.NDArray[numpy.float64]]")]
+    #[pyo3(signature = (positions, over, speed, acceleration, links, points, forces, energy) -> "dict[str, numpy.typing.NDArray[numpy.float64]]")]
     #[expect(clippy::too_many_arguments, reason = "the keywords of one call")]
     fn _curves<'py>(
         &self,
         py: Python<'py>,
         positions: usize,
         over: &str,
-        state: Option<[f64; 2]>,
+        speed: Option<Given>,
+        acceleration: Option<Given>,
         links: bool,
         points: bool,
         forces: bool,
         energy: bool,
     ) -> PyResult<Bound<'py, PyDict>> {
+        let coordinate = self.file.machine.mechanism().coordinate();
+        let given = |name: &str, value: Option<Given>, kinds| {
+            let value = value.map(|value| value.read(name, kinds, coordinate));
+            value.transpose().map_err(|problem| failed(py, problem))
+        };
+        let speed = given("speed", speed, SPEED)?;
+        let acceleration = given("acceleration", acceleration, ACCELERATIONS)?;
+        let state = speed.map(|speed| [speed, acceleration.unwrap_or(0.0)]);
+        let over = if over == "time" {
+            Over::Time
+        } else {
+            Over::Angle
+        };
+        if acceleration.is_some() && speed.is_none() || over == Over::Time && speed.is_some() {
+            return Err(PyValueError::new_err(
+                "give speed with acceleration, and neither with over=\"time\", in which the motion has both",
+            ));
+        }
         let request = Request {
-            over: if over == "time" {
-                Over::Time
-            } else {
-                Over::Angle
-            },
+            over,
             positions,
             sets: Sets {
                 curves: !(points || forces || energy),
@@ -143,8 +185,14 @@ impl Machine {
             state,
         };
         let columns = py.detach(|| {
-            if request.over == Over::Time && state.is_none() {
+            variator::refuse(&self.file, "curves")?;
+            if over == Over::Time {
                 self.file.required_motion()?;
+            }
+            if (forces || energy) && state.is_none() {
+                self.file.motion_or(
+                    "forces and energies need a speed: give one, for example speed=\"60 rpm\", or ",
+                )?;
             }
             reduce(&self.file, &request).map_err(Problem::of)
         });

@@ -4,10 +4,10 @@ use numpy::{IntoPyArray as _, PyArray1, PyReadonlyArray1};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
-use jred::number::Quantity as _;
+use jred::number::Quantity;
 use jred::{
-    Acceleration, Cubic, Harmonic, Image, ImageError, Phase, Q15, Q31, Quadratic, Rows16,
-    SliderCrankForm, Speed, Spline, Spline16, Torque,
+    Cubic, Harmonic, Image, ImageError, Phase, Q15, Q31, Quadratic, Rows16, SliderCrankForm,
+    Spline, Spline16,
 };
 
 /// A table image with its ticks.
@@ -39,7 +39,7 @@ fn wrong(error: impl std::fmt::Display) -> PyErr {
     PyValueError::new_err(error.to_string())
 }
 
-/// One-dimensional arrays of equal length, of the number type of the model.
+/// One-dimensional arrays of equal length, of the number type of the model; copies, because without the interpreter's lock Python may change them.
 macro_rules! taken {
     ($number:ty, $($name:ident)*) => {$(
         let $name: PyReadonlyArray1<'_, $number> = $name.extract().map_err(|_| {
@@ -48,7 +48,7 @@ macro_rules! taken {
                 std::any::type_name::<$number>()
             ))
         })?;
-        let $name = $name.as_slice().map_err(|_| wrong(concat!(stringify!($name), " must be contiguous")))?;
+        let $name = $name.as_slice().map_err(|_| wrong(concat!(stringify!($name), " must be contiguous")))?.to_vec();
     )*};
 }
 
@@ -63,43 +63,33 @@ fn equal(lengths: [usize; 3]) -> PyResult<()> {
 }
 
 macro_rules! tick {
-    (float, $format:ty, $image:expr, $py:expr, $phase:expr, $omega:expr, $third:expr, $inverse:expr) => {{
-        let (omega, third) = ($omega, $third);
-        taken!(f32, omega third);
-        equal([$phase.len(), omega.len(), third.len()])?;
-        let model = $image.any_model::<$format>().map_err(wrong)?;
-        let samples = $phase.iter().zip(omega).zip(third);
-        let found: Vec<f32> = $py.detach(|| samples.map(|((phase, omega), third)| {
-                let phase = Phase::from_bits(*phase);
-                if $inverse {
-                    model.torque(phase, *omega, *third)
-                } else {
-                    model.acceleration(phase, *omega, *third).value
-                }
-            })
-            .collect());
-        found.into_pyarray($py).into_any()
-    }};
-    (q31, $($rest:tt)*) => { tick!(@fixed i32, Q31, $($rest)*) };
-    (q15, $($rest:tt)*) => { tick!(@fixed i16, Q15, $($rest)*) };
-    (@fixed $bits:ty, $number:ty, $format:ty, $image:expr, $py:expr, $phase:expr, $omega:expr, $third:expr, $inverse:expr) => {{
+    (float, $($rest:tt)*) => { tick!(@each f32, |x| x, |x| x, $($rest)*) };
+    (q31, $($rest:tt)*) => { tick!(@each i32, Q31::from_bits, Q31::to_bits, $($rest)*) };
+    (q15, $($rest:tt)*) => { tick!(@each i16, Q15::from_bits, Q15::to_bits, $($rest)*) };
+    (@each $bits:ty, $number:expr, $raw:expr, $format:ty, $image:expr, $py:expr, $phase:expr, $omega:expr, $third:expr, $inverse:expr) => {{
         let (omega, third) = ($omega, $third);
         taken!($bits, omega third);
         equal([$phase.len(), omega.len(), third.len()])?;
         let model = $image.any_model::<$format>().map_err(wrong)?;
-        let samples = $phase.iter().zip(omega).zip(third);
-        let found: Vec<$bits> = $py.detach(|| samples.map(|((phase, omega), third)| {
-                let phase = Phase::from_bits(*phase);
-                let omega = Speed::<$number>::of(<$number>::from_bits(*omega));
-                let third = <$number>::from_bits(*third);
-                if $inverse {
-                    model.torque(phase, omega, Acceleration::of(third)).number().to_bits()
-                } else {
-                    model.acceleration(phase, omega, Torque::of(third)).value.number().to_bits()
-                }
-            })
-            .collect());
-        found.into_pyarray($py).into_any()
+        let samples = $phase.iter().zip(&omega).zip(&third);
+        let samples = samples.map(|((phase, omega), third)| {
+            (Phase::from_bits(*phase), $number(*omega), $number(*third))
+        });
+        if $inverse {
+            let torque = samples.map(|(phase, omega, alpha)| {
+                $raw(model.torque(phase, Quantity::of(omega), Quantity::of(alpha)).number())
+            });
+            let torque: Vec<$bits> = $py.detach(|| torque.collect());
+            torque.into_pyarray($py).into_any()
+        } else {
+            let outcome = samples.map(|(phase, omega, torque)| {
+                let found = model.acceleration(phase, Quantity::of(omega), Quantity::of(torque));
+                ($raw(found.value.number()), found.saturated)
+            });
+            let (value, saturated): (Vec<$bits>, Vec<bool>) = $py.detach(|| outcome.unzip());
+            let both = (value.into_pyarray($py), saturated.into_pyarray($py));
+            both.into_pyobject($py)?.into_any()
+        }
     }};
 }
 
@@ -117,7 +107,7 @@ impl Model {
         inverse: bool,
     ) -> PyResult<Bound<'py, PyAny>> {
         let image = self.image();
-        let phase = phase.as_slice().map_err(wrong)?;
+        let phase = phase.as_slice().map_err(wrong)?.to_vec();
         macro_rules! each {
             ($($name:literal: $format:ty, $kind:ident;)*) => {
                 match self.format {
@@ -221,8 +211,8 @@ impl Model {
         self.tick(py, &phase, omega, alpha, true)
     }
 
-    #[pyo3(signature = (phase: "numpy.typing.NDArray[numpy.uint32]", omega: "numpy.typing.NDArray[typing.Any]", torque: "numpy.typing.NDArray[typing.Any]") -> "numpy.typing.NDArray[typing.Any]")]
-    fn _acceleration<'py>(
+    #[pyo3(signature = (phase: "numpy.typing.NDArray[numpy.uint32]", omega: "numpy.typing.NDArray[typing.Any]", torque: "numpy.typing.NDArray[typing.Any]") -> "tuple[numpy.typing.NDArray[typing.Any], numpy.typing.NDArray[numpy.bool_]]")]
+    fn _outcome<'py>(
         &self,
         py: Python<'py>,
         phase: PyReadonlyArray1<'_, u32>,

@@ -1,13 +1,17 @@
 //! One machine text over one catalogue, evaluated for many values of its quantities.
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use jred_file::model::tolerance::Tolerance;
 use jred_file::problem;
+use jred_file::text::file::Files;
 use jred_file::text::problem::{Problem, Result};
+use jred_file::units::Fault;
 use jred_sizing::catalogue::{Catalogue, Sources};
 use jred_sizing::cell::Cell;
 use jred_sizing::select::filter::Filter;
@@ -16,12 +20,31 @@ use jred_sizing::study::axis::{Grid, Variation};
 use jred_sizing::study::chosen::ChosenDrive;
 use jred_sizing::study::common::Study as Common;
 use jred_sizing::study::grid::GridStudy;
-use jred_sizing::study::sensitivity::shares;
+use jred_sizing::study::sensitivity::used;
 use jred_sizing::study::task::RowSource;
 use jred_sizing::study::tolerance::{Samples, Scatter};
 
 use crate::error::failed;
 use crate::machine::{edits, literals};
+
+/// A folder that records which of its files were read.
+#[derive(Debug)]
+struct Recorded {
+    folder: PathBuf,
+    read: Arc<Mutex<BTreeSet<PathBuf>>>,
+}
+
+impl Files for Recorded {
+    fn shown(&self, file: &str) -> String {
+        self.folder.shown(file)
+    }
+
+    fn text(&self, file: &str, limit: u64) -> std::result::Result<String, Fault> {
+        let mut read = self.read.lock().unwrap_or_else(PoisonError::into_inner);
+        read.insert(self.folder.join(file));
+        self.folder.text(file, limit)
+    }
+}
 
 /// A machine over a catalogue.
 #[pyclass(frozen, module = "jred._jred")]
@@ -29,6 +52,8 @@ pub(crate) struct Study {
     common: Common,
     /// The drive that is judged; `None`: the best of the catalogue for each machine.
     drive: Option<ChosenDrive>,
+    /// The files that the machine names.
+    read: Arc<Mutex<BTreeSet<PathBuf>>>,
 }
 
 /// The name of a drive, whether it satisfies every rule, and of each rule the used share, and whether it is a limit or only warns.
@@ -41,7 +66,7 @@ impl Study {
         let machine = self.common.machine(&edits(&read))?;
         let (site, rules) = (&machine.file.site, &machine.file.rules);
         let named = |findings, name: String| {
-            let used = shares(rules, &findings).into_iter();
+            let used = used(rules, &findings);
             let holds = jred_sizing::judge::broken(rules, &findings).is_none();
             (
                 name,
@@ -98,12 +123,7 @@ impl Study {
         ];
         let both = PyDict::new(py);
         both.set_item("columns", found)?;
-        both.set_item(
-            "about",
-            about
-                .into_iter()
-                .collect::<std::collections::BTreeMap<_, _>>(),
-        )?;
+        both.set_item("about", about.into_iter().collect::<BTreeMap<_, _>>())?;
         Ok(both)
     }
 }
@@ -127,14 +147,30 @@ impl Study {
                 ..Sources::default()
             };
             let catalogue = Catalogue::open(&sources).map_err(|error| problem!("{error}"))?;
-            let common = Common::new(name, text, Box::new(folder), catalogue, None, steps)?;
+            let read = Arc::default();
+            let files = Recorded {
+                folder,
+                read: Arc::clone(&read),
+            };
+            let common = Common::new(name, text, Box::new(files), catalogue, None, steps)?;
             let drive = match drive {
                 Some(name) => Some(ChosenDrive::of(&common.drive(name)?.1, &common.catalogue)),
                 None => None,
             };
-            Ok(Self { common, drive })
+            Ok(Self {
+                common,
+                drive,
+                read,
+            })
         };
         py.detach(made).map_err(|problem| failed(py, problem))
+    }
+
+    /// The files that were read for the machine, besides its own.
+    #[getter]
+    fn files(&self) -> Vec<PathBuf> {
+        let read = self.read.lock().unwrap_or_else(PoisonError::into_inner);
+        read.iter().cloned().collect()
     }
 
     /// The drive's name, whether it satisfies every rule, and the share of each limit that it uses, for these values of quantities.

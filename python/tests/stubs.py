@@ -1,17 +1,21 @@
 """Writes the stubs.
 
-jred/_answers.py has the types of the commands' answers, from the JSON schemas in docs/schemas; jred/_jred.pyi is the
-native part, from what ``maturin generate-stubs --out FOLDER`` wrote.
+jred/_answers.py has the types of the commands' answers, from the JSON schemas in docs/schemas; jred/_options.py their
+options, from the help of the commands; jred/_jred.pyi is the native part, from what ``maturin generate-stubs --out
+FOLDER`` wrote.
 ``python tests/stubs.py FOLDER`` writes the files, ``python tests/stubs.py FOLDER --check`` compares them.
 """
 
 from __future__ import annotations
 
 import json
+import re
 import sys
+from keyword import iskeyword
 from pathlib import Path
 from typing import Any
 
+from jred import _jred
 from jred._result import _attribute
 
 HERE = Path(__file__).parents[1]
@@ -103,6 +107,33 @@ def text() -> str:
     return head + "\n" + "\n\n".join(parts) + "\n"
 
 
+#: Commands with options as keywords.
+COMMANDS = ("balance", "catalogue list", "check", "export", "fastest", "gentlest", "require", "sensitivity", "simulate",
+            "size", "steady")  # fmt: skip
+
+
+def options() -> str:
+    """The keywords of each command; its input and its output are no keywords."""
+    head = (
+        '"""Options of the commands as keywords. Written by stubs.py from their help."""\n\n'
+        "from __future__ import annotations\n\nfrom collections.abc import Sequence\nfrom pathlib import Path\n"
+        "from typing import TypedDict\n\nOption = str | float | Path | Sequence[str | float | Path] | None\n"
+    )
+    classes = []
+    for command in COMMANDS:
+        lines = [f"class {camel(command.replace(' ', '-'))}Options(TypedDict, total=False):"]
+        shown = _jred.run([*command.split(), "--help"], [])[1]
+        for name, value, about in re.findall(r"^ +(?:-\w, )?--([a-z-]+)( <.+>)?\n +(\S.*)", shown, re.MULTILINE):
+            if name not in ("help", "out") and (name != "format" or command == "export"):
+                name = name.replace("-", "_")
+                lines += [
+                    f"    {name}{'_' * iskeyword(name)}: {'Option' if value else 'bool'}",
+                    f'    """{about.rstrip(".")}."""',
+                ]
+        classes.append("\n".join(lines))
+    return head + "\n" + "\n\n".join(classes) + "\n"
+
+
 def native(folder: Path) -> str:
     """The generated stub, with the modules that its quoted types name."""
     generated = (folder / "jred" / "_jred.pyi").read_text(encoding="utf-8")
@@ -112,7 +143,7 @@ def native(folder: Path) -> str:
 
 def main() -> None:
     folder = Path(sys.argv[1])
-    written = {"_answers.py": text(), "_jred.pyi": native(folder)}
+    written = {"_answers.py": text(), "_options.py": options(), "_jred.pyi": native(folder)}
     for name, content in written.items():
         path = HERE / "jred" / name
         if "--check" not in sys.argv:

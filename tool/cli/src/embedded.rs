@@ -2,6 +2,8 @@
 
 use std::ffi::OsString;
 use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 
 use jred_file::text::disk;
 use jred_report::units::show_in;
@@ -38,11 +40,27 @@ fn behind_name(words: impl IntoIterator<Item = OsString>) -> impl Iterator<Item 
     std::iter::once("jred".into()).chain(words)
 }
 
-/// Runs the command with these words behind `jred`. Each of `files` stands for the file at its path.
+/// A refused command line: its tips are the cure, the usage is left out.
+fn refusal(text: &str) -> Report {
+    let parts = || text.trim().split("\n\n").map(str::trim);
+    let message = parts().next().unwrap_or(text);
+    let message = message.trim_start_matches("error: ");
+    let tips: Vec<&str> = parts().filter_map(|part| part.strip_prefix("tip: ")).collect();
+    if tips.is_empty() {
+        return miette!("{message}");
+    }
+    miette!(help = tips.join("; "), "{message}")
+}
+
+/// Runs the command with these words behind `jred`. Each of `files` stands for the file at its path; `stop` ends the rows of a study.
 ///
 /// # Errors
 /// Those of the command; a wrong command line.
-pub fn run(words: &[String], files: Vec<(PathBuf, String)>) -> Result<Ran, Report> {
+pub fn run(
+    words: &[String],
+    files: Vec<(PathBuf, String)>,
+    stop: &Arc<AtomicBool>,
+) -> Result<Ran, Report> {
     let cli = match Cli::read(behind_name(words.iter().map(OsString::from))) {
         Ok(cli) => cli,
         Err(error) if error.exit_code() == 0 => {
@@ -53,13 +71,10 @@ pub fn run(words: &[String], files: Vec<(PathBuf, String)>) -> Result<Ran, Repor
             });
         }
         Err(error) => {
-            let text = error.render().to_string();
-            let text = text.trim().trim_start_matches("error: ");
-            let hint = "\n\nFor more information, try '--help'.";
-            return Err(miette!("{}", text.strip_suffix(hint).unwrap_or(text)));
+            return Err(refusal(&error.render().to_string()));
         }
     };
-    let (done, kept) = terminal::kept(|| {
+    let (done, kept) = terminal::kept(stop, || {
         show_in(cli.units.unwrap_or_default());
         disk::with_texts(files, || commands::run(&cli.command))
     });

@@ -6,7 +6,8 @@
 use std::cell::RefCell;
 use std::collections::BTreeSet;
 use std::io::{ErrorKind, IsTerminal as _, Write as _};
-use std::sync::{Mutex, PoisonError};
+use std::sync::atomic::AtomicBool;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use miette::{
     GraphicalReportHandler, GraphicalTheme, IntoDiagnostic as _, Report, Result, WrapErr as _,
@@ -27,24 +28,41 @@ pub struct Kept {
     pub out: String,
     /// Warnings and messages.
     pub messages: Vec<String>,
+    stop: Arc<AtomicBool>,
 }
 
 thread_local! {
     static KEPT: RefCell<Option<Kept>> = const { RefCell::new(None) };
 }
 
-/// Runs a command of which nothing is printed, and returns what it would print.
-pub fn kept<T>(run: impl FnOnce() -> T) -> (T, Kept) {
-    KEPT.set(Some(Kept::default()));
+/// Runs a command of which nothing is printed, and returns what it would print. `stop` ends its rows.
+pub fn kept<T>(stop: &Arc<AtomicBool>, run: impl FnOnce() -> T) -> (T, Kept) {
+    /// Prints again, even after a panic.
+    struct End;
+    impl Drop for End {
+        fn drop(&mut self) {
+            KEPT.set(None);
+            busy::silence(false);
+        }
+    }
+    let _end = End;
+    KEPT.set(Some(Kept {
+        stop: Arc::clone(stop),
+        ..Kept::default()
+    }));
     busy::silence(true);
     let done = run();
-    busy::silence(false);
     (done, KEPT.take().unwrap_or_default())
 }
 
 /// Whether output is kept: the command runs in another program.
-pub fn is_kept() -> bool {
+fn is_kept() -> bool {
     KEPT.with_borrow(Option::is_some)
+}
+
+/// The flag by which another program ends the rows of this command; `None` in a terminal.
+pub fn stop_of_program() -> Option<Arc<AtomicBool>> {
+    KEPT.with_borrow(|kept| kept.as_ref().map(|kept| Arc::clone(&kept.stop)))
 }
 
 /// Keeps an output, if outputs are kept.

@@ -150,7 +150,9 @@ impl<'m> Pass<'m> {
         if ahead[0] < 0.0 && ahead[1] > 0.0 {
             let way = |t: f64| Ok::<_, Infallible>(self.after(t).0 - distance);
             let Ok(time) = zero(way, [low, high], ahead, 1e-15);
-            return time;
+            if self.motion.at(time).omega != 0.0 {
+                return time;
+            }
         }
         let before = |t: f64| Ok::<_, Infallible>(self.after(t).0 < distance);
         let Ok([_, late]) = sides(before, low, high);

@@ -19,6 +19,7 @@ use jred_file::model::site::Site;
 use jred_file::model::variator;
 use jred_file::plain;
 use jred_file::read;
+use jred_file::text::disk;
 use jred_report::list::aas::{SizedAxis, environment};
 use jred_report::list::listing::{Asked, List, Listing};
 use jred_report::list::project::{AxisView, ProjectView};
@@ -140,7 +141,7 @@ fn sized<'a>(view: &'a AxisView<'a>) -> SizedAxis<'a> {
 
 /// The machine file of an axis, in the surroundings of the project unless it has its own.
 fn read_axis(path: &Path, axis: &ProjectAxis, project: &Project) -> Result<MachineFile> {
-    if !path.exists() {
+    if !disk::exists(path) {
         return Err(miette!(
             help = "the path counts from the folder of the project file: correct `machine` of this [[axis]]",
             "axis \"{}\" of {} names the machine file {}, which does not exist",

@@ -77,10 +77,11 @@ pub fn run(
     plan: &Plan,
     seen: &mut dyn FnMut(u64, &[Cell]),
 ) -> Result<RunEnd> {
-    STOP.store(false, Ordering::Relaxed);
-    if !terminal::is_kept() {
+    let program = terminal::stop_of_program();
+    if program.is_none() {
         heed_signals();
     }
+    let stop = program.as_deref().unwrap_or(&STOP);
     let mut header = task.header();
     header.shard = plan.shard;
     let shard = header.share();
@@ -107,13 +108,16 @@ pub fn run(
         }
     };
     busy::rows(done, of);
-    let bar = bar(of, done);
+    let bar = match program {
+        Some(_) => ProgressBar::hidden(),
+        None => bar(of, done),
+    };
     let block = BLOCK * rayon::current_num_threads() as u64;
-    while done < of && !STOP.load(Ordering::Relaxed) {
+    while done < of && !stop.load(Ordering::Relaxed) {
         let rows: Vec<Option<Vec<Cell>>> = (done..of.min(done + block))
             .into_par_iter()
             .map(|k| {
-                let row = (!STOP.load(Ordering::Relaxed)).then(|| task.row(shard.row(k)));
+                let row = (!stop.load(Ordering::Relaxed)).then(|| task.row(shard.row(k)));
                 bar.inc(1);
                 busy::row();
                 row

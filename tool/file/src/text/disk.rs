@@ -8,6 +8,7 @@ use std::collections::HashMap;
 use std::fs::{File, Metadata};
 use std::io::{Error, ErrorKind, Read, Result, Stdin};
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{LazyLock, Mutex, PoisonError, mpsc};
 use std::time::Duration;
 
@@ -44,13 +45,61 @@ thread_local! {
     static TEXTS: RefCell<Vec<(PathBuf, String)>> = const { RefCell::new(Vec::new()) };
 }
 
-/// Runs `work`, for which each of `texts` stands for the file at its path.
+/// Runs `work`, for which each of `texts` stands for the file at its path on this thread. Files read before count as read no longer, unless
+/// another thread is at such a work.
 pub fn with_texts<T>(texts: Vec<(PathBuf, String)>, work: impl FnOnce() -> T) -> T {
-    forget();
-    let before = TEXTS.replace(texts);
-    let done = work();
-    TEXTS.set(before);
-    done
+    /// Ends the work, even by a panic.
+    struct End(Vec<(PathBuf, String)>);
+    impl Drop for End {
+        fn drop(&mut self) {
+            TEXTS.set(std::mem::take(&mut self.0));
+            RUNNING.fetch_sub(1, Ordering::AcqRel);
+        }
+    }
+    if RUNNING.fetch_add(1, Ordering::AcqRel) == 0 {
+        FILES.lock().unwrap_or_else(PoisonError::into_inner).clear();
+    }
+    let _end = End(TEXTS.replace(texts));
+    work()
+}
+
+/// How many threads are at a work with texts.
+static RUNNING: AtomicUsize = AtomicUsize::new(0);
+
+/// A folder with the texts of this thread, for any thread.
+#[derive(Clone, Debug)]
+pub struct Folder {
+    path: PathBuf,
+    texts: Vec<(PathBuf, String)>,
+}
+
+impl Folder {
+    /// The folder at this path.
+    pub fn new(path: PathBuf) -> Self {
+        Self {
+            path,
+            texts: TEXTS.with_borrow(Clone::clone),
+        }
+    }
+}
+
+impl Files for Folder {
+    fn shown(&self, file: &str) -> String {
+        self.path.shown(file)
+    }
+
+    fn text(&self, file: &str, limit: u64) -> std::result::Result<String, Fault> {
+        let path = self.path.join(file);
+        match self.texts.iter().find(|(own, _)| *own == path) {
+            Some((_, text)) => Ok(text.clone()),
+            None => self.path.text(file, limit),
+        }
+    }
+}
+
+/// Whether there is a file at `path`, or a text that stands for it.
+pub fn exists(path: &Path) -> bool {
+    standing_in(path).is_some() || path.exists()
 }
 
 /// The text that stands for the file at `path`.
@@ -68,6 +117,9 @@ pub(crate) fn read(path: &Path, limit: u64) -> std::result::Result<String, Fault
 
 fn bytes_of(path: &Path, limit: u64) -> std::result::Result<Vec<u8>, Fault> {
     if let Some(text) = standing_in(path) {
+        if let Ok(metadata) = path.metadata() {
+            remember(path, &metadata);
+        }
         return Ok(text);
     }
     bytes(path, limit).map_err(|error| fault(&error, path))
@@ -206,11 +258,6 @@ fn remember(path: &Path, metadata: &Metadata) {
         let mut files = FILES.lock().unwrap_or_else(PoisonError::into_inner);
         files.entry(identity).or_insert_with(|| path.to_owned());
     }
-}
-
-/// Another command begins: it has read nothing.
-fn forget() {
-    FILES.lock().unwrap_or_else(PoisonError::into_inner).clear();
 }
 
 /// The path by which this process has read the file at `path`, if it has.

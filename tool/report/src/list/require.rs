@@ -267,7 +267,7 @@ impl RequirementView<'_> {
             format!(", {} times per hour", short(stops))
         });
         format!(
-            "; work of a stop without supply at least {} J if it closes after {first} ms, {} J after {last} ms{often}",
+            "; work of a stop without supply, slipping with this torque, at least {} J if it closes after {first} ms, {} J after {last} ms{often}",
             short(up(soon)),
             short(up(late))
         )
@@ -407,8 +407,12 @@ impl RequirementView<'_> {
         if !limit.is_set() {
             answer.sentence(format!("The rule set has no limit for the {inertia} ratio: the smallest {rotor} is not limited."));
         }
-        if self.inquiry.file.site.drive_stop.is_some() {
-            answer.sentence("The brake resistor takes the stop by the drive, drive_stop of [duty], with the least peak torque; a stronger motor brakes with more power.");
+        if let Some(found) = self.described() {
+            match found.regeneration.stops {
+                Some(true) => answer.sentence("The brake resistor takes the stop by the drive, drive_stop of [duty], with the least peak torque; a stronger motor brakes with more power."),
+                Some(false) => answer.warning("drive_stop of [duty]: with this share of the least peak torque the drive does not stop the machine, and the resistor takes the cycle alone; give a larger share, or ask for a stronger motor".to_owned()),
+                None => {}
+            }
         }
         answer.sentence(
             "Not contained: temperatures, and losses, friction and saturation of the motor. Check the offers: add them to a catalogue, and run `jred size FILE --catalogue FOLDER`.",

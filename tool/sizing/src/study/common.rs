@@ -15,6 +15,8 @@ use jred_analysis::duty::{Duty, Sampling};
 use jred_file::model::machine::MachineFile;
 use jred_file::model::rules::RuleSet;
 use jred_file::read;
+#[cfg(feature = "fs")]
+use jred_file::text::disk;
 use jred_file::text::file::Files;
 
 /// The common part of a study.
@@ -70,7 +72,7 @@ impl Study {
         sampling: impl Into<Sampling>,
     ) -> Result<Self> {
         let name = read::name(path);
-        let files = Box::new(read::folder(path).to_owned());
+        let files = Box::new(disk::Folder::new(read::folder(path).to_owned()));
         Self::new(name, read::text(path)?, files, catalogue, rules, sampling)
     }
 

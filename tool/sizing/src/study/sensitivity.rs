@@ -128,14 +128,19 @@ pub struct Reach {
     pub most: f64,
 }
 
-/// Share of the limit (or of the warning limit, if there is no other) of every rule that has a limit and can be checked, except where the limit is
-/// zero.
-pub fn shares(rules: &RuleSet, findings: &Findings) -> Vec<(Rule, f64)> {
+/// Share of the limit (or of the warning limit, if there is no other) of every rule that has a limit and can be checked; infinite if a limit of zero
+/// is violated.
+pub fn used(rules: &RuleSet, findings: &Findings) -> impl Iterator<Item = (Rule, f64)> {
     let known = findings
         .iter()
         .filter(|(rule, finding)| finding.is_known() && rules.limit(*rule) != Limit::default());
-    let used = known.map(|(rule, finding)| (rule, rules.use_shown(rule, finding)));
-    used.filter(|(_, used)| used.is_finite()).collect()
+    known.map(|(rule, finding)| (rule, rules.use_shown(rule, finding)))
+}
+
+/// The shares that can be compared.
+fn shares(rules: &RuleSet, findings: &Findings) -> Vec<(Rule, f64)> {
+    let finite = used(rules, findings).filter(|(_, used)| used.is_finite());
+    finite.collect()
 }
 
 impl Sensitivity {

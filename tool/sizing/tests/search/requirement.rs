@@ -464,3 +464,25 @@ fn the_resistor_takes_a_stop_by_the_drive() {
     assert!(without.0 < 0.5 * without.1, "{without:?}");
     assert!((with.0 / with.1 - 1.0).abs() < 1e-9, "{with:?}");
 }
+
+/// A share of the peak torque that does not hold the load stops nothing: the resistor takes the cycle alone.
+#[test]
+fn a_drive_that_cannot_stop_the_load_is_told() {
+    const SUPPLY: &str = "\n[supply]\nmains_voltage = \"400 V\"\nchopper_voltage = \"760 V\"\nmax_voltage = \"800 V\"\n";
+    let back = |duty: &str| {
+        let case = case(&format!("{}{SUPPLY}{duty}", HOIST.split("[supply]").next().unwrap_or_default()), 500);
+        inquiry(&case).requirement(Some(10.0)).regeneration
+    };
+    let [none, weak, strong] = [
+        "",
+        "[duty]\ndrive_stop = \"2 %\"\n",
+        "[duty]\ndrive_stop = \"90 %\"\n",
+    ]
+    .map(back);
+    assert_eq!((none.stops, weak.stops, strong.stops), (None, Some(false), Some(true)));
+    assert!(none.resistor.is_some());
+    assert_eq!(weak.resistor, none.resistor);
+    assert!(strong.resistor.map(|need| need.peak) > none.resistor.map(|need| need.peak));
+    // The pulse is that of the cycle.
+    assert_eq!([weak.pulse, strong.pulse], [none.pulse; 2]);
+}

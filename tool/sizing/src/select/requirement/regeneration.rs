@@ -28,6 +28,8 @@ pub struct Regeneration {
     pub motoring_peak: f64,
     /// The brake resistor, if `[supply]` gives the voltages and the bus needs one.
     pub resistor: Option<Need>,
+    /// Whether the drive with the least peak torque stops the machine with its share of it (`drive_stop` of `[duty]`); `None` without the key.
+    pub stops: Option<bool>,
 }
 
 impl Inquiry<'_> {
@@ -57,6 +59,7 @@ impl Inquiry<'_> {
                 }),
                 (a, b) => a.or(b),
             },
+            stops: first.stops.min(second.stops),
         }
     }
 
@@ -71,7 +74,7 @@ impl Inquiry<'_> {
         let ratio = ratio.unwrap_or(1.0);
         let stop = bus::stop(self.cycle, &coefficients, ratio, &limits, site.drive_stop);
         let curve = bus::power(self.cycle, &coefficients, ratio, &motor, &limits, None);
-        let curve = curve.with_stop(stop);
+        let stops = site.drive_stop.map(|_| stop.energy.is_finite());
         let [_, energy] = self.cycle.energies(&coefficients, ratio);
         let [least, most] = curve.extremes();
         let data = BusData::new(&site.supply, site.highest_supply(), None, &motor);
@@ -91,7 +94,15 @@ impl Inquiry<'_> {
             peak: (-least).max(0.0),
             pulse: Need::of(&empty, &curve).map_or(0.0, |need| need.pulse),
             motoring_peak: most.max(0.0),
-            resistor: Need::of(&data, &curve).filter(|_| !data.regenerative),
+            resistor: Need::of(
+                &data,
+                &match stops {
+                    Some(true) => curve.with_stop(stop),
+                    _ => curve,
+                },
+            )
+            .filter(|_| !data.regenerative),
+            stops,
         }
     }
 }

@@ -39,10 +39,10 @@ impl Certainty {
 
     /// The certainty of a drive with this outcome.
     pub fn of(drive: &Drive, outcome: &Outcome) -> Self {
-        let gearbox = drive.gearbox;
+        let lacks = |rule| outcome.not_checked.has(rule);
         let incomplete = drive.motor.lacks_amplifier
-            || outcome.not_checked.has(Rule::BrakeTorque)
-            || gearbox.is_some_and(|gearbox| gearbox.peak_torque.is_none());
+            || lacks(Rule::BrakeTorque)
+            || lacks(Rule::GearboxPeak);
         if outcome.voltage_unknown {
             return Self::Voltage;
         }
