@@ -33,7 +33,7 @@ fn by_size(Vocabulary { torque, .. }: &Vocabulary) -> String {
 
 /// The first criterion of every ranking.
 const FIRST_OF_ALL: &str = "drives with the makers' own figures first, then with figures from others, then those for \
-                            which the catalogue lacks the amplifier, a brake that is needed or the peak torque of the gearbox, then with an amplifier that no source pairs with the motor, then of unknown voltage; within each group ";
+                            which the catalogue lacks the amplifier, a brake that is needed or a limit of the gearbox, then with an amplifier that no source pairs with the motor, then of unknown voltage; within each group ";
 
 /// Smallest number of motors per unit of parallel work.
 const SHARE: usize = 16;

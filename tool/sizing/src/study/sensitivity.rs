@@ -138,7 +138,7 @@ pub fn used(rules: &RuleSet, findings: &Findings) -> impl Iterator<Item = (Rule,
 }
 
 /// The shares that can be compared.
-fn shares(rules: &RuleSet, findings: &Findings) -> Vec<(Rule, f64)> {
+pub fn shares(rules: &RuleSet, findings: &Findings) -> Vec<(Rule, f64)> {
     let finite = used(rules, findings).filter(|(_, used)| used.is_finite());
     finite.collect()
 }
