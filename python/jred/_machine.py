@@ -6,6 +6,7 @@ import json
 import tempfile
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from threading import Lock
 from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
@@ -13,7 +14,7 @@ import numpy.typing as npt
 
 from . import _jred
 from ._errors import JredError
-from ._result import Result, run, whole, words_of
+from ._result import run, whole, words_of
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -73,13 +74,28 @@ def _toml(data: Mapping[str, Any], path: str = "") -> str:
 
 
 def _key(key: str) -> str:
+    if not isinstance(key, str):
+        raise TypeError(f"{key!r} is no key of a machine; keys are texts")
     return key if key.replace("_", "").replace("-", "").isalnum() and key.isascii() else json.dumps(key)
+
+
+def _plain(name: str, value: Value) -> str | float:
+    """A text, or a finite number of Python."""
+    if isinstance(value, str):
+        return value
+    number: object = value.item() if isinstance(value, np.generic | np.ndarray) and value.ndim == 0 else value
+    if isinstance(number, bool) or not isinstance(number, int | float):
+        raise TypeError(f'{name} = {value!r}; give a text with a unit, such as "60 kg", or a number')
+    if not np.isfinite(number):
+        raise ValueError(f"{name} = {number}; give a finite number")
+    return number
 
 
 class Machine:
     """A machine file, read and checked; it cannot be changed, ``set`` returns another one.
 
-    ``source``: the path of a machine file, its text, or a dict of its tables, in which quantities are texts with units.
+    ``source``: the path of a machine file, its text of several lines, or a dict of its tables, in which quantities are
+    texts with units. Files that a text or dict names are in ``folder``; ``name`` is for messages.
     Raises JredError with file, line, quantity and cure; OSError for a file that cannot be read.
     """
 
@@ -93,9 +109,15 @@ class Machine:
         elif isinstance(source, Path) or (source.strip() and "\n" not in source):
             path = Path(source).expanduser()
             # Line ends stay as they are: the digests are those of the command.
-            text = path.read_bytes().decode("utf-8")
+            try:
+                text = path.read_bytes().decode("utf-8")
+            except UnicodeDecodeError:
+                run("check", path)
+                raise
         else:
             text, path = source, None
+        if name and name != Path(name).name:
+            raise ValueError(f"name = {name!r}; give a name without a folder, and the folder with folder=")
         if path is not None:
             name, folder = name or path.name, path.parent
         self._own = _jred.read(name or "machine.toml", text, Path(folder).expanduser().resolve())
@@ -148,18 +170,12 @@ class Machine:
 
     def _in_unit(self, path: str, value: Value) -> str:
         """A value as text; a number gets the unit of the file."""
-        if isinstance(value, str):
-            return value
-        number: object = value.item() if isinstance(value, np.generic | np.ndarray) and value.ndim == 0 else value
-        if isinstance(number, bool) or not isinstance(number, int | float):
-            raise TypeError(
-                f'{path} = {value!r}; give a text with a unit, such as "60 kg", or a number in the unit of the file'
-            )
-        if not np.isfinite(number):
-            raise ValueError(f"{path} = {number}; give a finite number")
+        plain = _plain(path, value)
+        if isinstance(plain, str):
+            return plain
         if path not in self._units:
             self._units[path] = self._own._unit(path)
-        return f"{number!r} {self._units[path]}".strip()
+        return f"{plain!r} {self._units[path]}".strip()
 
     def curves(
         self,
@@ -183,9 +199,12 @@ class Machine:
         if over not in ("angle", "time"):
             raise ValueError(f'over = {over!r}; write "angle" or "time"')
         whole("positions", positions, 2, 1_000_000)
+        speed, acceleration = (
+            None if value is None else _plain(name, value) for name, value in [("speed", speed), ("acceleration", acceleration)]
+        )
         return self._own._curves(positions, over, speed, acceleration, links, points, forces, energy)
 
-    def run(self, command: str, *arguments: str | Path, **options: object) -> Result:
+    def run(self, command: str, *arguments: str | Path, **options: object) -> Any:
         """Runs a command of ``jred`` with this machine, such as ``machine.run("size", top=3)``: its JSON as an object."""
         path = Path(self._own.folder) / self.name
         return run(command, path, *arguments, files={path: self.text}, **options)
@@ -251,15 +270,15 @@ def _restored(name: str, text: str, folder: str) -> Machine:
 
 
 class Model:
-    """Ticks over a table image, bit for bit those of firmware.
+    """Ticks over a table image, or over the file of one, bit for bit those of firmware.
 
     Numbers are float32, or the raw int32 of Q31 and int16 of Q15 in the machine units of ``scale``.
     """
 
     __slots__ = ("_image", "_own")
 
-    def __init__(self, image: bytes) -> None:
-        self._image = bytes(image)
+    def __init__(self, image: bytes | str | Path) -> None:
+        self._image = Path(image).read_bytes() if isinstance(image, str | Path) else bytes(image)
         self._own = _jred.Model(self._image)
 
     def __reduce__(self) -> tuple[object, ...]:
@@ -283,7 +302,7 @@ class Model:
 
     @property
     def scale(self) -> tuple[float, float, float]:
-        """Torque (N m), speed (rad/s) and acceleration (rad/s²) that are 1.0, the raw 2³¹ or 2¹⁵."""
+        """The torque (N m), speed (rad/s) and acceleration (rad/s²) that are 1.0, the raw number 2³¹ or 2¹⁵."""
         torque, speed, acceleration = self._own.scale
         return torque, speed, acceleration
 
@@ -295,6 +314,14 @@ class Model:
 
     def __repr__(self) -> str:
         return f"Model({self.format}, {len(self._image)} bytes)"
+
+    def raw(self, values: npt.ArrayLike, base: float) -> npt.NDArray[Any]:
+        """Raw numbers of fixed point of SI values over a base of ``scale``, rounded and saturated; float32 as they are."""
+        if self.dtype.kind == "f":
+            return np.asarray(values, dtype=np.float32)
+        limits = np.iinfo(self.dtype)
+        raw = np.rint(np.asarray(values, dtype=np.float64) / base * -float(limits.min))
+        return raw.clip(limits.min, limits.max).astype(self.dtype)
 
     def phase(self, position: npt.ArrayLike) -> npt.NDArray[np.uint32]:
         """Phase words of positions of the drive link (rad, or m)."""
@@ -325,13 +352,17 @@ class Model:
             raise TypeError(f"phase has {arrays[0].dtype}; phase words are uint32: use model.phase(position)")
         for name, values in numbers.items():
             array = np.asarray(values)
+            if array.dtype.kind not in "fiu":
+                raise TypeError(f"{name} has {array.dtype}; give numbers")
             if self.dtype.kind == "f":
                 with np.errstate(over="ignore"):
                     array = array.astype(np.float32)
                 if not np.isfinite(array).all():
                     raise ValueError(f"{name} has numbers that are not finite in float32")
-            elif array.dtype != self.dtype:
-                raise TypeError(f"{name} has {array.dtype}; this model takes the raw {self.dtype} of {self.format}")
+            elif array.dtype.kind == "f" or not np.array_equal(array.astype(self.dtype), array):
+                raise TypeError(f"{name} is not raw {self.dtype}, which this model takes: use model.raw")
+            else:
+                array = array.astype(self.dtype)
             arrays.append(array)
         shape = np.broadcast_shapes(*(array.shape for array in arrays))
         return shape, [np.ascontiguousarray(np.broadcast_to(array, shape).ravel()) for array in arrays]
@@ -348,31 +379,35 @@ def catalogue(table: str = "motors", **options: Unpack[CatalogueListOptions]) ->
 def _stamp(path: str) -> tuple[tuple[str, int, int], ...]:
     """Names, times and sizes of the files of a catalogue: a changed one is read again."""
     own = Path(path)
-    files = sorted(own.rglob("*")) if own.is_dir() else [own] if own.exists() else []
-    return tuple((str(file), file.stat().st_mtime_ns, file.stat().st_size) for file in files)
+    files = sorted(own.rglob("*")) if own.is_dir() else [own]
+    stats = ((str(file), file.stat()) for file in files if file.exists())
+    return tuple((name, stat.st_mtime_ns, stat.st_size) for name, stat in stats)
 
 
-#: The studies that were made last, each with the stamps of the files that were read for it.
-_KEPT: dict[object, tuple[_jred.Study, object]] = {}
+#: The studies that were made last.
+_KEPT: dict[object, _jred.Study] = {}
+_KEEPING = Lock()
 
 
 def _study(machine: Machine, catalogue: Paths, drive: str | None, steps: int) -> _jred.Study:
     """A machine over a catalogue, read once."""
     whole("steps", steps, 16, 200_000)
+    if not isinstance(drive, str | None):
+        raise TypeError(f'drive = {drive!r}; give its name, such as "MOTOR+GEARBOX"')
     files = tuple(map(str, [catalogue] if isinstance(catalogue, str | Path) else catalogue))
-    stamps = tuple(map(_stamp, files))
-    key = (machine, files, drive, steps, stamps)
-    study, named = _KEPT.get(key, (None, None))
-    if study is None or named != tuple(_stamp(str(path)) for path in study.files):
+    key = (machine, files, drive, steps, tuple(map(_stamp, files)))
+    study = _KEPT.get(key)
+    if study is None or not study.is_current():
         study = _jred.Study(machine.name, machine.text, machine._own.folder, [Path(path) for path in files], drive, steps)
-        while len(_KEPT) >= 16:
-            _KEPT.pop(next(iter(_KEPT)), None)
-        _KEPT[key] = study, tuple(_stamp(str(path)) for path in study.files)
+        with _KEEPING:
+            while len(_KEPT) >= 16:
+                del _KEPT[next(iter(_KEPT))]
+            _KEPT[key] = study
     return study
 
 
 def evaluate(
-    machine: Machine,
+    machine: Machine | str | Path | Mapping[str, Any],
     overrides: Mapping[str, Value] | None = None,
     *,
     catalogue: Paths = (),
@@ -381,14 +416,18 @@ def evaluate(
 ) -> dict[str, Any]:
     """Judges a drive in the machine with other values of some quantities: for optimisers, pure and picklable.
 
-    Returns ``drive``, ``holds``, and ``margins``: 1 less the used share of the limit of each rule with data, negative
-    where it is violated (−inf: a limit of zero); in ``warnings`` those of rules that only warn. Without ``drive`` the best
-    one of the catalogue. ``steps`` is that of ``jred vary``; ``jred size`` takes 2000. Raises JredError for values that
-    give no machine.
+    Returns ``drive``; ``holds``, whether no rule is violated; ``margins``: 1 less the used share of the limit of each
+    rule, negative where it is violated (−inf: a limit of zero), 1 where the rule does not apply or lacks data; in
+    ``warnings`` those of rules that only warn; in ``not_checked`` the rules that lack data. Without ``drive`` the best one
+    of the catalogue. ``steps`` is that of ``jred vary``; ``jred size`` takes 2000. Raises JredError for values that give
+    no machine.
     """
+    machine = machine if isinstance(machine, Machine) else Machine(machine)
+    if not isinstance(overrides, Mapping | None):
+        raise TypeError('overrides: give a dict of values by path, such as {"slider.mass": "60 kg"}')
     study = _study(machine, catalogue, drive, steps)
     values = [(path, machine._in_unit(path, value)) for path, value in (overrides or {}).items()]
-    name, holds, used = study.evaluate(values)
+    name, holds, used, not_checked = study.evaluate(values)
     margins = {rule: 1.0 - share for rule, share, is_limit in used if is_limit}
     warnings = {rule: 1.0 - share for rule, share, is_limit in used if not is_limit}
-    return {"drive": name, "holds": holds, "margins": margins, "warnings": warnings}
+    return {"drive": name, "holds": holds, "margins": margins, "warnings": warnings, "not_checked": not_checked}

@@ -10,7 +10,7 @@ from difflib import get_close_matches
 from functools import lru_cache
 from keyword import iskeyword
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
@@ -51,11 +51,14 @@ class Item(Mapping[str, Any]):
         object.__setattr__(self, "_data", data)
         object.__setattr__(self, "_names", {_attribute(key): key for key in data})
 
-    def __getattr__(self, name: str) -> Any:
-        names: dict[str, str] = object.__getattribute__(self, "_names")
-        if name not in names:
-            raise AttributeError(f"no {name!r}; there is {', '.join(names)}")
-        return _made(self._data[names[name]])
+    # Type checkers know the attributes of each answer from its class.
+    if not TYPE_CHECKING:
+
+        def __getattr__(self, name: str) -> Any:
+            names: dict[str, str] = object.__getattribute__(self, "_names")
+            if name not in names:
+                raise AttributeError(f"no {name!r}; there is {', '.join(names)}")
+            return _made(self._data[names[name]])
 
     def __setattr__(self, name: str, value: object) -> None:
         raise AttributeError("results cannot be changed")
@@ -94,12 +97,15 @@ class Item(Mapping[str, Any]):
 
         Objects in a row become columns such as "duty.RMS torque [N m]"; the margins of checks "margin of peak torque".
         """
-        rows = self[key] and self._data[key]
-        if rows and not isinstance(rows[0], dict) and isinstance(self._data.get("columns"), list):
+        rows = self._data[key] if self[key] is not None else []
+        if isinstance(rows, dict) and all(isinstance(column, list) for column in rows.values()):
+            return {name: _column(column) for name, column in rows.items()}
+        if isinstance(rows, list) and rows and isinstance(rows[0], list) and "columns" in self._data:
             names = self._data["columns"]
-            return {name: _column(list(column)) for name, column in zip(names, zip(*self._data["rows"]))}
-        if isinstance(rows, dict):
-            return {name: np.asarray(column) for name, column in rows.items()}
+            return {name: _column(list(column)) for name, column in zip(names, zip(*rows))}
+        if not isinstance(rows, list) or not all(isinstance(row, dict) for row in rows):
+            tables = (name for name, value in self._data.items() if isinstance(value, list))
+            raise TypeError(f"{key} is not a table; lists are {', '.join(tables)}")
         rows = [dict(_flat(row)) for row in rows]
         names = list(dict.fromkeys(name for row in rows for name in row))
         return {name: _column([row.get(name) for row in rows]) for name in names}
@@ -160,7 +166,9 @@ class Result(Item):
         words, files = self._again
         with tempfile.TemporaryDirectory() as folder:
             page = Path(folder) / "report.html"
-            _jred.run([*words, "--report", str(page)], files)
+            _, out, _ = _jred.run([*words, "--format", "json", "--report", str(page)], files)
+            if json.loads(out) != self._data:
+                raise ValueError("the files of this result have changed since; run it again")
             return page.read_text(encoding="utf-8")
 
     def _repr_html_(self) -> str | None:
@@ -181,9 +189,10 @@ def whole(name: str, value: object, least: int, most: int) -> None:
 
 
 @lru_cache(maxsize=64)
-def _options(command: str) -> frozenset[str]:
-    """The options of a command, such as "size" or "catalogue list"."""
-    return frozenset(re.findall(r"--[a-z][a-z-]*", _jred.run([*command.split(), "--help"], [])[1]))
+def _options(command: str) -> Mapping[str, bool]:
+    """The options of a command, such as "size" or "catalogue list", and whether each takes a value."""
+    found = re.findall(r"^ +(?:-\w, )?(--[a-z-]+)( <)?", _jred.run([*command.split(), "--help"], [])[1], re.MULTILINE)
+    return {option: bool(value) for option, value in found}
 
 
 #: Options that write files besides the result; a second run for the report leaves them out.
@@ -195,11 +204,15 @@ def words_of(command: str, options: Mapping[str, object]) -> list[str]:
     words: list[str] = []
     for name, value in options.items():
         option = "--" + name.rstrip("_").replace("_", "-")
-        known = _options(command) - {"--help", "--format" if command != "export" else ""}
-        if option not in known:
-            near = get_close_matches(option, known, 1)
+        known = _options(command)
+        if option not in known or option == "--help" or (option == "--format" and command != "export"):
+            near = get_close_matches(option, known, 1, 0.75)
             cure = f"did you mean {near[0][2:].replace('-', '_')}=?" if near else None
             raise JredError(f"`jred {command}` has no option {name}=", cure=cure, quantity=name)
+        if value is not None and isinstance(value, bool) == known[option]:
+            raise JredError(
+                f"{name} = {value!r}; {'it takes a value' if known[option] else 'give True or False'}", quantity=name
+            )
         if value is None or value is False:
             continue
         if value is True:
@@ -211,16 +224,18 @@ def words_of(command: str, options: Mapping[str, object]) -> list[str]:
     return words
 
 
-def run(command: str, *arguments: str | Path, files: Files | None = None, **options: object) -> Result:
-    """Runs a command of ``jred`` and returns its JSON.
+def run(command: str, *arguments: str | Path, files: Files | None = None, **options: object) -> Any:
+    """Runs a command of ``jred`` and returns its JSON as a Result.
 
     ``files`` has texts that stand for files on disk. Raises JredError.
     """
     if command in ("vary", "export"):
         raise ValueError(f"{command} has no JSON; use jred.study.vary, Machine.export or Machine.model")
     words = [command, *map(str, arguments)]
+    if any(word.startswith("-") for word in words):
+        raise ValueError("give options as keywords: --top 3 is top=3")
     name = " ".join(words[:2]) if command == "catalogue" else command
-    if command.startswith("-") or "--format" not in _options(name):
+    if "--format" not in _options(name):
         raise ValueError(f"{name} has no JSON; use the command jred")
     texts = [(str(path), text) for path, text in (files or {}).items()]
     code, out, messages = _jred.run([*words, *words_of(name, options), "--format", "json"], texts)

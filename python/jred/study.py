@@ -7,8 +7,10 @@ machine and catalogue and the options in its metadata. A restart computes the pa
 
 from __future__ import annotations
 
+import json
 import os
 from collections.abc import Callable, Mapping, Sequence
+from hashlib import sha256
 from pathlib import Path
 from typing import Any
 from uuid import uuid4
@@ -24,7 +26,7 @@ class PartError(ValueError):
 
 
 def vary(
-    machine: Machine,
+    machine: Machine | str | Path,
     axes: Sequence[str],
     out: str | Path,
     *,
@@ -40,6 +42,7 @@ def vary(
     of rules have the used shares of limits. The folder ``out`` keeps the parts; ``progress`` gets how many of the shares
     are done.
     """
+    machine = machine if isinstance(machine, Machine) else Machine(machine)
     axes = [axes] if isinstance(axes, str) else list(axes)
     if not axes:
         raise ValueError('axes is empty; give what varies, such as ["slider.mass=40..60 kg:20"]')
@@ -47,7 +50,7 @@ def vary(
 
 
 def tolerance(
-    machine: Machine,
+    machine: Machine | str | Path,
     out: str | Path,
     *,
     given: Mapping[str, str] | None = None,
@@ -64,6 +67,9 @@ def tolerance(
 
     ``given``: amounts by path, such as {"slider.mass": "normal: 2 %"}, besides those of ``[tolerance]``.
     """
+    machine = machine if isinstance(machine, Machine) else Machine(machine)
+    if not isinstance(given, Mapping | None) or not all(isinstance(amount, str) for amount in (given or {}).values()):
+        raise TypeError('given: a dict of amounts by path, such as {"slider.mass": "5 %"}')
     whole("samples", samples, 1, 100_000_000)
     whole("seed", seed, 0, 2**64 - 1)
     asked = (list((given or {}).items()), samples, seed)
@@ -90,9 +96,10 @@ def share(
         return index
     study = _study(machine, catalogue, drive, steps)
     found = getattr(study, kind)(*asked, [index, count])
-    about = {**found["about"], "share": f"{index}/{count}"}
     table = pa.table({name: _typed(pa, column) for name, column in found["columns"].items()})
-    table = table.replace_schema_metadata({key: about[key] for key in ABOUT})
+    about = {**found["about"], "share": f"{index}/{count}"}
+    about = {key: about[key] for key in ABOUT}
+    table = table.replace_schema_metadata({**about, "digest": _digest(about, table)})
     partial = path.with_suffix(f".{uuid4().hex}.partial")
     try:
         pq.write_table(table, partial)
@@ -114,14 +121,22 @@ def _typed(pa: Any, column: Any) -> Any:
     return pa.array([None if value is None else str(value) for value in column], type=pa.string())
 
 
+def _digest(about: Mapping[str, str], table: Any) -> str:
+    """Of every bit of a part."""
+    return sha256(json.dumps([about, table.to_pydict()]).encode()).hexdigest()
+
+
 def _read(path: Path) -> Any:
     """A part; None if it is damaged."""
     import pyarrow as pa
     import pyarrow.parquet as pq
 
     try:
-        return pq.read_table(path)
-    except pa.ArrowInvalid:
+        part = pq.read_table(path)
+        known = {key.decode(): value.decode() for key, value in (part.schema.metadata or {}).items()}
+        digest = known.pop("digest", None)
+        return part if digest == _digest({key: known.get(key, "") for key in ABOUT}, part) else None
+    except (pa.ArrowException, ValueError):
         return None
     except OSError as error:
         # pyarrow raises it for damaged files too, then without a number.
@@ -134,8 +149,7 @@ def _same(path: Path, part: Any, own: dict[str, str], shares: int) -> None:
     """Refuses a part of another study."""
     metadata = {} if part is None else part.schema.metadata or {}
     known = {key.decode(): value.decode() for key, value in metadata.items()}
-    known["shares"] = known.get("share", "").partition("/")[2]
-    asked = {**{key: own[key] for key in ABOUT[:-1]}, "shares": str(shares)}
+    asked = {**{key: own[key] for key in ABOUT[:-1]}, "share": f"{int(path.name[5:10])}/{shares}"}
     differs = [f"{key} is {known.get(key)}, not {value}" for key, value in asked.items() if known.get(key) != value]
     if differs:
         raise PartError(f"{path} is of another study: {'; '.join(differs)}. Choose another folder, or remove its parts")
@@ -156,6 +170,8 @@ def _run(
     import pyarrow as pa
 
     whole("shares", shares, 1, 100_000)
+    if client is not None and not hasattr(client, "submit"):
+        raise TypeError(f"client = {client!r}; give a distributed.Client")
     folder = Path(out).expanduser()
     folder.mkdir(parents=True, exist_ok=True)
     catalogue = [catalogue] if isinstance(catalogue, str | Path) else catalogue
@@ -163,7 +179,7 @@ def _run(
     # The study of these options: its first share has no row beyond the last, so that nothing is computed twice.
     study = _study(machine, files, drive, steps)
     own = getattr(study, kind)(*asked, [2**62, 1])["about"]
-    for path in sorted(folder.glob("part-*.parquet")):
+    for path in sorted(folder.glob(f"part-{'[0-9]' * 5}-of-*.parquet")):
         # A damaged part is computed again.
         if (part := _read(path)) is not None:
             _same(path, part, own, shares)

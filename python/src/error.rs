@@ -49,5 +49,6 @@ fn of(py: Python<'_>, fault: &dyn Diagnostic) -> PyErr {
 /// The first name in back-ticks: the key or quantity of a message.
 fn quoted(message: &str) -> Option<&str> {
     let (_, rest) = message.split_once('`')?;
-    rest.split_once('`').map(|(name, _)| name)
+    let (name, _) = rest.split_once('`')?;
+    name.starts_with(char::is_alphabetic).then_some(name)
 }

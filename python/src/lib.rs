@@ -17,6 +17,7 @@ use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 
 use jred_cli::embedded;
+use jred_file::text::problem::Result;
 
 use error::{failed, refused};
 use machine::Machine;
@@ -47,11 +48,7 @@ fn run(
             Err(RecvTimeoutError::Timeout) => py
                 .check_signals()
                 .inspect_err(|_| stop.store(true, Ordering::Relaxed))?,
-            Err(RecvTimeoutError::Disconnected) => {
-                return Err(PyRuntimeError::new_err(
-                    "the command panicked, which is a fault of jred; its message is on standard error",
-                ));
-            }
+            Err(RecvTimeoutError::Disconnected) => return Err(panicked()),
         }
     }
 }
@@ -68,16 +65,38 @@ fn command(py: Python<'_>, words: Vec<OsString>) -> u8 {
     py.detach(|| embedded::command(words))
 }
 
+/// Does some work without the interpreter's lock, on a stack like that of a program: threads of Python may have a smaller one.
+fn detached<T: Send>(py: Python<'_>, work: impl FnOnce() -> Result<T> + Send) -> PyResult<T> {
+    let done = py.detach(|| {
+        std::thread::scope(|scope| {
+            let thread = Builder::new().stack_size(STACK).spawn_scoped(scope, work)?;
+            Ok::<_, std::io::Error>(thread.join())
+        })
+    })?;
+    match done {
+        Ok(done) => done.map_err(|problem| failed(py, problem)),
+        Err(_) => Err(panicked()),
+    }
+}
+
+fn panicked() -> PyErr {
+    PyRuntimeError::new_err(
+        "jred panicked, which is a fault of it; its message is on standard error",
+    )
+}
+
 /// The machine of a file or a text.
 #[pyfunction]
 fn read(py: Python<'_>, name: &str, text: String, folder: PathBuf) -> PyResult<Machine> {
-    py.detach(|| Machine::new(name, text, folder))
-        .map_err(|problem| failed(py, problem))
+    detached(py, || Machine::new(name, text, folder))
 }
 
 /// The native part of the package.
 #[pymodule]
 mod _jred {
+    use numpy::PyArray1;
+    use pyo3::prelude::*;
+
     #[pymodule_export]
     use super::machine::Machine;
     #[pymodule_export]
@@ -89,4 +108,12 @@ mod _jred {
     #[pymodule_export]
     #[expect(non_upper_case_globals, reason = "the name that Python gives it")]
     const __version__: &str = env!("CARGO_PKG_VERSION");
+
+    /// NumPy is imported now: later, a signal in the midst of it would be a panic.
+    #[pymodule_init]
+    fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
+        module.py().import("numpy")?;
+        PyArray1::<f64>::zeros(module.py(), 0, false);
+        Ok(())
+    }
 }

@@ -20,6 +20,7 @@ use jred_file::text::problem::{Problem, Result};
 use jred_file::units::literal::{self, Literal};
 use jred_sizing::study::edit::{Document, Edit};
 
+use crate::detached;
 use crate::error::failed;
 
 /// A machine file that was read and checked.
@@ -82,8 +83,16 @@ pub(crate) fn literals(
     document: &Document,
     values: &[(String, String)],
 ) -> Result<Vec<(usize, Literal)>> {
+    let mut seen = Vec::new();
     let literal = |(path, value): &(String, String)| {
         let quantity = document.find(path)?;
+        if seen.contains(&quantity) {
+            return Err(problem!(
+                help = "give each quantity once",
+                "`{path}` is given twice, with two names"
+            ));
+        }
+        seen.push(quantity);
         let value = literal::read(value).map_err(|why| {
             problem!(
                 help = "write a number with its unit, such as \"60 kg\"",
@@ -116,8 +125,7 @@ impl Machine {
 
     /// A machine with another value of the quantity at `path`, such as "slider.mass" and "60 kg".
     fn _set(&self, py: Python<'_>, path: String, value: String) -> PyResult<Self> {
-        py.detach(|| self.changed(path, value))
-            .map_err(|problem| failed(py, problem))
+        detached(py, || self.changed(path, value))
     }
 
     /// Paths of the quantities that can be set, each with its value.
@@ -184,7 +192,7 @@ impl Machine {
             },
             state,
         };
-        let columns = py.detach(|| {
+        let columns = detached(py, || {
             variator::refuse(&self.file, "curves")?;
             if over == Over::Time {
                 self.file.required_motion()?;
@@ -196,7 +204,7 @@ impl Machine {
             }
             reduce(&self.file, &request).map_err(Problem::of)
         });
-        arrays(py, &columns.map_err(|problem| failed(py, problem))?)
+        arrays(py, &columns?)
     }
 }
 

@@ -187,9 +187,11 @@ impl Model {
     ) -> PyResult<Bound<'py, PyArray1<u32>>> {
         let domain = self.image().domain();
         let position = position.as_slice().map_err(wrong)?;
-        if let Some(k) = position.iter().position(|x| !x.is_finite()) {
+        // Beyond it, a double has fewer digits than a phase word.
+        const MOST: f64 = 1e6;
+        if let Some(k) = position.iter().position(|x| x.is_nan() || x.abs() > MOST) {
             return Err(wrong(format!(
-                "position[{k}] is {}; positions must be finite",
+                "position[{k}] is {}; positions must be finite, and at most {MOST} rad or m",
                 position[k]
             )));
         }

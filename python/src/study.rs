@@ -1,12 +1,13 @@
 //! One machine text over one catalogue, evaluated for many values of its quantities.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::path::PathBuf;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
+use jred_file::model::rule::Rule;
 use jred_file::model::tolerance::Tolerance;
 use jred_file::problem;
 use jred_file::text::file::Files;
@@ -14,6 +15,7 @@ use jred_file::text::problem::{Problem, Result};
 use jred_file::units::Fault;
 use jred_sizing::catalogue::{Catalogue, Sources};
 use jred_sizing::cell::Cell;
+use jred_sizing::judge::{Findings, Outcome};
 use jred_sizing::select::filter::Filter;
 use jred_sizing::select::size::Selection;
 use jred_sizing::study::axis::{Grid, Variation};
@@ -24,25 +26,32 @@ use jred_sizing::study::sensitivity::used;
 use jred_sizing::study::task::RowSource;
 use jred_sizing::study::tolerance::{Samples, Scatter};
 
-use crate::error::failed;
+use crate::detached;
 use crate::machine::{edits, literals};
 
-/// A folder that records which of its files were read.
+/// A folder of which each file is read once: the digest of a study is that of all its rows.
 #[derive(Debug)]
-struct Recorded {
+struct Once {
     folder: PathBuf,
-    read: Arc<Mutex<BTreeSet<PathBuf>>>,
+    texts: Arc<Texts>,
 }
 
-impl Files for Recorded {
+/// Texts of files by name.
+type Texts = Mutex<BTreeMap<String, String>>;
+
+impl Files for Once {
     fn shown(&self, file: &str) -> String {
         self.folder.shown(file)
     }
 
     fn text(&self, file: &str, limit: u64) -> std::result::Result<String, Fault> {
-        let mut read = self.read.lock().unwrap_or_else(PoisonError::into_inner);
-        read.insert(self.folder.join(file));
-        self.folder.text(file, limit)
+        let mut texts = self.texts.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(text) = texts.get(file) {
+            return Ok(text.clone());
+        }
+        let text = self.folder.text(file, limit)?;
+        texts.insert(file.to_owned(), text.clone());
+        Ok(text)
     }
 }
 
@@ -52,12 +61,24 @@ pub(crate) struct Study {
     common: Common,
     /// The drive that is judged; `None`: the best of the catalogue for each machine.
     drive: Option<ChosenDrive>,
+    /// The best drive of the nominal machine, found on demand.
+    chosen: OnceLock<ChosenDrive>,
+    folder: PathBuf,
     /// The files that the machine names.
-    read: Arc<Mutex<BTreeSet<PathBuf>>>,
+    texts: Arc<Texts>,
 }
 
-/// The name of a drive, whether it satisfies every rule, and of each rule the used share, and whether it is a limit or only warns.
-type Evaluated = (String, bool, Vec<(&'static str, f64, bool)>);
+/// The name of a drive; whether it violates no rule; of each rule with a limit the used share, 0 where the rule does not apply, and whether it
+/// can refuse the drive; the rules that lack data.
+type Evaluated = (
+    String,
+    bool,
+    Vec<(&'static str, f64, bool)>,
+    Vec<&'static str>,
+);
+
+/// Rows between two looks for Ctrl-C.
+const BLOCK: usize = 16;
 
 impl Study {
     /// The judgement of the drive in a machine with these values.
@@ -65,15 +86,22 @@ impl Study {
         let read = literals(&self.common.document, values)?;
         let machine = self.common.machine(&edits(&read))?;
         let (site, rules) = (&machine.file.site, &machine.file.rules);
-        let named = |findings, name: String| {
-            let used = used(rules, &findings);
-            let holds = jred_sizing::judge::broken(rules, &findings).is_none();
-            (
-                name,
-                holds,
-                used.map(|(rule, share)| (rule.name(), share, rules.limit(rule).fail.is_some()))
-                    .collect(),
-            )
+        let named = |findings: Findings, name: String| {
+            let known: Vec<(Rule, f64)> = used(rules, &findings).collect();
+            let of = |rule| known.iter().find(|(other, _)| *other == rule);
+            let limited = Rule::ALL
+                .into_iter()
+                .filter(|rule| rules.limit(*rule).is_set());
+            let shares = limited.map(|rule| {
+                let share = of(rule).map_or(0.0, |(_, share)| *share);
+                (rule.name(), share, rules.limit(rule).fail.is_some())
+            });
+            let outcome = Outcome::of(rules, &findings);
+            let open = Rule::ALL
+                .into_iter()
+                .filter(|rule| outcome.not_checked.has(*rule));
+            let open = open.map(Rule::name).collect();
+            (name, !outcome.fails(), shares.collect(), open)
         };
         if let Some(drive) = &self.drive {
             return Ok(named(drive.findings(&machine), drive.name()));
@@ -100,7 +128,13 @@ impl Study {
         let rows: Vec<u64> = (share[0]..header.rows)
             .step_by(share[1].max(1) as usize)
             .collect();
-        let cells: Vec<Vec<Cell>> = py.detach(|| rows.iter().map(|row| task.row(*row)).collect());
+        let mut cells: Vec<Vec<Cell>> = Vec::new();
+        for some in rows.chunks(BLOCK) {
+            cells.extend(detached(py, || {
+                Ok(some.iter().map(|row| task.row(*row)).collect::<Vec<_>>())
+            })?);
+            py.check_signals()?;
+        }
         let found = PyDict::new(py);
         found.set_item("row", rows)?;
         for (k, name) in header.columns.iter().enumerate() {
@@ -147,10 +181,10 @@ impl Study {
                 ..Sources::default()
             };
             let catalogue = Catalogue::open(&sources).map_err(|error| problem!("{error}"))?;
-            let read = Arc::default();
-            let files = Recorded {
-                folder,
-                read: Arc::clone(&read),
+            let texts = Arc::default();
+            let files = Once {
+                folder: folder.clone(),
+                texts: Arc::clone(&texts),
             };
             let common = Common::new(name, text, Box::new(files), catalogue, None, steps)?;
             let drive = match drive {
@@ -160,23 +194,26 @@ impl Study {
             Ok(Self {
                 common,
                 drive,
-                read,
+                chosen: OnceLock::new(),
+                folder,
+                texts,
             })
         };
-        py.detach(made).map_err(|problem| failed(py, problem))
+        detached(py, made)
     }
 
-    /// The files that were read for the machine, besides its own.
-    #[getter]
-    fn files(&self) -> Vec<PathBuf> {
-        let read = self.read.lock().unwrap_or_else(PoisonError::into_inner);
-        read.iter().cloned().collect()
+    /// Whether the files that the machine names are still as they were read.
+    fn is_current(&self) -> bool {
+        let texts = self.texts.lock().unwrap_or_else(PoisonError::into_inner);
+        texts.iter().all(|(file, text)| {
+            let now = self.folder.text(file, text.len() as u64 + 1);
+            now.is_ok_and(|now| now == *text)
+        })
     }
 
-    /// The drive's name, whether it satisfies every rule, and the share of each limit that it uses, for these values of quantities.
+    /// The judgement of the drive for these values of quantities.
     fn evaluate(&self, py: Python<'_>, values: Vec<(String, String)>) -> PyResult<Evaluated> {
-        py.detach(|| self.evaluated(&values))
-            .map_err(|problem| failed(py, problem))
+        detached(py, || self.evaluated(&values))
     }
 
     /// Rows of a share of `jred vary`: the columns, and what the study is.
@@ -195,7 +232,7 @@ impl Study {
         };
         let task = GridStudy {
             study: &self.common,
-            grid: read().map_err(|problem| failed(py, problem))?,
+            grid: detached(py, read)?,
             filter: Filter::default(),
             rank: None,
         };
@@ -223,14 +260,17 @@ impl Study {
             });
             let scatters = Scatter::all(&self.common, &given.collect::<Result<Vec<_>>>()?)?;
             let machine = self.common.machine(&[])?;
-            let one = match &self.drive {
-                Some(drive) => drive.clone(),
-                None => ChosenDrive::choose(&self.common, None, &Filter::default(), None)?,
-            };
+            if self.drive.is_none() && self.chosen.get().is_none() {
+                let one = ChosenDrive::choose(&self.common, None, &Filter::default(), None)?;
+                // Another thread may have been first, with the same drive.
+                let _ = self.chosen.set(one);
+            }
+            let one = self.drive.as_ref().or_else(|| self.chosen.get());
+            let one = one.ok_or_else(|| problem!("no drive can be built for this machine"))?;
             Ok((scatters, machine, one))
         };
-        let (scatters, machine, one) = py.detach(read).map_err(|problem| failed(py, problem))?;
-        let task = Samples::new(&self.common, &one, &machine, scatters, samples, seed);
+        let (scatters, machine, one) = detached(py, read)?;
+        let task = Samples::new(&self.common, one, &machine, scatters, samples, seed);
         self.rows(py, &task, share)
     }
 }

@@ -117,17 +117,22 @@ def options() -> str:
     head = (
         '"""Options of the commands as keywords. Written by stubs.py from their help."""\n\n'
         "from __future__ import annotations\n\nfrom collections.abc import Sequence\nfrom pathlib import Path\n"
-        "from typing import TypedDict\n\nOption = str | float | Path | Sequence[str | float | Path] | None\n"
+        "from typing import Literal, TypedDict\n\nOption = str | float | Path | Sequence[str | float | Path] | None\n"
     )
     classes = []
     for command in COMMANDS:
         lines = [f"class {camel(command.replace(' ', '-'))}Options(TypedDict, total=False):"]
         shown = _jred.run([*command.split(), "--help"], [])[1]
-        for name, value, about in re.findall(r"^ +(?:-\w, )?--([a-z-]+)( <.+>)?\n +(\S.*)", shown, re.MULTILINE):
+        _, *blocks = re.split(r"^ +(?:-\w, )?--(?=[a-z])", shown, flags=re.MULTILINE)
+        for block in blocks:
+            first, about, *_ = (line.strip() for line in block.splitlines())
+            name, _, value = first.partition(" ")
+            words = re.findall(r"^ +- ([\w-]+)", block, re.MULTILINE)
+            kind = f"Literal[{', '.join(map(repr, words))}] | None" if words else "Option" if value else "bool"
             if name not in ("help", "out") and (name != "format" or command == "export"):
                 name = name.replace("-", "_")
                 lines += [
-                    f"    {name}{'_' * iskeyword(name)}: {'Option' if value else 'bool'}",
+                    f"    {name}{'_' * iskeyword(name)}: {kind}",
                     f'    """{about.rstrip(".")}."""',
                 ]
         classes.append("\n".join(lines))

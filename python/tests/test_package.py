@@ -122,8 +122,10 @@ def test_ticks_are_exact_dynamics(kind: str, digits: float, tmp_path: Path) -> N
         omega, alpha, unit = np.full(32, 10, np.float32), np.full(32, 50, np.float32), 1.0
     else:
         one = 2.0 ** (8 * model.dtype.itemsize - 1)
-        omega = np.full(32, round(10.0 / speed_base * one), model.dtype)
-        alpha = np.full(32, round(50.0 / acceleration_base * one), model.dtype)
+        omega = model.raw(np.full(32, 10.0), speed_base)
+        alpha = model.raw(np.full(32, 50.0), acceleration_base)
+        assert omega[0] == round(10.0 / speed_base * one)
+        assert model.raw(-9 * speed_base, speed_base) == -one
         unit = torque_base / one
     torque = model.torque(phase, omega, alpha)
     assert torque.dtype == model.dtype
@@ -208,8 +210,11 @@ def test_evaluate_is_pure_and_picklable() -> None:
     assert best["holds"] and best["drive"].startswith(sized.fit[0].motor)
     # The command takes 2000 steps.
     fine = evaluate(machine, steps=2000)
+    assert "brake work" in fine["not_checked"]
     fine = fine["margins"] | fine["warnings"]
     assert len(margins) > 10
+    # An optimiser gets as many constraints for every machine.
+    assert evaluate(machine, {"slider.mass": "189.8 kg"}, steps=2000)["margins"].keys() == evaluate(machine)["margins"].keys()
     for rule, margin in margins.items():
         assert fine[rule] == pytest.approx(margin, abs=1e-9)
     with ThreadPoolExecutor(4) as pool:
@@ -239,6 +244,16 @@ BAD: list[tuple[Any, type[Exception], str]] = [
     (lambda m: m.size(tops=3), jred.JredError, "did you mean top=?"),
     (lambda m: m.size(top="x"), jred.JredError, "'x'"),
     (lambda m: m.size(help=True), jred.JredError, "help="),
+    (lambda m: m.size(top=True), jred.JredError, "takes a value"),
+    (lambda m: m.size(full="yes"), jred.JredError, "True or False"),
+    (lambda m: m.curves(speed=np.ones(3)), TypeError, "speed"),
+    (lambda m: evaluate(m, [("slider.mass", 5)]), TypeError, "dict"),
+    (lambda m: evaluate(m, drive=3), TypeError, "drive = 3"),
+    (lambda m: study.tolerance(m, "unused", given={"slider.mass": 5}), TypeError, "given"),
+    (lambda m: study.vary(m, AXES, "unused", client="tcp://x"), TypeError, "Client"),
+    (lambda m: m.set("mechanism.type", "four-bar"), jred.JredError, "word"),
+    (lambda _: Machine({"gravity": {3: "0 m/s^2"}}), TypeError, "key"),
+    (lambda m: m.model(torque_error="0.05 N m").torque(np.zeros(1, np.uint32), [1j], [1.0]), TypeError, "complex"),
     (lambda m: m.size(format="csv"), jred.JredError, "format="),
     (lambda _: jred.run("new"), ValueError, "no JSON"),
     (lambda _: jred.run("--version"), ValueError, "no JSON"),
@@ -246,6 +261,11 @@ BAD: list[tuple[Any, type[Exception], str]] = [
     (lambda m: m.size(top=1)["fits"], KeyError, "refused"),
     (lambda m: m.check().report(), ValueError, "no report"),
     (lambda m: evaluate(m, steps=-1), ValueError, "steps"),
+    (lambda m: evaluate(m, {"slider.mass": 60, "mechanism.slider.mass": 50}), jred.JredError, "given twice"),
+    (lambda m: Machine(m.text, name="sub/press.toml"), ValueError, "folder="),
+    (lambda _: jred.catalogue("--help"), ValueError, "keywords"),
+    (lambda m: m.size(top=1).table("title"), TypeError, "fit"),
+    (lambda m: m.model(torque_error="0.05 N m").phase([1e18]), ValueError, "1e+18"),
     (lambda m: evaluate(m, steps=0.5), TypeError, "steps"),
     (lambda m: study.tolerance(m, "unused", samples=0), ValueError, "samples"),
     (lambda m: study.tolerance(m, "unused", samples=-5), ValueError, "samples"),
@@ -269,7 +289,11 @@ BAD: list[tuple[Any, type[Exception], str]] = [
     (lambda m: m.model(torque_error="0.05 N m").torque(np.zeros(1, np.uint32), [np.nan], [1.0]), ValueError, "finite"),
     (lambda m: m.model(torque_error="0.05 N m").torque(np.zeros(1, np.uint32), [1e39], [1.0]), ValueError, "finite"),
     (lambda m: m.model(torque_error="0.05 N m").torque(np.zeros(1), [1.0], [1.0]), TypeError, "uint32"),
-    (lambda m: m.model(type="i32", torque_error="0.05 N m").torque(np.zeros(1, np.uint32), [1.0], [1.0]), TypeError, "int32"),
+    (
+        lambda m: m.model(type="i32", torque_error="0.05 N m").torque(np.zeros(1, np.uint32), [1.0], [1.0]),
+        TypeError,
+        "model.raw",
+    ),
 ]
 
 
@@ -316,16 +340,39 @@ def test_a_changed_profile_is_read_again(tmp_path: Path) -> None:
         evaluate(machine)
 
 
-def test_ctrl_c_ends_a_command() -> None:
+def test_ctrl_c_ends_a_call(tmp_path: Path) -> None:
     threading.Timer(0.5, os.kill, [os.getpid(), signal.SIGINT]).start()
     with pytest.raises(KeyboardInterrupt):
         Machine(PRESS).run("tolerance", tolerance="slider.mass=5%", samples=100_000_000, steps=16)
+    threading.Timer(0.5, os.kill, [os.getpid(), signal.SIGINT]).start()
+    with pytest.raises(KeyboardInterrupt):
+        study.tolerance(Machine(PRESS), tmp_path, given={"slider.mass": "5 %"}, samples=10_000_000, shares=1)
+    assert list(tmp_path.iterdir()) == []
     again = Machine(PRESS).run("tolerance", tolerance="slider.mass=5%", samples=3, steps=16)
     assert again.code in (0, 1)
 
 
+def test_a_report_is_that_of_its_result(tmp_path: Path) -> None:
+    path = tmp_path / "press.toml"
+    path.write_bytes(PRESS.read_bytes())
+    found = jred.run("size", path, top=1)
+    assert "<svg" in found.report()
+    path.write_text(Machine(PRESS).set("slider.mass", "60 kg").text, encoding="utf-8")
+    with pytest.raises(ValueError, match="have changed"):
+        found.report()
+
+
+def test_a_small_stack_is_enough() -> None:
+    threading.stack_size(256 * 1024)
+    try:
+        with ThreadPoolExecutor(1) as pool:
+            assert pool.submit(lambda: evaluate(Machine(MACHINES / "elliptic-drive.toml"))).result()["margins"]
+    finally:
+        threading.stack_size(0)
+
+
 def test_a_large_text_is_refused() -> None:
-    with pytest.raises(jred.JredError):
+    with pytest.raises(jred.JredError, match="the maximum is 1 MiB"):
         Machine("x = 1\n" * 180_000)
 
 
@@ -362,10 +409,17 @@ def test_a_study_on_a_cluster_has_the_same_rows(tmp_path: Path) -> None:
                 worker.process.process.kill()
 
         found = study.vary(machine, AXES, tmp_path / "cluster", shares=7, steps=200, client=client, progress=kill)
-    assert found.drop_columns([]).equals(alone)
+    assert found.equals(alone)
     part = tmp_path / "alone" / "part-00001-of-00003.parquet"
-    part.write_bytes(part.read_bytes()[:100])
+    whole = part.read_bytes()
+    part.write_bytes(whole[:100])
     assert study.vary(machine, AXES, tmp_path / "alone", shares=3, steps=200).equals(alone)
+    random = np.random.default_rng(1)
+    for _ in range(60):
+        damaged = bytearray(whole)
+        damaged[random.integers(len(whole))] ^= 1 << random.integers(8)
+        part.write_bytes(damaged)
+        assert study.vary(machine, AXES, tmp_path / "alone", shares=3, steps=200).equals(alone)
     with pytest.raises(study.PartError, match=r"machine is [0-9a-f]+, not [0-9a-f]+"):
         study.vary(machine.set("slider.mass", "43 kg"), AXES, tmp_path / "alone", shares=3, steps=200)
     with pytest.raises(study.PartError, match="shares is 3, not 4"):
@@ -441,6 +495,27 @@ def test_tolerance_in_shares(tmp_path: Path) -> None:
     many = study.tolerance(Machine(PRESS), tmp_path / "many", shares=5, **options)
     assert one.num_rows == 12
     assert one.equals(many)
+    words = ["--tolerance", "slider.mass=normal: 5 %", "--samples", "12", "--drive", options["drive"], "--steps", "200"]
+    _, out = command("tolerance", str(PRESS), *words, "--format", "json")
+    due = [json.loads(line) for line in out.splitlines()[1:]]
+    assert len(due) == 12 and len(due[0]) > 5
+    for row, own in zip(one.to_pylist(), due, strict=True):
+        assert {name: row[name] for name in own} == own
+    part = tmp_path / "many" / "part-00001-of-00005.parquet"
+    (tmp_path / "many" / "part-00000-of-00005.parquet").write_bytes(part.read_bytes())
+    with pytest.raises(study.PartError, match="share is 1/5, not 0/5"):
+        study.tolerance(Machine(PRESS), tmp_path / "many", shares=5, **options)
+
+
+def test_the_package_has_the_crates_of_the_command() -> None:
+    def versions(path: Path) -> dict[str, set[str]]:
+        found: dict[str, set[str]] = {}
+        for name, version in re.findall(r'name = "(.+)"\nversion = "(.+)"', path.read_text(encoding="utf-8")):
+            found.setdefault(name, set()).add(version)
+        return found
+
+    own, root = (versions(MACHINES.parent / folder / "Cargo.lock") for folder in ("python", "."))
+    assert {name: found for name, found in own.items() if name in root and not found <= root[name]} == {}
 
 
 def test_the_command_in_the_package() -> None:

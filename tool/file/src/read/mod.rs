@@ -175,6 +175,12 @@ impl UncheckedFile {
 /// # Errors
 /// The first fault in the file, with its place and a cure.
 pub fn parse(name: &str, text: &str, files: impl Files) -> Result<UncheckedFile> {
+    let length = text.len() as u64;
+    if length > MAX_SIZE {
+        let why = file::too_large(&file::size(length), MAX_SIZE);
+        let problem = Problem::new(format!("cannot read the machine file {name}: {why}"));
+        return Err(problem.help(LARGE).in_text(name, ""));
+    }
     machine(name, text, &files).map_err(|problem| problem.in_text(name, text))
 }
 

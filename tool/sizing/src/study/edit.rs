@@ -204,8 +204,7 @@ impl Document {
             .map(|q| format!("\"{}\"", q.path))
             .collect();
         if same.is_empty() {
-            "write a quantity with a default value into the file first; `jred sensitivity` lists the quantities in the \
-             file"
+            "write a quantity with a default value into the file first; a word is changed in the text; `jred sensitivity` lists the quantities"
                 .to_owned()
         } else {
             format!("there is {}", same.join(", "))
