@@ -1100,6 +1100,8 @@ class RequireRegeneration(Item):
     """[W]. Largest motoring power; losses are added to it."""
     resistor: RequireNeed | None
     """The brake resistor, if `[supply]` gives the voltages and the bus needs one."""
+    stops: bool | None
+    """Whether the drive with the least peak torque stops the machine with its share of it (`drive_stop` of `[duty]`); `None` without the key."""
 
 class RequireNeed(Item):
     """Requirements for a brake resistor that by itself limits the bus to the chopper voltage."""

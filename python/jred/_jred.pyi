@@ -2,15 +2,12 @@
 The native part of the package.
 """
 
-from _typeshed import SupportsGetItem, SupportsLenAndGetItem
+from _typeshed import Incomplete, SupportsGetItem, SupportsLenAndGetItem
 import numpy.typing
 import typing
 from os import PathLike
 from pathlib import Path
 from typing import Final, SupportsFloat, SupportsIndex, final
-
-__all__ = ["__version__", "Machine", "Model", "Study", "command", "read", "run"]
-
 __version__: Final[str]
 
 @final
@@ -90,14 +87,13 @@ class Study:
     A machine over a catalogue.
     """
     def __new__(cls, /, name: str, text: str, folder: str | PathLike[str], catalogues: SupportsGetItem[int, str | PathLike[str]], drive: str | None, steps: SupportsIndex) -> Study: ...
-    def evaluate(self, /, values: SupportsGetItem[int, tuple[str, str]]) -> tuple[str, bool, list[tuple[str, float, bool]]]:
+    def evaluate(self, /, values: SupportsGetItem[int, tuple[str, str]]) -> tuple[str, bool, list[tuple[str, float, bool]], list[str]]:
         """
-        The drive's name, whether it satisfies every rule, and the share of each limit that it uses, for these values of quantities.
+        The judgement of the drive for these values of quantities.
         """
-    @property
-    def files(self, /) -> list[Path]:
+    def is_current(self, /) -> bool:
         """
-        The files that were read for the machine, besides its own.
+        Whether the files that the machine names are still as they were read.
         """
     def tolerance(self, /, given: SupportsGetItem[int, tuple[str, str]], samples: SupportsIndex, seed: SupportsIndex, share: SupportsLenAndGetItem[SupportsIndex]) -> "dict[str, dict[str, typing.Any]]":
         """
@@ -122,3 +118,5 @@ def run(words: SupportsGetItem[int, str], files: SupportsGetItem[int, tuple[str 
     """
     Runs a command of `jred` on a thread of its own, so that Ctrl-C is heeded, and returns its exit code, its standard output and its messages. `files` has texts that stand for files on disk.
     """
+
+def __getattr__(name: str) -> Incomplete: ...

@@ -14,7 +14,7 @@ import numpy.typing as npt
 
 from . import _jred
 from ._errors import JredError
-from ._result import run, whole, words_of
+from ._result import Result, run, whole, words_of
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -373,7 +373,8 @@ def catalogue(table: str = "motors", **options: Unpack[CatalogueListOptions]) ->
 
     ``table``: "motors", "linear-motors", "gearboxes", "amplifiers" or "resistors"; options as of ``jred catalogue list``.
     """
-    return run("catalogue", "list", table, **options).table("rows")
+    found: Result = run("catalogue", "list", table, **options)
+    return found.table("rows")
 
 
 def _stamp(path: str) -> tuple[tuple[str, int, int], ...]:

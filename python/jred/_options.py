@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TypedDict
+from typing import Literal, TypedDict
 
 Option = str | float | Path | Sequence[str | float | Path] | None
 
 class BalanceOptions(TypedDict, total=False):
-    least: Option
+    least: Literal['rms', 'peak', 'holding', 'inertia'] | None
     """Quantity to minimise."""
     counterweight: Option
     """A link that may carry a counterweight, its largest mass, and the largest distance of its parts from the origin of the link's frame, e.g. "crank, 20 kg, 250 mm"; may be repeated."""
@@ -19,11 +19,11 @@ class BalanceOptions(TypedDict, total=False):
     """Relative error of the integrals over the cycle (RMS, mean, energy, losses), 1e-12 to 0.01."""
     steps: Option
     """Approximate least number of instants in a cycle; there are more where the torque bends."""
-    units: Option
+    units: Literal['si', 'imperial'] | None
     """Units in which quantities are printed: SI if not given. Files and options may have either."""
 
 class CatalogueListOptions(TypedDict, total=False):
-    units: Option
+    units: Literal['si', 'imperial'] | None
     """Units in which quantities are printed: SI if not given. Files and options may have either."""
     catalogue: Option
     """Folder or file of motors, gearboxes, servo amplifiers and brake resistors to use instead of the built-in catalogue, in jred's own format or that of the Motor-Gearbox Database; may be repeated; "built-in" adds the built-in catalogue."""
@@ -39,21 +39,21 @@ class CatalogueListOptions(TypedDict, total=False):
     """Only parts of matching makers; may be repeated."""
 
 class CheckOptions(TypedDict, total=False):
-    units: Option
+    units: Literal['si', 'imperial'] | None
     """Units in which quantities are printed: SI if not given. Files and options may have either."""
 
 class ExportOptions(TypedDict, total=False):
-    format: Option
+    format: Literal['image', 'rust', 'c', 'json'] | None
     """Form of the output."""
-    type: Option
+    type: Literal['f32', 'i32', 'i16'] | None
     """Number type of the table."""
-    layout: Option
+    layout: Literal['auto', 'spline', 'spline16', 'cubic', 'quadratic', 'rows', 'harmonic', 'slider-crank'] | None
     """Layout of the curves in memory."""
-    core: Option
+    core: Literal['m0', 'm3', 'm4f', 'm7'] | None
     """Core that the firmware runs on: of the layouts that meet the torque error, one with the fewest instructions there is taken, unless --max-bytes or --layout is given."""
     forward: bool
     """The firmware also computes accelerations: forward dynamics, limits, governor. Tables in fixed point then have a curve of 1/J."""
-    reciprocal: Option
+    reciprocal: Literal['auto', 'yes', 'no'] | None
     """A curve of 1/J, which avoids the division in fixed-point forward dynamics; auto: with --forward."""
     torque_error: Option
     """Largest error of the drive torque at the drive link, e.g. "0.5 N m" ("5 N" for a sliding link); optional with --max-bytes."""
@@ -75,7 +75,7 @@ class ExportOptions(TypedDict, total=False):
     """Name of the table in the program, for --format c and rust: a prefix of the names in C, a module in Rust; if not given, C uses the name of the file to write."""
     prove: bool
     """Prove the torque error over every position, by interval arithmetic, with all roundings of the ticks; takes some seconds. The image then contains the proven error. Exit code 1 if that is larger than --torque-error, or if it cannot be proven."""
-    units: Option
+    units: Literal['si', 'imperial'] | None
     """Units in which quantities are printed: SI if not given. Files and options may have either."""
 
 class FastestOptions(TypedDict, total=False):
@@ -111,7 +111,7 @@ class FastestOptions(TypedDict, total=False):
     """Largest rate of the drive link's acceleration, e.g. "2000 rad/s^3" ("50 m/s^3"): the acceleration has no jumps, also at the ends."""
     max_torque_rate: Option
     """Largest rate of the motor's torque, e.g. "500 N m/s" ("5 kN/s" of a linear motor)."""
-    ends: Option
+    ends: Literal['free', 'zero'] | None
     """Acceleration at the ends of the motion; zero with --max-jerk or --max-torque-rate, otherwise free."""
     max_rms: Option
     """Largest RMS torque over the motion with its pauses, e.g. "2 N m"; "s1": the motor's S1 torque at the mean speed, without the reserve of --reserve rules."""
@@ -123,15 +123,15 @@ class FastestOptions(TypedDict, total=False):
     """Write the motion as the table of an electronic cam, over a master that makes one turn during the motion."""
     rows: Option
     """Number of rows of the cam table."""
-    master: Option
+    master: Literal['deg', 'rad', 'turn'] | None
     """Unit of the cam table's master, which makes one turn during the motion; the derivatives are with respect to it."""
-    units: Option
+    units: Literal['si', 'imperial'] | None
     """Units in which quantities are printed: SI if not given. Files and options may have either."""
     report: Option
     """Write a report as one self-contained HTML page."""
     pdf: Option
     """Write the report as PDF. A browser prints it: the one named by the environment variable JRED_BROWSER, else Chromium, Chrome, Edge or Brave."""
-    paper: Option
+    paper: Literal['a4', 'letter'] | None
     """Paper of the report: a4 if not given."""
     xlsx: Option
     """Write every table of the answer as a sheet of a workbook for spreadsheet programs."""
@@ -155,9 +155,9 @@ class FastestOptions(TypedDict, total=False):
     """Approximate least number of instants in a cycle; there are more where the torque bends."""
 
 class GentlestOptions(TypedDict, total=False):
-    objective: Option
+    objective: Literal['rms', 'energy', 'peak'] | None
     """Quantity to minimise."""
-    ends: Option
+    ends: Literal['free', 'zero'] | None
     """Acceleration at the ends of a move."""
     ramp: Option
     """With --ends zero: share of a move's time in which the acceleration rises to its first peak, e.g. "5 %"; 10 % if not given."""
@@ -167,13 +167,13 @@ class GentlestOptions(TypedDict, total=False):
     """Write the motion to this file as a table for an electronic cam."""
     rows: Option
     """Rows of the cam table."""
-    master: Option
+    master: Literal['deg', 'rad', 'turn'] | None
     """Unit of the cam table's master, which makes one turn during the motion; the derivatives are with respect to it."""
     report: Option
     """Write a report as one self-contained HTML page."""
     pdf: Option
     """Write the report as PDF. A browser prints it: the one named by the environment variable JRED_BROWSER, else Chromium, Chrome, Edge or Brave."""
-    paper: Option
+    paper: Literal['a4', 'letter'] | None
     """Paper of the report: a4 if not given."""
     xlsx: Option
     """Write every table of the answer as a sheet of a workbook for spreadsheet programs."""
@@ -187,7 +187,7 @@ class GentlestOptions(TypedDict, total=False):
     """Approximate least number of instants in a cycle; there are more where the torque bends."""
     drive: Option
     """The drive: MOTOR+GEARBOX, or MOTOR for a direct drive; if not given, the torque is at the input of the drive train."""
-    units: Option
+    units: Literal['si', 'imperial'] | None
     """Units in which quantities are printed: SI if not given. Files and options may have either."""
     catalogue: Option
     """Folder or file of motors, gearboxes, servo amplifiers and brake resistors to use instead of the built-in catalogue, in jred's own format or that of the Motor-Gearbox Database; may be repeated; "built-in" adds the built-in catalogue."""
@@ -221,11 +221,11 @@ class RequireOptions(TypedDict, total=False):
     """Write a report as one self-contained HTML page."""
     pdf: Option
     """Write the report as PDF. A browser prints it: the one named by the environment variable JRED_BROWSER, else Chromium, Chrome, Edge or Brave."""
-    paper: Option
+    paper: Literal['a4', 'letter'] | None
     """Paper of the report: a4 if not given."""
     xlsx: Option
     """Write every table of the answer as a sheet of a workbook for spreadsheet programs."""
-    units: Option
+    units: Literal['si', 'imperial'] | None
     """Units in which quantities are printed: SI if not given. Files and options may have either."""
 
 class SensitivityOptions(TypedDict, total=False):
@@ -235,7 +235,7 @@ class SensitivityOptions(TypedDict, total=False):
     """Step of the finite differences (%)."""
     most: Option
     """Largest change of each quantity in search of the first violation (%)."""
-    units: Option
+    units: Literal['si', 'imperial'] | None
     """Units in which quantities are printed: SI if not given. Files and options may have either."""
     catalogue: Option
     """Folder or file of motors, gearboxes, servo amplifiers and brake resistors to use instead of the built-in catalogue, in jred's own format or that of the Motor-Gearbox Database; may be repeated; "built-in" adds the built-in catalogue."""
@@ -251,7 +251,7 @@ class SensitivityOptions(TypedDict, total=False):
     """Approximate least number of instants in a cycle; there are more where the torque bends."""
     tolerance: Option
     """Relative error of the integrals over the cycle (RMS, mean, energy, losses), 1e-12 to 0.01."""
-    rank: Option
+    rank: Literal['power', 'mass', 'price', 'energy', 'margin', 'temperature'] | None
     """Rank by this instead of the smallest motor first."""
     maker: Option
     """Only motors and gearboxes of matching makers; may be repeated."""
@@ -283,7 +283,7 @@ class SimulateOptions(TypedDict, total=False):
     """Add columns of every named point, centre of mass and link: positions, transfer functions, velocities and accelerations."""
     reactions: bool
     """Add columns of drive torque, joint forces, shaking force and moment by d'Alembert's principle."""
-    units: Option
+    units: Literal['si', 'imperial'] | None
     """Units in which quantities are printed: SI if not given. Files and options may have either."""
     catalogue: Option
     """Folder or file of motors, gearboxes, servo amplifiers and brake resistors to use instead of the built-in catalogue, in jred's own format or that of the Motor-Gearbox Database; may be repeated; "built-in" adds the built-in catalogue."""
@@ -297,13 +297,13 @@ class SimulateOptions(TypedDict, total=False):
     """Write a report as one self-contained HTML page."""
     pdf: Option
     """Write the report as PDF. A browser prints it: the one named by the environment variable JRED_BROWSER, else Chromium, Chrome, Edge or Brave."""
-    paper: Option
+    paper: Literal['a4', 'letter'] | None
     """Paper of the report: a4 if not given."""
     xlsx: Option
     """Write every table of the answer as a sheet of a workbook for spreadsheet programs."""
 
 class SizeOptions(TypedDict, total=False):
-    units: Option
+    units: Literal['si', 'imperial'] | None
     """Units in which quantities are printed: SI if not given. Files and options may have either."""
     catalogue: Option
     """Folder or file of motors, gearboxes, servo amplifiers and brake resistors to use instead of the built-in catalogue, in jred's own format or that of the Motor-Gearbox Database; may be repeated; "built-in" adds the built-in catalogue."""
@@ -319,11 +319,11 @@ class SizeOptions(TypedDict, total=False):
     """Approximate least number of instants in a cycle; there are more where the torque bends."""
     tolerance: Option
     """Relative error of the integrals over the cycle (RMS, mean, energy, losses), 1e-12 to 0.01."""
-    motion: Option
+    motion: Literal['own', 'best'] | None
     """Which motion the drives are judged with."""
     pareto: Option
     """Instead of the ranking: list the Pareto front over two or three of power, mass, price, energy, margin and temperature, e.g. "mass,energy"."""
-    rank: Option
+    rank: Literal['power', 'mass', 'price', 'energy', 'margin', 'temperature'] | None
     """Rank by this instead of the smallest motor first."""
     maker: Option
     """Only motors and gearboxes of matching makers; may be repeated."""
@@ -363,7 +363,7 @@ class SizeOptions(TypedDict, total=False):
     """Write a report as one self-contained HTML page."""
     pdf: Option
     """Write the report as PDF. A browser prints it: the one named by the environment variable JRED_BROWSER, else Chromium, Chrome, Edge or Brave."""
-    paper: Option
+    paper: Literal['a4', 'letter'] | None
     """Paper of the report: a4 if not given."""
     xlsx: Option
     """Write every table of the answer as a sheet of a workbook for spreadsheet programs."""
@@ -387,9 +387,9 @@ class SteadyOptions(TypedDict, total=False):
     """Write a report as one self-contained HTML page."""
     pdf: Option
     """Write the report as PDF. A browser prints it: the one named by the environment variable JRED_BROWSER, else Chromium, Chrome, Edge or Brave."""
-    paper: Option
+    paper: Literal['a4', 'letter'] | None
     """Paper of the report: a4 if not given."""
     xlsx: Option
     """Write every table of the answer as a sheet of a workbook for spreadsheet programs."""
-    units: Option
+    units: Literal['si', 'imperial'] | None
     """Units in which quantities are printed: SI if not given. Files and options may have either."""

@@ -47,6 +47,9 @@ class Item(Mapping[str, Any]):
 
     __slots__ = ("_data", "_names")
 
+    _data: dict[str, Any]
+    _names: dict[str, str]
+
     def __init__(self, data: dict[str, Any]) -> None:
         object.__setattr__(self, "_data", data)
         object.__setattr__(self, "_names", {_attribute(key): key for key in data})
@@ -138,6 +141,7 @@ class Result(Item):
 
     code: int
     messages: tuple[str, ...]
+    _again: tuple[list[str], list[tuple[str, str]]] | None
 
     def __init__(
         self,
