@@ -45,7 +45,9 @@ fn refusal(text: &str) -> Report {
     let parts = || text.trim().split("\n\n").map(str::trim);
     let message = parts().next().unwrap_or(text);
     let message = message.trim_start_matches("error: ");
-    let tips: Vec<&str> = parts().filter_map(|part| part.strip_prefix("tip: ")).collect();
+    let tips: Vec<&str> = parts()
+        .filter_map(|part| part.strip_prefix("tip: "))
+        .collect();
     if tips.is_empty() {
         return miette!("{message}");
     }

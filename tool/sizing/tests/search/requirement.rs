@@ -470,7 +470,13 @@ fn the_resistor_takes_a_stop_by_the_drive() {
 fn a_drive_that_cannot_stop_the_load_is_told() {
     const SUPPLY: &str = "\n[supply]\nmains_voltage = \"400 V\"\nchopper_voltage = \"760 V\"\nmax_voltage = \"800 V\"\n";
     let back = |duty: &str| {
-        let case = case(&format!("{}{SUPPLY}{duty}", HOIST.split("[supply]").next().unwrap_or_default()), 500);
+        let case = case(
+            &format!(
+                "{}{SUPPLY}{duty}",
+                HOIST.split("[supply]").next().unwrap_or_default()
+            ),
+            500,
+        );
         inquiry(&case).requirement(Some(10.0)).regeneration
     };
     let [none, weak, strong] = [
@@ -479,7 +485,10 @@ fn a_drive_that_cannot_stop_the_load_is_told() {
         "[duty]\ndrive_stop = \"90 %\"\n",
     ]
     .map(back);
-    assert_eq!((none.stops, weak.stops, strong.stops), (None, Some(false), Some(true)));
+    assert_eq!(
+        (none.stops, weak.stops, strong.stops),
+        (None, Some(false), Some(true))
+    );
     assert!(none.resistor.is_some());
     assert_eq!(weak.resistor, none.resistor);
     assert!(strong.resistor.map(|need| need.peak) > none.resistor.map(|need| need.peak));

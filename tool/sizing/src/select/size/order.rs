@@ -40,9 +40,8 @@ impl Certainty {
     /// The certainty of a drive with this outcome.
     pub fn of(drive: &Drive, outcome: &Outcome) -> Self {
         let lacks = |rule| outcome.not_checked.has(rule);
-        let incomplete = drive.motor.lacks_amplifier
-            || lacks(Rule::BrakeTorque)
-            || lacks(Rule::GearboxPeak);
+        let incomplete =
+            drive.motor.lacks_amplifier || lacks(Rule::BrakeTorque) || lacks(Rule::GearboxPeak);
         if outcome.voltage_unknown {
             return Self::Voltage;
         }
