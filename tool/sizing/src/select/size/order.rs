@@ -39,9 +39,11 @@ impl Certainty {
 
     /// The certainty of a drive with this outcome.
     pub fn of(drive: &Drive, outcome: &Outcome) -> Self {
-        let lacks = |rule| outcome.not_checked.has(rule);
-        let incomplete =
-            drive.motor.lacks_amplifier || lacks(Rule::BrakeTorque) || lacks(Rule::GearboxPeak);
+        // By its data, because a drive may be sorted before every rule is judged.
+        let gearbox = drive.gearbox;
+        let incomplete = drive.motor.lacks_amplifier
+            || outcome.not_checked.has(Rule::BrakeTorque)
+            || gearbox.is_some_and(|gearbox| gearbox.peak_torque.is_none());
         if outcome.voltage_unknown {
             return Self::Voltage;
         }
