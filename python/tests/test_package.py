@@ -23,7 +23,7 @@ from jred import Machine, evaluate, study
 MACHINES = Path(__file__).parents[2] / "machines"
 PRESS = MACHINES / "press.toml"
 #: The command: the program of the tool where it is built, else that of the package.
-OWN = [sys.executable, "-c", "import jred; jred.main()"]
+OWN = [sys.executable, "-I", "-c", "import jred; jred.main()"]
 JRED = [os.environ["JRED_COMMAND"]] if os.environ.get("JRED_COMMAND") else OWN
 
 
