@@ -340,7 +340,10 @@ def test_a_changed_profile_is_read_again(tmp_path: Path) -> None:
         evaluate(machine)
 
 
-def test_ctrl_c_ends_a_call(tmp_path: Path) -> None:
+def test_ctrl_c_ends_a_call(tmp_path: Path, request: pytest.FixtureRequest) -> None:
+    # A test run in the background ignores the signal.
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    request.addfinalizer(lambda: signal.signal(signal.SIGINT, before))
     threading.Timer(0.5, os.kill, [os.getpid(), signal.SIGINT]).start()
     with pytest.raises(KeyboardInterrupt):
         Machine(PRESS).run("tolerance", tolerance="slider.mass=5%", samples=100_000_000, steps=16)
