@@ -67,9 +67,12 @@ class Item(Mapping[str, Any]):
         raise AttributeError("results cannot be changed")
 
     def __getitem__(self, key: str) -> Any:
+        return _made(self._at(key))
+
+    def _at(self, key: str) -> Any:
         if key not in self._data:
             raise KeyError(f"{key}; there is {', '.join(self._data)}")
-        return _made(self._data[key])
+        return self._data[key]
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._data)
@@ -100,7 +103,9 @@ class Item(Mapping[str, Any]):
 
         Objects in a row become columns such as "duty.RMS torque [N m]"; the margins of checks "margin of peak torque".
         """
-        rows = self._data[key] if self[key] is not None else []
+        rows = self._at(key)
+        if rows is None:
+            rows = []
         if isinstance(rows, dict) and all(isinstance(column, list) for column in rows.values()):
             return {name: _column(column) for name, column in rows.items()}
         if isinstance(rows, list) and rows and isinstance(rows[0], list) and "columns" in self._data:

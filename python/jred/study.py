@@ -42,7 +42,6 @@ def vary(
     of rules have the used shares of limits. The folder ``out`` keeps the parts; ``progress`` gets how many of the shares
     are done.
     """
-    machine = machine if isinstance(machine, Machine) else Machine(machine)
     axes = [axes] if isinstance(axes, str) else list(axes)
     if not axes:
         raise ValueError('axes is empty; give what varies, such as ["slider.mass=40..60 kg:20"]')
@@ -67,7 +66,6 @@ def tolerance(
 
     ``given``: amounts by path, such as {"slider.mass": "normal: 2 %"}, besides those of ``[tolerance]``.
     """
-    machine = machine if isinstance(machine, Machine) else Machine(machine)
     if not isinstance(given, Mapping | None) or not all(isinstance(amount, str) for amount in (given or {}).values()):
         raise TypeError('given: a dict of amounts by path, such as {"slider.mass": "5 %"}')
     whole("samples", samples, 1, 100_000_000)
@@ -158,7 +156,7 @@ def _same(path: Path, part: Any, own: dict[str, str], shares: int) -> None:
 def _run(
     kind: str,
     asked: tuple[Any, ...],
-    machine: Machine,
+    machine: Machine | str | Path,
     out: str | Path,
     catalogue: Paths,
     drive: str | None,
@@ -172,6 +170,7 @@ def _run(
     whole("shares", shares, 1, 100_000)
     if client is not None and not hasattr(client, "submit"):
         raise TypeError(f"client = {client!r}; give a distributed.Client")
+    machine = machine if isinstance(machine, Machine) else Machine(machine)
     folder = Path(out).expanduser()
     folder.mkdir(parents=True, exist_ok=True)
     catalogue = [catalogue] if isinstance(catalogue, str | Path) else catalogue
