@@ -18,6 +18,10 @@ jred_file::words! {
         Rust = "rust",
         /// A C or C++ source file with the image as a `const` array of words, and the functions of `jred.h`.
         C = "c",
+        /// Structured Text for a PLC: a function block with both directions of the tick in LREAL, and a block that tests it.
+        St = "st",
+        /// The same as PLCopen XML, which CODESYS and TwinCAT import.
+        Plcopen = "plcopen",
         /// JSON: the words, all properties of the table, and its alternatives.
         Json = "json",
     }

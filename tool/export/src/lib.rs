@@ -6,7 +6,7 @@
 //! 1. `choice`, `cost`, `task`: number types, layouts, cores; the request.
 //! 2. `directions`, `reference`, `ticks`, `search`, `pieces`: the machine's exact curves, and the sizes that are tried.
 //! 3. `export`: the chosen table. `enclose` and `proof`: the machine's curves in intervals, and a bound of the error at every position.
-//! 4. `form`: the table as image, Rust, C.
+//! 4. `form`: the table as image, Rust, C; `function_block`: the tick for a PLC.
 #![forbid(unsafe_code)]
 
 mod c_source;
@@ -19,17 +19,20 @@ mod export;
 mod failure;
 mod fault;
 mod form;
+mod function_block;
 mod harmonic;
 mod name;
 mod pieces;
 mod place;
 mod plan;
+mod plcopen;
 mod proof;
 mod proof_result;
 mod reference;
 mod rust_type;
 mod search;
 mod slider_crank;
+mod structured_text;
 mod task;
 mod ticks;
 
@@ -43,7 +46,8 @@ pub use failure::{
     Inaccuracy, LeastError, NoClosedForm, NotReached,
 };
 pub use form::OutputForm;
-pub use name::Name;
+pub use function_block::BLOCK_NAMES;
+pub use name::{Name, PlcNames};
 pub use place::{CurveName, Feature, WindowEdge};
 pub use plan::plan_source;
 pub use proof_result::ProofResult;

@@ -7,6 +7,15 @@ use std::path::Path;
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Name(pub(crate) String);
 
+/// What names a PLC takes.
+#[derive(Clone, Copy, Debug)]
+pub struct PlcNames {
+    /// Most characters.
+    pub longest: usize,
+    /// Names in use beside it, in any letter case.
+    pub taken: &'static [&'static str],
+}
+
 /// Prefix of the library's names, in C followed by an underscore.
 const LIBRARY: &str = "jred";
 
@@ -19,7 +28,46 @@ const RUST: [&str; 50] = [
     "unsafe", "unsized", "use", "virtual", "where", "while",
 ];
 
+/// Reserved words of IEC 61131-3, and names of its types, functions and blocks, as CODESYS and TwinCAT have them.
+const IEC: &str = "abs abstract acos action add adr and any any_num any_real array asin at atan bit bool by byte case concat configuration constant
+    continue cos ctd ctu ctud date date_and_time delete dint div do dt dword else elsif end_action end_case end_for end_function end_function_block
+    end_if end_program end_repeat end_struct end_type end_var end_while eq exit exp expt extends f_edge f_trig false final find for from function
+    function_block ge global gt if implements insert int interface internal jmp le left len limit lint ln log lreal lt ltime lword max method mid
+    min mod move mul mux ne not null of on or override pointer private program property protected public r_edge r_trig real ref reference repeat
+    replace resource ret retain return right rol ror rs sel shl shr sin single sint sizeof sqrt sr string struct sub super tan task then this time
+    time_of_day tod tof to ton tp transition true trunc type udint uint ulint union until usint var var_access var_config var_external var_global
+    var_in_out var_input var_output var_stat var_temp while with word wstring xor";
+
 impl Name {
+    /// A given name in a program of a PLC (IEC 61131-3), where letter case does not count.
+    ///
+    /// # Errors
+    /// It is no identifier there, or reserved, or too long: the reason, and a valid name.
+    pub fn for_plc(text: &str, names: &PlcNames) -> Result<Self, (String, Self)> {
+        let valid = Self(plc_word(text, names));
+        if valid.0 == text {
+            return Ok(valid);
+        }
+        let PlcNames { longest, .. } = *names;
+        let length = text.chars().count();
+        let why = if names.takes(text) {
+            "the block has a variable of this name".to_owned()
+        } else if is_reserved(text) {
+            "it is a word of the languages of PLCs (IEC 61131-3)".to_owned()
+        } else if length > longest {
+            format!("it has {length} characters, and a PLC takes {longest}")
+        } else {
+            "a name in a PLC begins with a letter from a to z, has such letters, digits and single underscores, and ends with no underscore"
+                .to_owned()
+        };
+        Err((why, valid))
+    }
+
+    /// The name of a file as a name in a PLC.
+    pub fn for_plc_of_file(file: &str, names: &PlcNames) -> Self {
+        Self(plc_word(&Self::of_file(file).0, names))
+    }
+
     /// The name of a file without its extension. Characters other than letters and digits become underscores; letters outside ASCII become their
     /// Unicode numbers, so that two names differ.
     pub fn of_file(file: &str) -> Self {
@@ -59,6 +107,30 @@ impl Name {
     }
 }
 
+impl PlcNames {
+    fn takes(&self, text: &str) -> bool {
+        self.taken.iter().any(|own| own.eq_ignore_ascii_case(text))
+    }
+}
+
+fn is_reserved(text: &str) -> bool {
+    IEC.split_whitespace()
+        .any(|reserved| reserved.eq_ignore_ascii_case(text))
+}
+
+/// The nearest valid name of a PLC; the same text, if it is one.
+fn plc_word(text: &str, names: &PlcNames) -> String {
+    let word = word(text);
+    let parts: Vec<&str> = word.split('_').filter(|part| !part.is_empty()).collect();
+    let mut name = parts.join("_");
+    if is_reserved(&name) || names.takes(&name) {
+        name.insert_str(0, "my_");
+    }
+    name.truncate(names.longest);
+    name.truncate(name.trim_end_matches('_').len());
+    name
+}
+
 /// The nearest valid name.
 fn word(text: &str) -> String {
     let mut name = String::new();
@@ -80,7 +152,7 @@ fn word(text: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::Name;
+    use super::{Name, PlcNames};
 
     #[test]
     fn a_file_name_becomes_a_word() {
@@ -120,5 +192,36 @@ mod tests {
             assert_eq!(found.as_str(), proposed, "{name}: {why}");
             assert_eq!(Name::new(proposed).as_ref(), Ok(&found));
         }
+    }
+
+    #[test]
+    fn a_plc_has_names_of_its_own() {
+        let names = PlcNames {
+            longest: 12,
+            taken: &["Speed"],
+        };
+        for name in ["press", "Press_1", "p"] {
+            assert_eq!(Name::for_plc(name, &names).unwrap().as_str(), name);
+        }
+        for (name, proposed, because) in [
+            ("press__1", "press_1", "single underscores"),
+            ("press_", "press", "single underscores"),
+            ("_press", "machine_pres", "single underscores"),
+            ("press-1", "press_1", "single underscores"),
+            ("1st", "machine_1st", "begins with a letter"),
+            ("", "machine", "begins with a letter"),
+            ("Ton", "my_Ton", "a word of the languages"),
+            ("LREAL", "my_LREAL", "a word of the languages"),
+            ("speed", "my_speed", "a variable of this name"),
+            ("a_very_long_name", "a_very_long", "16 characters"),
+        ] {
+            let (why, found) = Name::for_plc(name, &names).unwrap_err();
+            assert_eq!(found.as_str(), proposed, "{name}: {why}");
+            assert!(why.contains(because), "{name}: {why}");
+            assert_eq!(Name::for_plc(proposed, &names).as_ref(), Ok(&found));
+        }
+        let of_file = |file| Name::for_plc_of_file(file, &names);
+        assert_eq!(of_file("a/toggle--press.toml").as_str(), "toggle_press");
+        assert_eq!(of_file("type.st").as_str(), "my_type");
     }
 }

@@ -13,7 +13,7 @@ use crate::terminal;
 use jred::machine::Reducible as _;
 use jred_analysis::duty::Duty;
 use jred_export::{
-    Choice, Export, Failure, LayoutChoice, Name, Number, OutputForm, ProofResult, Task,
+    BLOCK_NAMES, Choice, Export, Failure, LayoutChoice, Name, Number, OutputForm, ProofResult, Task,
 };
 use jred_file::argument::{self, Argument};
 use jred_file::model::axis::Axis;
@@ -57,14 +57,18 @@ fn name(options: &options::export::Export) -> Result<Option<Name>> {
     let Some(text) = &options.name else {
         return Ok(None);
     };
-    if !matches!(options.format, OutputForm::C | OutputForm::Rust) {
-        return Err(miette!(
-            help = "remove --name, or use --format c or rust",
-            "--name applies to source code; --format {} has no names",
-            options.format
-        ));
-    }
-    let name = Name::new(text).map_err(|(why, other)| {
+    let checked = match options.format {
+        OutputForm::C | OutputForm::Rust => Name::new(text),
+        OutputForm::St | OutputForm::Plcopen => Name::for_plc(text, &BLOCK_NAMES),
+        OutputForm::Image | OutputForm::Json => {
+            return Err(miette!(
+                help = "remove --name, or use --format c, rust, st or plcopen",
+                "--name applies to source code; --format {} has no names",
+                options.format
+            ));
+        }
+    };
+    let name = checked.map_err(|(why, other)| {
         miette!(
             help = format!("use --name {}", other.as_str()),
             "--name {} cannot be used: {why}",
@@ -72,6 +76,26 @@ fn name(options: &options::export::Export) -> Result<Option<Name>> {
         )
     })?;
     Ok(Some(name))
+}
+
+/// The requested layout. A PLC evaluates splines only, in double precision.
+fn layout(options: &options::export::Export) -> Result<LayoutChoice> {
+    if !matches!(options.format, OutputForm::St | OutputForm::Plcopen) {
+        return Ok(options.layout);
+    }
+    let format = options.format;
+    let refused = match (options.number, options.layout, &options.pieces) {
+        (_, _, Some(_)) => "--pieces",
+        (Number::I32 | Number::I16, _, _) => "--type",
+        (Number::F32, LayoutChoice::Auto | LayoutChoice::Spline, None) => {
+            return Ok(LayoutChoice::Spline);
+        }
+        (Number::F32, _, None) => "--layout",
+    };
+    Err(miette!(
+        help = format!("remove {refused}"),
+        "--format {format} has one spline table, in LREAL: {refused} cannot change that"
+    ))
 }
 
 /// Whether the table has a curve of 1/J; refuses options that do not go together.
@@ -121,6 +145,7 @@ pub(super) fn run(options: &options::export::Export) -> Result<Completion> {
     output::check([("--out", &options.out)])?;
     let name = name(options)?;
     variator::refuse(&file, "export")?;
+    let layout = layout(options)?;
     let reciprocal = reciprocal(options)?;
     let coordinate = file.machine.mechanism().coordinate();
     let given = |name: &str, text: &Option<String>, argument: Argument| {
@@ -136,7 +161,7 @@ pub(super) fn run(options: &options::export::Export) -> Result<Completion> {
     let (omega, alpha) = range([omega, alpha], &file)?;
     let task = Task {
         number: options.number,
-        layout: options.layout,
+        layout,
         core: options.core,
         forward: options.forward,
         reciprocal,
@@ -180,7 +205,7 @@ pub(super) fn run(options: &options::export::Export) -> Result<Completion> {
     })
 }
 
-/// The contents of the file `out`. Without a name, the names of C begin with the name of the file.
+/// The contents of the file `out`. Without a name, the names of C and of a PLC begin with the name of the file.
 fn contents(
     format: OutputForm,
     export: &Export,
@@ -188,17 +213,30 @@ fn contents(
     out: &Path,
 ) -> Result<Vec<u8>> {
     let commented = |code: &str| list::export::commented(export, code).into_bytes();
+    let file = || out.file_name().unwrap_or_default().to_string_lossy();
+    let one_table = || {
+        miette!(
+            help = "use --format rust, c or json",
+            "one image cannot hold the tables of several pieces"
+        )
+    };
     Ok(match format {
-        OutputForm::Image => export.image().ok_or_else(|| {
-            miette!(
-                help = "use --format rust, c or json",
-                "one image cannot hold the tables of several pieces"
-            )
-        })?,
+        OutputForm::Image => export.image().ok_or_else(one_table)?,
+        OutputForm::St | OutputForm::Plcopen => {
+            let name = name.cloned();
+            let name = name.unwrap_or_else(|| Name::for_plc_of_file(&file(), &BLOCK_NAMES));
+            let about = list::export::about(export);
+            let text = if format == OutputForm::St {
+                export.structured_text(&name, &about)
+            } else {
+                export.plcopen(&name, &about, &output::today())
+            };
+            text.ok_or_else(one_table)?.into_bytes()
+        }
         OutputForm::Rust => commented(&export.rust_source(name)),
         OutputForm::C => {
-            let file = || Name::of_file(&out.file_name().unwrap_or_default().to_string_lossy());
-            commented(&export.c_source(&name.cloned().unwrap_or_else(file)))
+            let name = name.cloned().unwrap_or_else(|| Name::of_file(&file()));
+            commented(&export.c_source(&name))
         }
         OutputForm::Json => {
             let answer = list::export::answer(export);

@@ -71,8 +71,8 @@ pub struct Export {
     /// the title.
     #[arg(long, value_name = "NUMBER", value_parser = machine_id, allow_negative_numbers = true)]
     pub machine_id: Option<u32>,
-    /// Name of the table in the program, for --format c and rust: a prefix of the names in C, a module in Rust; if not given, C uses the name of the
-    /// file to write.
+    /// Name of the table in the program, for --format c, rust, st and plcopen: a prefix of the names in C, a module in Rust, the function block in a
+    /// PLC; if not given, C and PLC use the name of the file to write.
     #[arg(long, value_name = "NAME")]
     pub name: Option<String>,
     /// Prove the torque error over every position, by interval arithmetic, with all roundings of the ticks; takes some seconds. The image then

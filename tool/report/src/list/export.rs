@@ -37,6 +37,13 @@ pub fn commented(export: &Export, code: &str) -> String {
     lines.collect::<String>() + code
 }
 
+/// The same summary for a program in another language than Rust, line by line.
+pub fn about(export: &Export) -> String {
+    let lines = summary(export);
+    let lines = lines.lines().filter(|line| !line.starts_with("in Rust: "));
+    lines.flat_map(|line| [line, "\n"]).collect()
+}
+
 const fn effort_name(coordinate: Coordinate) -> &'static str {
     match coordinate {
         Coordinate::Angle => "torque",
