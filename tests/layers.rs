@@ -194,6 +194,8 @@ const TOOL: [(&str, &[&str]); 8] = [
             "structured_text",
             "plcopen",
             "function_block",
+            "cam",
+            "cia402",
             "plan",
             "c_source",
         ],

@@ -113,6 +113,20 @@ impl From<usize> for Sampling {
 /// Share of the largest torque of the motion below which weight and loads do not move the machine: the motor's own friction and cogging hold it.
 const HELD_SHARE: f64 = 0.01;
 
+/// The machine at these times (s) of its motion, without weights: for a table over the time. Where the acceleration jumps, the later one.
+///
+/// # Errors
+/// An error of the machine.
+pub fn course(
+    file: &MachineFile,
+    motion: &Motion,
+    times: impl Iterator<Item = f64>,
+) -> Result<Vec<Instant>, DutyError> {
+    let mut moving = MovingMachine::new(file, motion);
+    let instants = times.map(|t| Ok(moving.at(t)?.instant));
+    instants.collect()
+}
+
 impl Duty {
     /// Samples the machine's motion so that the error of every integral over it is known and not above the tolerance. It uses Gauss-Kronrod
     /// quadrature on panels, each in a smooth part of the motion, and halves the panels until the errors are small enough. The ends of a stretch are

@@ -15,6 +15,7 @@ pub mod ratio;
 mod reduce;
 mod require;
 pub mod sensitivity;
+mod series;
 mod simulate;
 pub mod size;
 pub mod split;

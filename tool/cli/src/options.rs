@@ -14,6 +14,7 @@ pub mod project;
 pub mod require;
 pub mod sampling;
 pub mod search;
+pub mod series;
 pub mod simulate;
 mod word;
 

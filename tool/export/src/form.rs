@@ -22,6 +22,8 @@ jred_file::words! {
         St = "st",
         /// The same as PLCopen XML, which CODESYS and TwinCAT import.
         Plcopen = "plcopen",
+        /// CSV for a drive with CiA 402: the torque of the motion in thousandths of the rated torque, over time and position.
+        Cia402 = "cia402",
         /// JSON: the words, all properties of the table, and its alternatives.
         Json = "json",
     }

@@ -6,12 +6,14 @@
 //! 1. `choice`, `cost`, `task`: number types, layouts, cores; the request.
 //! 2. `directions`, `reference`, `ticks`, `search`, `pieces`: the machine's exact curves, and the sizes that are tried.
 //! 3. `export`: the chosen table. `enclose` and `proof`: the machine's curves in intervals, and a bound of the error at every position.
-//! 4. `form`: the table as image, Rust, C; `function_block`: the tick for a PLC.
+//! 4. `form`: the table as image, Rust, C; `function_block`: the tick for a PLC. `cam`, `cia402`: a motion for a PLC or drive.
 #![forbid(unsafe_code)]
 
 mod c_source;
+mod cam;
 mod candidate;
 mod choice;
+mod cia402;
 mod cost;
 mod directions;
 mod enclose;
@@ -37,8 +39,10 @@ mod task;
 mod ticks;
 
 pub use c_source::plan_c_source;
+pub use cam::{Cam, CamFault, CamForm, CamRow};
 pub use candidate::{Candidate, RangeTable, SearchResult};
 pub use choice::{Choice, LayoutChoice, LayoutName, Number};
+pub use cia402::{ShaftInstant, TorqueOffsetFault, TorqueOffsets};
 pub use cost::Core;
 pub use export::{Export, identifier};
 pub use failure::{

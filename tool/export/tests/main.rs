@@ -2,6 +2,8 @@
 #![allow(clippy::disallowed_methods, reason = "tests show paths that they made")]
 
 mod between_places;
+mod cams;
+mod drives;
 mod proven_export;
 #[path = "../../support/reading.rs"]
 mod reading;

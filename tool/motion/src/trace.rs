@@ -221,31 +221,23 @@ impl Trace {
         text
     }
 
-    /// An electronic cam's table: positions over a master that turns once, evenly, in the duration of the motion, with the first and second
-    /// derivative by the master. Every column is in the unit of its header: a derivative is the limit of the differences of the first two columns.
-    pub fn cam(&self, rows: usize, master: Master) -> String {
-        let symbol = self.coordinate.symbol();
-        let symbol = if symbol == "φ" { "phi" } else { symbol };
-        let (unit, by) = (self.coordinate.unit(), master.word());
-        let mut text = format!(
-            "master [{by}],{symbol} [{unit}],{symbol}' [{unit}/{by}],{symbol}'' [{unit}/{by}^2]\n"
-        );
+    /// Rows of an electronic cam's table: positions over a master that turns once, evenly, in the duration of the motion, with the first and second
+    /// derivative by the master. Units are those of `master` and of [`Coordinate::shown`]: a derivative is the limit of the differences of the first
+    /// two columns.
+    pub fn cam(&self, rows: usize, master: Master) -> Vec<[f64; 4]> {
         let turn = master.turn();
         let speed = turn / self.duration();
-        for (t, state) in self.rows(rows) {
-            let [position, first, second] = [
+        let rows = self.rows(rows).map(|(t, state)| {
+            let values = [
                 state.phi,
                 state.omega / speed,
                 state.alpha / (speed * speed),
-            ]
-            .map(|value| self.coordinate.shown(value) + 0.0);
-            let _ = writeln!(
-                text,
-                "{},{position},{first},{second}",
-                turn * (t / self.duration())
-            );
-        }
-        text
+            ];
+            // Avoids -0.
+            let [position, first, second] = values.map(|value| self.coordinate.shown(value) + 0.0);
+            [turn * (t / self.duration()), position, first, second]
+        });
+        rows.collect()
     }
 }
 

@@ -1,5 +1,7 @@
 //! `jred export`: the table for the firmware.
 
+mod cia402;
+
 use std::path::Path;
 
 use miette::{Result, miette};
@@ -60,7 +62,7 @@ fn name(options: &options::export::Export) -> Result<Option<Name>> {
     let checked = match options.format {
         OutputForm::C | OutputForm::Rust => Name::new(text),
         OutputForm::St | OutputForm::Plcopen => Name::for_plc(text, &BLOCK_NAMES),
-        OutputForm::Image | OutputForm::Json => {
+        OutputForm::Image | OutputForm::Json | OutputForm::Cia402 => {
             return Err(miette!(
                 help = "remove --name, or use --format c, rust, st or plcopen",
                 "--name applies to source code; --format {} has no names",
@@ -141,9 +143,13 @@ fn reciprocal(options: &options::export::Export) -> Result<bool> {
 /// Bad input, or a file that cannot be written.
 pub(super) fn run(options: &options::export::Export) -> Result<Completion> {
     let file = read_warned(&options.file)?;
-    file.refuse_joint_friction("export")?;
     output::check([("--out", &options.out)])?;
     let name = name(options)?;
+    if options.format == OutputForm::Cia402 {
+        return cia402::run(options, &file);
+    }
+    cia402::check(options, false)?;
+    file.refuse_joint_friction("export")?;
     variator::refuse(&file, "export")?;
     let layout = layout(options)?;
     let reciprocal = reciprocal(options)?;
@@ -238,7 +244,8 @@ fn contents(
             let name = name.cloned().unwrap_or_else(|| Name::of_file(&file()));
             commented(&export.c_source(&name))
         }
-        OutputForm::Json => {
+        // `cia402` has no table, and writes its file itself.
+        OutputForm::Json | OutputForm::Cia402 => {
             let answer = list::export::answer(export);
             let parts = answer.write(Format::Json, Screen::default());
             parts.collect::<String>().into_bytes()

@@ -9,12 +9,11 @@ use std::f64::consts::PI;
 use miette::{Result, miette};
 
 use crate::commands::core_error::core_report;
-use crate::commands::plan;
 use crate::commands::vary::{catalogue, study};
 use crate::commands::{
-    Completion, documents, drive_named, envelope, print_answer, profile_written, quantity, rate,
-    read_warned,
+    Completion, documents, drive_named, envelope, print_answer, quantity, rate, read_warned,
 };
+use crate::commands::{plan, series};
 use crate::options::fastest::{Fastest as Options, ReserveOption};
 use crate::output::{self, Files};
 use jred::machine::Reducible as _;
@@ -34,7 +33,6 @@ use jred_motion::fastest::ruled::{Judge, ruled};
 use jred_motion::fastest::winding::{Winding, cooled};
 use jred_motion::fastest::{KeptPart, MoveLimits, NoMotion, Reserve, Rms, Task};
 use jred_motion::path_dynamics::{Actuator, PathDynamics};
-use jred_motion::trace::Trace;
 use jred_report::list;
 use jred_report::list::fastest::WindingHeat;
 use jred_report::page;
@@ -74,8 +72,8 @@ pub fn fastest(options: &Options) -> Result<Completion> {
     let task = task(options, &file)?;
     let chosen = chosen(options, &file)?;
     let motions = [
-        ("--profile", &options.profile),
-        ("--cam", &options.cam),
+        ("--profile", &options.series.profile),
+        ("--cam", &options.series.cam),
         ("--plan", &options.plan.plan),
     ];
     output::check(motions.into_iter().chain(options.documents.files()))?;
@@ -129,7 +127,7 @@ pub fn fastest(options: &Options) -> Result<Completion> {
     let broken = broken(&file, &cycle.trace).map_err(core_report)?;
     let trace = cycle.trace.of_axis(&file.axis());
     let mut files = Files::default();
-    series(options, &trace, &mut files)?;
+    let written = series::write(&options.series, &file, &trace, &mut files)?;
     let planned = plan::write(
         &options.plan,
         &plan::PlannedMotion {
@@ -159,7 +157,7 @@ pub fn fastest(options: &Options) -> Result<Completion> {
     let workbook = || view.answer(Format::Csv).map_err(core_report);
     let (documents, printed) = documents::write(&options.documents, files, page, workbook)?;
     let mut answer = view.answer(options.format).map_err(core_report)?;
-    for line in written(options, &file).chain(documents).chain(planned) {
+    for line in written.into_iter().chain(documents).chain(planned) {
         answer.sentence(line);
     }
     print_answer(&answer, options.format)?;
@@ -175,28 +173,6 @@ fn completion(cycle: &Cycle, violated: bool) -> Completion {
     } else {
         Completion::Holds
     }
-}
-
-/// Writes the motion as a profile and a cam table.
-fn series(options: &Options, trace: &Trace, files: &mut Files) -> Result<()> {
-    if let Some(path) = &options.profile {
-        files.add(path, trace.profile().as_bytes())?;
-    }
-    if let Some(path) = &options.cam {
-        files.add(
-            path,
-            trace.cam(options.rows as usize, options.master).as_bytes(),
-        )?;
-    }
-    Ok(())
-}
-
-/// Sentences about the written files.
-fn written(options: &Options, file: &MachineFile) -> impl Iterator<Item = String> {
-    let profile = options.profile.iter();
-    let profile = profile.map(|path| profile_written(file, path));
-    let cam = options.cam.iter();
-    profile.chain(cam.map(|path| format!("cam table written to {}", plain::path(path))))
 }
 
 fn reserve(options: &Options, file: &MachineFile) -> Reserve {

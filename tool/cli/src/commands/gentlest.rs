@@ -5,10 +5,10 @@ use std::path::Path;
 use miette::{Report, Result, miette};
 
 use crate::commands::core_error::{core_report, duty_report};
-use crate::commands::plan;
 use crate::commands::{
-    Completion, documents, drive_asked, print_answer, profile_written, read_warned, warn_of_supply,
+    Completion, documents, drive_asked, print_answer, read_warned, warn_of_supply,
 };
+use crate::commands::{plan, series};
 use crate::options::gentlest::{EndAcceleration, Gentlest, RAMP};
 use crate::output::{self, Files};
 use jred_file::model::drive_train;
@@ -16,7 +16,6 @@ use jred_file::model::machine::MachineFile;
 use jred_file::model::rules::RuleVerdict;
 use jred_file::model::variator;
 use jred_file::number::rounding::short;
-use jred_file::plain;
 use jred_file::read;
 use jred_motion::contact::broken;
 use jred_motion::fastest::ruled::Judge;
@@ -42,8 +41,8 @@ pub fn gentlest(options: &Gentlest) -> Result<Completion> {
     let motion = file.required_motion()?;
     let chosen = drive_asked(options.drive.as_deref(), &options.catalogue, &file)?;
     let motions = [
-        ("--profile", &options.profile),
-        ("--cam", &options.cam),
+        ("--profile", &options.series.profile),
+        ("--cam", &options.series.cam),
         ("--plan", &options.plan.plan),
     ];
     output::check(motions.into_iter().chain(options.documents.files()))?;
@@ -64,18 +63,9 @@ pub fn gentlest(options: &Gentlest) -> Result<Completion> {
     };
     let gentlest = cycle::gentlest_cycle(&file, motion, &request)
         .map_err(|obstacle| report(&options.file, options.drive.as_deref(), &file, &obstacle))?;
-    let rows = options.rows as usize;
     let trace = gentlest.trace.of_axis(&file.axis());
-    let mut written = Vec::new();
     let mut files = Files::default();
-    if let Some(path) = &options.profile {
-        files.add(path, trace.profile().as_bytes())?;
-        written.push(profile_written(&file, path));
-    }
-    if let Some(path) = &options.cam {
-        files.add(path, trace.cam(rows, options.master).as_bytes())?;
-        written.push(format!("cam table written to {}", plain::path(path)));
-    }
+    let mut written = series::write(&options.series, &file, &trace, &mut files)?;
     let gearbox = drive.and_then(|drive| drive.gearbox?.peak_torque);
     written.extend(plan::write(
         &options.plan,

@@ -8,9 +8,9 @@ use super::documents::Documents;
 use super::gentlest::EndAcceleration;
 use super::plan::PlanFile;
 use super::search::SizingOptions;
+use super::series::SeriesFiles;
 use super::word::word;
 use jred_file::argument;
-use jred_motion::trace::Master;
 use jred_report::table::output::Format;
 
 /// The requested reserve.
@@ -122,18 +122,9 @@ pub struct Fastest {
     /// the thermal figures of the motor.
     #[arg(long, value_name = "TEMPERATURE", allow_hyphen_values = true)]
     pub max_winding_temperature: Option<String>,
-    /// Write the motion as a profile over the time, which `[motion]` type = "profile" reads.
-    #[arg(long, value_name = "CSV", value_parser = super::output_file())]
-    pub profile: Option<PathBuf>,
-    /// Write the motion as the table of an electronic cam, over a master that makes one turn during the motion.
-    #[arg(long, value_name = "CSV", value_parser = super::output_file())]
-    pub cam: Option<PathBuf>,
-    /// Number of rows of the cam table.
-    #[arg(long, default_value_t = 2001, value_parser = clap::value_parser!(u32).range(5..=1_000_000))]
-    pub rows: u32,
-    /// Unit of the cam table's master, which makes one turn during the motion; the derivatives are with respect to it.
-    #[arg(long, value_name = "UNIT", value_parser = word::<Master>(), default_value_t)]
-    pub master: Master,
+    /// Profile and electronic cam.
+    #[command(flatten)]
+    pub series: SeriesFiles,
     /// Documents.
     #[command(flatten)]
     pub documents: Documents,

@@ -6,12 +6,11 @@ use clap::Args;
 
 use super::catalogue::CatalogueFiles;
 use super::documents::Documents;
-use super::output_file;
 use super::plan::PlanFile;
 use super::sampling::SamplingOptions;
+use super::series::SeriesFiles;
 use super::word::word;
 use jred_motion::gentlest::cycle::Goal;
-use jred_motion::trace::Master;
 use jred_report::table::output::Format;
 
 jred_file::words! {
@@ -41,18 +40,9 @@ pub struct Gentlest {
     /// With --ends zero: share of a move's time in which the acceleration rises to its first peak, e.g. "5 %"; 10 % if not given.
     #[arg(long, value_name = "SHARE", value_parser = ramp)]
     pub ramp: Option<f64>,
-    /// Write the motion to this file, times and positions, which `[motion]` of a machine file reads with type = "profile".
-    #[arg(long, value_name = "CSV", value_parser = output_file())]
-    pub profile: Option<PathBuf>,
-    /// Write the motion to this file as a table for an electronic cam.
-    #[arg(long, value_name = "CSV", value_parser = output_file())]
-    pub cam: Option<PathBuf>,
-    /// Rows of the cam table.
-    #[arg(long, default_value_t = 2001, value_parser = clap::value_parser!(u32).range(16..=1_000_000))]
-    pub rows: u32,
-    /// Unit of the cam table's master, which makes one turn during the motion; the derivatives are with respect to it.
-    #[arg(long, value_name = "UNIT", value_parser = word::<Master>(), default_value_t)]
-    pub master: Master,
+    /// Profile and electronic cam.
+    #[command(flatten)]
+    pub series: SeriesFiles,
     /// Documents.
     #[command(flatten)]
     pub documents: Documents,
