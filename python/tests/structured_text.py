@@ -9,6 +9,7 @@ from __future__ import annotations
 import operator
 import re
 from collections.abc import Callable
+from functools import cache
 from typing import Any
 
 from blark.parse import parse_source_code
@@ -183,7 +184,8 @@ class _Type:
 
         def run(scope: Scope) -> None:
             first, last = (end(scope) for end in ends)
-            for scope[name] in range(first, last + 1, step(scope)):
+            for value in range(first, last + 1, step(scope)):
+                scope[name] = value
                 body(scope)
 
         return run
@@ -206,13 +208,15 @@ class _Type:
         return self._expression(item.value)
 
     def _Real(self, item: Any) -> Run:
-        return lambda _, value=float(item.value): value
+        value = float(item.value)
+        return lambda _: value
 
     def _Integer(self, item: Any) -> Run:
         return _integer(int(item.value))
 
     def _Boolean(self, item: Any) -> Run:
-        return lambda _, value=str(item.value).upper() == "TRUE": value
+        value = str(item.value).upper() == "TRUE"
+        return lambda _: value
 
     def _SimpleVariable(self, item: Any) -> Run:
         name = str(item.name).lower()
@@ -256,6 +260,7 @@ class _Type:
         return lambda scope: function(*[value(scope) for value in values])
 
 
+@cache
 def blocks(text: str) -> dict[str, Callable[[], Block]]:
     """The function blocks of a text by name; each call makes an instance."""
     parsed = parse_source_code(ARRAY.sub(r"\1 : ARRAY[0..\2] OF LREAL := [0.0]", text))

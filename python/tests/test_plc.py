@@ -96,7 +96,7 @@ def test_numbers_are_those_of_the_image(machine: str) -> None:
     for name, points in reference.points.items():
         found = np.array(arrays[named[name]])
         np.testing.assert_array_equal(found.view(np.uint64), points.view(np.uint64))
-    assert (tick.CELLS, tick.OFFSET) == (reference.cells, reference.offset)
+    assert (reference.cells, reference.offset) == (tick.CELLS, tick.OFFSET)
     limits = [tick.MAX_SPEED, tick.MAX_ACCELERATION]
     np.testing.assert_allclose(limits, reference.validity, rtol=1e-6)
 
@@ -158,7 +158,8 @@ def test_the_block_for_the_plc_agrees_with_the_library(machine: str) -> None:
 def test_units_and_inputs_that_are_no_numbers(machine: str) -> None:
     _, tick, reference, [effort, _] = prepared(machine)
     position = reference.start + 0.3 * reference.span
-    inputs = {"Position": position, "Speed": 0.5, "Acceleration": 0.7, f"Drive{effort}": 1.25}
+    inputs = {"Position": position, "Speed": 0.4 * tick.MAX_SPEED, "Acceleration": 0.3 * tick.MAX_ACCELERATION}
+    inputs[f"Drive{effort}"] = 1.25
     tick(Unit=1.0, **inputs)
     wanted = getattr(tick, f"Required{effort}"), tick.ResultingAcceleration
     unit = math.radians(1) if effort == "Torque" else 1e-3

@@ -27,6 +27,7 @@ mod meter;
 mod motions;
 mod outputs;
 mod pages;
+mod plc;
 mod points;
 mod press;
 mod project;
