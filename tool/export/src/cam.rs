@@ -54,7 +54,7 @@ pub struct CamFault {
 /// Names of cams in a PLC: a tag of Studio 5000 has 40 characters, and a name here may get a suffix.
 const NAMES: PlcNames = PlcNames {
     longest: 32,
-    taken: &["Master", "Slave", "Count"],
+    taken: "master slave count",
 };
 
 /// Share of the largest derivative by which the ends of a cyclic cam may differ: rounding.

@@ -157,7 +157,7 @@ impl TorqueOffsets<'_> {
         {
             // Avoids -0.
             let per_mille = (torque / rated * 1e3).round() + 0.0;
-            if !(per_mille.abs() <= MOST) {
+            if !(-MOST..=MOST).contains(&per_mille) {
                 return Err(TorqueOffsetFault::Torque {
                     t: *t,
                     torque: *torque,
@@ -171,7 +171,7 @@ impl TorqueOffsets<'_> {
                 None => String::new(),
                 Some(per_turn) => {
                     let counts = (position / TAU * f64::from(per_turn)).round() + 0.0;
-                    if !(counts.abs() <= f64::from(i32::MAX)) {
+                    if !(f64::from(-i32::MAX)..=f64::from(i32::MAX)).contains(&counts) {
                         return Err(TorqueOffsetFault::Position(*t, counts));
                     }
                     format!("{counts},")

@@ -1,155 +1,32 @@
-//! The tick as a function block of Structured Text, in double precision, over the words of a spline table; and a block that tests it in the PLC.
+//! The tick as a function block of Structured Text, in double precision.
 
-use jred::table::{Constants, Shape, Table};
-use jred::{AnyModel, CurveSet, Domain, Image, Phase, Spline, curves};
+use std::fmt::Write as _;
 
-use crate::choice::{LayoutName, Number};
+use jred::table::Shape;
+use jred::{Domain, curves};
+
 use crate::export::Export;
 use crate::name::{Name, PlcNames};
-use crate::plcopen;
 use crate::structured_text::{Block, Initial, Kind, List, Use, Variable, real};
+use crate::wide_table::Wide;
 
 /// Names of the blocks: 32 characters are the limit of the strictest PLCs, and the second block has a suffix.
 pub const BLOCK_NAMES: PlcNames = PlcNames {
     longest: 32 - TEST.len(),
-    taken: &[
-        "Position",
-        "Speed",
-        "Acceleration",
-        "DriveTorque",
-        "DriveForce",
-        "Unit",
-        "RequiredTorque",
-        "RequiredForce",
-        "ResultingAcceleration",
-        "Inertia",
-        "InertiaSlope",
-        "Status",
-        "Cell",
-        "Place",
-        "Omega",
-        "Alpha",
-        "U",
-        "D0",
-        "D1",
-        "D2",
-        "P0",
-        "P1",
-        "P2",
-        "P3",
-        "CellSlope",
-        "Damping",
-        "Resisting",
-        "Curve",
-        "Cells",
-        "Start",
-        "Span",
-        "Per_Position",
-        "Half",
-        "Max_Speed",
-        "Max_Acceleration",
-        "Offset",
-        "Viscous",
-        "Coulomb",
-        "Inertias",
-        "Loads",
-        "Viscouses",
-        "Coulombs",
-        "Passed",
-        "Worst",
-        "Tick",
-        "K",
-        "Largest_Effort",
-        "Largest_Acceleration",
-        "Rows",
-    ],
+    taken: "position speed acceleration drivetorque driveforce unit requiredtorque requiredforce resultingacceleration inertia inertiaslope
+        status cell place omega alpha u d0 d1 d2 p0 p1 p2 p3 cellslope damping resisting curve cells start span per_position half
+        max_speed max_acceleration offset viscous coulomb inertias loads viscouses coulombs passed worst tick k largest_effort rows",
 };
 
 /// Suffix of the block that tests.
-const TEST: &str = "_Test";
-
-/// Rows of that test.
-const ROWS: u32 = 24;
-
-/// Largest difference that it accepts, as a share of the largest value: roundings of the PLC's own arithmetic.
-const SHARE: f64 = 1e-12;
+pub(crate) const TEST: &str = "_Test";
 
 /// Share by which an input may exceed its limit without a status: rounding.
 const ROUNDING: f64 = 1e-9;
 
-/// A spline table in double precision: the same numbers as in the image.
-struct Wide {
-    words: Vec<f64>,
-    shape: Shape<Spline<f64>>,
-}
-
-impl Wide {
-    /// The table of an image of single precision.
-    fn of(words: &[u32], domain: Domain) -> Option<Self> {
-        let table = Image::new(words).ok()?.table::<Spline<f32>>().ok()?;
-        let constants = table.constants();
-        Some(Self {
-            words: table.words().iter().map(|word| f64::from(*word)).collect(),
-            shape: Shape {
-                set: table.set(),
-                cells: table.cells(),
-                domain,
-                scale: *table.scale(),
-                constants: Constants {
-                    inertia: constants.inertia.into(),
-                    viscous: constants.viscous.into(),
-                    coulomb: constants.coulomb.into(),
-                    gains: constants.gains,
-                },
-            },
-        })
-    }
-
-    fn has(&self, curve: CurveSet) -> bool {
-        self.shape.set & curve != 0
-    }
-
-    /// The control points of a curve of the set: of J for [`curves::INERTIA`].
-    fn points(&self, curve: CurveSet) -> Vec<f64> {
-        let width = curves::width(self.shape.set);
-        let column = match curve {
-            curves::INERTIA => 0,
-            curve => curves::width(self.shape.set & (curve - 1)),
-        };
-        let points = self.words.iter().skip(column).step_by(width);
-        points.copied().collect()
-    }
-
-    fn model(&self) -> Option<AnyModel<'_, Spline<f64>>> {
-        AnyModel::new(Table::new(&self.words, self.shape).ok()?).ok()
-    }
-}
-
-/// A constant of type LREAL.
-fn constant(name: &str, value: f64, comment: &str) -> Variable {
-    variable(name, Initial::One(real(value)), comment)
-}
-
-fn variable(name: &str, initial: Initial, comment: &str) -> Variable {
-    Variable {
-        name: name.to_owned(),
-        kind: Kind::Elementary("LREAL"),
-        initial,
-        comment: comment.to_owned(),
-    }
-}
-
-fn numbers(name: &str, values: &[f64], comment: &str) -> Variable {
-    let values = values.iter().map(|value| real(*value)).collect();
-    variable(name, Initial::Array(values), comment)
-}
-
-fn other(kind: &'static str, variable: Variable) -> Variable {
-    Variable {
-        kind: Kind::Elementary(kind),
-        ..variable
-    }
-}
+/// Elementary types.
+pub(crate) const DINT: Kind = Kind::Elementary("DINT");
+const UINT: Kind = Kind::Elementary("UINT");
 
 /// Statements that read a curve into `into`; `last` are those that use the coefficients P0 to P3.
 fn read(points: &str, offset: &str, last: &str) -> String {
@@ -172,45 +49,21 @@ fn value(points: &str, into: &str) -> String {
 }
 
 impl Export {
-    /// The tick as Structured Text: two blocks, the second tests the first. `about` are lines of its comment. `None` for several pieces, and for a
-    /// table other than a spline in f32.
-    pub fn structured_text(&self, name: &Name, about: &str) -> Option<String> {
-        let texts = self.blocks(name, about)?;
-        let texts: Vec<String> = texts.iter().map(Block::text).collect();
-        Some(texts.join("\n"))
-    }
-
-    /// The same as PLCopen XML, made on a `day` such as 2026-11-28.
-    pub fn plcopen(&self, name: &Name, about: &str, day: &str) -> Option<String> {
-        Some(plcopen::project(
-            &self.title,
-            day,
-            &self.blocks(name, about)?,
-        ))
-    }
-
-    fn blocks(&self, name: &Name, about: &str) -> Option<[Block; 2]> {
-        if self.kind() != (Number::F32, LayoutName::Spline) {
-            return None;
-        }
-        let wide = Wide::of(&self.whole()?.words, self.domain)?;
-        Some([self.tick(&wide, name, about), self.test(&wide, name)?])
-    }
-
     /// What the inputs are called: torques, or forces of a sliding link.
-    const fn effort(&self) -> [&'static str; 3] {
+    pub(crate) const fn effort(&self) -> [&'static str; 3] {
         self.coordinate.pick(
             ["DriveTorque", "RequiredTorque", "[N m]"],
             ["DriveForce", "RequiredForce", "[N]"],
         )
     }
 
-    fn tick(&self, wide: &Wide, Name(name): &Name, about: &str) -> Block {
+    /// The block with both directions of the tick.
+    pub(crate) fn tick_block(&self, wide: &Wide, Name(name): &Name, about: &str) -> Block {
         let [drive, required, unit] = self.effort();
         let [base, inertia, slope] = self
             .coordinate
             .pick(["rad", "[kg m^2]", "[kg m^2/rad]"], ["m", "[kg]", "[kg/m]"]);
-        let input = |name: &str, comment: &str| variable(name, Initial::Default, comment);
+        let input = Variable::new;
         let inputs = vec![
             input("Position", "of the drive link, in units of Unit"),
             input("Speed", "per second"),
@@ -222,7 +75,7 @@ impl Export {
                 drive,
                 &format!("at the drive link {unit}: asks for the acceleration"),
             ),
-            constant(
+            Variable::number(
                 "Unit",
                 1.0,
                 &format!(
@@ -245,13 +98,13 @@ impl Export {
                 "InertiaSlope",
                 &format!("its derivative by the position {slope}"),
             ),
-            other("UINT", input("Status", status)),
+            input("Status", status).of(UINT),
         ];
         let locals = ["Place", "Omega", "Alpha", "U"].into_iter();
         let locals = locals.chain(["D0", "D1", "D2", "P0", "P1", "P2", "P3"]);
         let locals = locals.chain(["CellSlope", "Damping", "Resisting", "Curve"]);
         let locals = locals.map(|name| input(name, "intermediate value"));
-        let cell = std::iter::once(other("DINT", input("Cell", "index of the cell")));
+        let cell = std::iter::once(input("Cell", "index of the cell").of(DINT));
         let lists = [
             (Use::Input, inputs),
             (Use::Output, outputs),
@@ -273,30 +126,38 @@ impl Export {
         } = wide.shape;
         let span = self.domain.span();
         let per_position = f64::from(cells) / span;
-        let count = variable("CELLS", Initial::One(cells.to_string()), "of the table");
+        let count = Variable {
+            initial: Initial::One(cells.to_string()),
+            ..Variable::new("CELLS", "of the table")
+        };
         let mut all = vec![
-            other("DINT", count),
-            constant("START", self.domain.position(0.0), "of the range"),
-            constant("SPAN", span, "length of the range"),
-            constant("PER_POSITION", per_position, "cells per position"),
-            constant("HALF", 0.5 * f64::from(cells) / span, "half of it"),
-            constant("MAX_SPEED", self.task.omega, "of the table"),
-            constant("MAX_ACCELERATION", self.task.alpha, "of the table"),
-            constant("OFFSET", constants.inertia, "added to the inertia"),
+            count.of(DINT),
+            Variable::number("START", self.domain.position(0.0), "of the range"),
+            Variable::number("SPAN", span, "length of the range"),
+            Variable::number("PER_POSITION", per_position, "cells per position"),
+            Variable::number("HALF", 0.5 * f64::from(cells) / span, "half of it"),
+            Variable::number("MAX_SPEED", self.task.omega, "of the table"),
+            Variable::number("MAX_ACCELERATION", self.task.alpha, "of the table"),
+            Variable::number("OFFSET", constants.inertia, "added to the inertia"),
         ];
         if wide.has(curves::CONSTANT_VISCOUS) {
-            all.push(constant("VISCOUS", constants.viscous, "friction by speed"));
+            all.push(Variable::number(
+                "VISCOUS",
+                constants.viscous,
+                "friction by speed",
+            ));
         }
         if wide.has(curves::CONSTANT_COULOMB) {
-            all.push(constant(
+            all.push(Variable::number(
                 "COULOMB",
                 constants.coulomb,
                 "friction by direction",
             ));
         }
         let points = "control points of a cubic B-spline, in sixths:";
-        let curve =
-            |name, curve, what| numbers(name, &wide.points(curve), &format!("{points} {what}"));
+        let curve = |name, curve, what| {
+            Variable::numbers(name, &wide.points(curve), &format!("{points} {what}"))
+        };
         all.push(curve("INERTIAS", curves::INERTIA, "reduced inertia"));
         for (bit, name, what) in [
             (curves::LOAD, "LOADS", "load, in the direction of motion"),
@@ -308,6 +169,27 @@ impl Export {
             }
         }
         all
+    }
+
+    /// Statements that bring the place into the range, 0 to 1.
+    fn wrapped(&self) -> String {
+        match self.domain {
+            Domain::Turn => "Place := Place - DINT_TO_LREAL(TRUNC(Place));\n\
+                             IF Place < 0.0 THEN\n\
+                             \x20   Place := Place + 1.0;\n\
+                             END_IF;\n"
+                .to_owned(),
+            Domain::Stroke { .. } => {
+                let slack = real(ROUNDING);
+                let beyond = real(1.0 + ROUNDING);
+                format!(
+                    "IF Place < -{slack} OR Place > {beyond} THEN\n\
+                     \x20   Status := Status + 1;\n\
+                     END_IF;\n\
+                     Place := MIN(MAX(Place, 0.0), 1.0);\n"
+                )
+            }
+        }
     }
 
     fn statements(&self, wide: &Wide) -> String {
@@ -327,27 +209,12 @@ impl Export {
              \x20   RETURN;\n\
              END_IF;\n"
         );
-        text += &match self.domain {
-            Domain::Turn => "Place := Place - DINT_TO_LREAL(TRUNC(Place));\n\
-                             IF Place < 0.0 THEN\n\
-                             \x20   Place := Place + 1.0;\n\
-                             END_IF;\n"
-                .to_owned(),
-            Domain::Stroke { .. } => {
-                let slack = real(ROUNDING);
-                let beyond = real(1.0 + ROUNDING);
-                format!(
-                    "IF Place < -{slack} OR Place > {beyond} THEN\n\
-                     \x20   Status := Status + 1;\n\
-                     END_IF;\n\
-                     Place := MIN(MAX(Place, 0.0), 1.0);\n"
-                )
-            }
-        };
+        text += &self.wrapped();
         for (number, input, limit) in [(2, "Omega", "MAX_SPEED"), (4, "Alpha", "MAX_ACCELERATION")]
         {
-            text += &format!(
-                "IF ABS({input}) > {limit} * {} THEN\n    Status := Status + {number};\nEND_IF;\n",
+            let _ = writeln!(
+                text,
+                "IF ABS({input}) > {limit} * {} THEN\n    Status := Status + {number};\nEND_IF;",
                 real(1.0 + ROUNDING)
             );
         }
@@ -389,82 +256,5 @@ impl Export {
             "{required} := Inertia * Alpha + Resisting;\n\
              ResultingAcceleration := ({drive} - Resisting) / Inertia / Unit;\n"
         )
-    }
-
-    /// A block that compares the first with torques computed here by the library, and its accelerations with those that gave the torques.
-    fn test(&self, wide: &Wide, Name(name): &Name) -> Option<Block> {
-        let [drive, required, _] = self.effort();
-        let model = wide.model()?;
-        let mut rows = Vec::new();
-        let (mut torques, mut accelerations) = (0.0f64, 0.0f64);
-        for k in 0..ROWS {
-            // Spread over the range, with speeds and accelerations of both signs.
-            let phase = Phase::from_bits(k.wrapping_mul(2_654_435_769).wrapping_add(1 << 20));
-            let share = |step: u32| f64::from((k * step) % ROWS) / f64::from(ROWS) * 2.0 - 1.0;
-            let (omega, alpha) = (self.task.omega * share(5), self.task.alpha * share(7));
-            let position = self
-                .domain
-                .position(f64::from(phase.to_bits()) / 4_294_967_296.0);
-            let torque = model.torque(phase, omega, alpha);
-            torques = torques.max(torque.abs());
-            accelerations = accelerations.max(alpha.abs());
-            rows.extend([position, omega, alpha, torque]);
-        }
-        let input = |name: &str, comment: &str| variable(name, Initial::Default, comment);
-        let about = format!(
-            "Call it once in the PLC: Passed becomes TRUE if {name} gives the {} values that jred computed.",
-            2 * ROWS
-        );
-        let part = |of, variables| List { of, variables };
-        let tick = Variable {
-            kind: Kind::Block(name.clone()),
-            ..input("Tick", "the block under test")
-        };
-        let worst = "largest difference, as a share of the largest value";
-        let lists = vec![
-            part(
-                Use::Output,
-                vec![
-                    other("BOOL", input("Passed", "every value is right")),
-                    input("Worst", worst),
-                ],
-            ),
-            part(Use::Local, vec![tick, other("DINT", input("K", "row"))]),
-            part(
-                Use::Constant,
-                vec![
-                    constant("LARGEST_EFFORT", torques, "of the rows"),
-                    constant("LARGEST_ACCELERATION", accelerations, "of the rows"),
-                    numbers(
-                        "ROWS",
-                        &rows,
-                        "position, speed, acceleration and torque or force of each row, in SI units",
-                    ),
-                ],
-            ),
-        ];
-        let body = format!(
-            "Worst := 0.0;\n\
-             Passed := TRUE;\n\
-             FOR K := 0 TO {} BY 4 DO\n\
-             \x20   Tick(Position := ROWS[K], Speed := ROWS[K + 1], Acceleration := ROWS[K + 2], {drive} := ROWS[K + 3], Unit := 1.0);\n\
-             \x20   Worst := MAX(Worst, ABS(Tick.{required} - ROWS[K + 3]) / LARGEST_EFFORT);\n\
-             \x20   Worst := MAX(Worst, ABS(Tick.ResultingAcceleration - ROWS[K + 2]) / LARGEST_ACCELERATION);\n\
-             \x20   IF Tick.Status <> 0 THEN\n\
-             \x20       Passed := FALSE;\n\
-             \x20   END_IF;\n\
-             END_FOR;\n\
-             IF NOT (Worst < {}) THEN\n\
-             \x20   Passed := FALSE;\n\
-             END_IF;\n",
-            4 * (ROWS - 1),
-            real(SHARE)
-        );
-        Some(Block {
-            name: [name, TEST].concat(),
-            about: vec![about],
-            lists,
-            body,
-        })
     }
 }

@@ -6,9 +6,10 @@
 //! 1. `choice`, `cost`, `task`: number types, layouts, cores; the request.
 //! 2. `directions`, `reference`, `ticks`, `search`, `pieces`: the machine's exact curves, and the sizes that are tried.
 //! 3. `export`: the chosen table. `enclose` and `proof`: the machine's curves in intervals, and a bound of the error at every position.
-//! 4. `form`: the table as image, Rust, C; `function_block`: the tick for a PLC. `cam`, `cia402`: a motion for a PLC or drive.
+//! 4. `form`: the table as image, Rust, C; `plc`: the tick for a PLC. `cam`, `cia402`: a motion for a PLC or drive.
 #![forbid(unsafe_code)]
 
+mod block_test;
 mod c_source;
 mod cam;
 mod candidate;
@@ -27,6 +28,7 @@ mod name;
 mod pieces;
 mod place;
 mod plan;
+mod plc;
 mod plcopen;
 mod proof;
 mod proof_result;
@@ -37,6 +39,7 @@ mod slider_crank;
 mod structured_text;
 mod task;
 mod ticks;
+mod wide_table;
 
 pub use c_source::plan_c_source;
 pub use cam::{Cam, CamFault, CamForm, CamRow};

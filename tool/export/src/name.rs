@@ -12,8 +12,8 @@ pub struct Name(pub(crate) String);
 pub struct PlcNames {
     /// Most characters.
     pub longest: usize,
-    /// Names in use beside it, in any letter case.
-    pub taken: &'static [&'static str],
+    /// Names in use beside it, in lower case, between spaces.
+    pub taken: &'static str,
 }
 
 /// Prefix of the library's names, in C followed by an underscore.
@@ -109,13 +109,19 @@ impl Name {
 
 impl PlcNames {
     fn takes(&self, text: &str) -> bool {
-        self.taken.iter().any(|own| own.eq_ignore_ascii_case(text))
+        is_among(self.taken, text)
     }
 }
 
 fn is_reserved(text: &str) -> bool {
-    IEC.split_whitespace()
-        .any(|reserved| reserved.eq_ignore_ascii_case(text))
+    is_among(IEC, text)
+}
+
+/// Whether a list of words has this one; letter case does not count.
+fn is_among(words: &str, text: &str) -> bool {
+    words
+        .split_whitespace()
+        .any(|word| word.eq_ignore_ascii_case(text))
 }
 
 /// The nearest valid name of a PLC; the same text, if it is one.
@@ -198,7 +204,7 @@ mod tests {
     fn a_plc_has_names_of_its_own() {
         let names = PlcNames {
             longest: 12,
-            taken: &["Speed"],
+            taken: "speed",
         };
         for name in ["press", "Press_1", "p"] {
             assert_eq!(Name::for_plc(name, &names).unwrap().as_str(), name);

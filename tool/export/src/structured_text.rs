@@ -103,6 +103,38 @@ impl Use {
 }
 
 impl Variable {
+    /// A variable of type LREAL.
+    pub(crate) fn new(name: &str, comment: &str) -> Self {
+        Self {
+            name: name.to_owned(),
+            kind: Kind::Elementary("LREAL"),
+            initial: Initial::Default,
+            comment: comment.to_owned(),
+        }
+    }
+
+    /// The same with a number at the start.
+    pub(crate) fn number(name: &str, value: f64, comment: &str) -> Self {
+        Self {
+            initial: Initial::One(real(value)),
+            ..Self::new(name, comment)
+        }
+    }
+
+    /// An array of numbers.
+    pub(crate) fn numbers(name: &str, values: &[f64], comment: &str) -> Self {
+        let values = values.iter().map(|value| real(*value)).collect();
+        Self {
+            initial: Initial::Array(values),
+            ..Self::new(name, comment)
+        }
+    }
+
+    /// The same of another type.
+    pub(crate) fn of(self, kind: Kind) -> Self {
+        Self { kind, ..self }
+    }
+
     /// Its declaration.
     fn text(&self) -> String {
         let kind = match &self.kind {
