@@ -177,7 +177,7 @@ fn what_a_plc_does_not_take_is_refused() {
         (
             "--name a_name_of_more_than_thirty_two_characters",
             [
-                "it has 44 characters, and a PLC takes 27",
+                "it has 41 characters, and a PLC takes 27",
                 "use --name a_name_of_more_than_thirty",
             ],
         ),
@@ -225,8 +225,8 @@ fn torque_offsets_follow_newtons_law_in_their_own_columns() {
         "title = \"disc\"\ngravity = [\"0 m/s^2\", \"0 m/s^2\"]\n[mechanism]\ntype = \"rotary-table\"\n\
          [mechanism.table]\ninertia = \"0.01 kg m^2\"\n\
          [[drive_train]]\ntype = \"gear-train\"\n[[drive_train.stage]]\n\
-         driver = { teeth = 20 }\ndriven = { teeth = 40 }\n\
-         [motion]\ntype = \"cycle\"\n[[motion.segment]]\nlaw = \"3-4-5\"\nmove = \"90 deg\"\nduration = \"0.2 s\"\n",
+         driver = { teeth = 20, inertia = \"0 kg m^2\" }\ndriven = { teeth = 40, inertia = \"0 kg m^2\" }\n\
+         [motion]\ntype = \"cycle\"\n[[motion.segment]]\nlaw = \"polynomial-345\"\nmove = \"90 deg\"\nduration = \"0.2 s\"\n",
     );
     let line = "export {} --format cia402 --rated-torque '0.05 N m' --counts-per-turn 1000000000 --rows 201 --rotor-inertia '5 kg cm^2'";
     let run = jred_of(line, [&disc]).ends(0);
@@ -245,9 +245,9 @@ fn torque_offsets_follow_newtons_law_in_their_own_columns() {
         let alpha = counts / 1e9 * std::f64::consts::TAU / (h * h);
         let torque = here[2] * 0.05e-3;
         largest = largest.max(torque.abs());
-        // A count in the difference, half of a per mille, and h²/12 of the fourth derivative.
+        // Two counts in the difference, half of a per mille, and h²/12 of the fourth derivative.
         assert!(
-            (torque - inertia * alpha).abs() < 3e-5 + 2e-3 * largest,
+            (torque - inertia * alpha).abs() < 1e-4 + 2e-3 * largest,
             "{here:?} {alpha}"
         );
     }

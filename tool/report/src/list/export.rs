@@ -37,11 +37,19 @@ pub fn commented(export: &Export, code: &str) -> String {
     lines.collect::<String>() + code
 }
 
-/// The same summary for a program in another language than Rust, line by line.
-pub fn about(export: &Export) -> String {
+/// The same summary for a program of a PLC, line by line: without what holds for Rust, and for ticks in single precision.
+pub fn about_plc(export: &Export) -> String {
     let lines = summary(export);
-    let lines = lines.lines().filter(|line| !line.starts_with("in Rust: "));
-    lines.flat_map(|line| [line, "\n"]).collect()
+    let lines = lines.lines().filter(|line| {
+        !["in Rust: ", "measured in ticks: ", "forward dynamics: "]
+            .iter()
+            .any(|start| line.starts_with(start))
+    });
+    let computed = "the numbers are those of this table; computed in LREAL";
+    lines
+        .chain([computed])
+        .flat_map(|line| [line, "\n"])
+        .collect()
 }
 
 const fn effort_name(coordinate: Coordinate) -> &'static str {
