@@ -40,6 +40,8 @@ pub const COMMANDS: &[&str] = &[
     "export MACHINE --torque-error 5_N_m --type f32 --layout harmonic --out OUT",
     "export MACHINE --torque-error 5_N_m --type f32 --layout slider-crank --out OUT",
     "export MACHINE --torque-error 5_N_m --pieces auto --format c --out OUT --max-cells 200",
+    "export MACHINE --torque-error 5_N_m --format plcopen --out OUT --max-cells 200",
+    "export MACHINE --format cia402 --rated-torque 5_N_m --rows 20 --out OUT",
 ];
 
 /// One of the commands.
