@@ -11,7 +11,6 @@ use jred_analysis::duty;
 use jred_export::{ShaftInstant, TorqueOffsets};
 use jred_file::argument::Argument;
 use jred_file::model::coordinate::Coordinate;
-use jred_file::model::drive_train;
 use jred_file::model::machine::MachineFile;
 use jred_file::plain;
 use jred_file::text::key::EFFORT;
@@ -73,7 +72,6 @@ pub(super) fn run(options: &Export, file: &MachineFile) -> Result<Completion> {
     } else {
         Coordinate::Angle
     };
-    drive_train::refuse(file, "export --format cia402")?;
     let rated = options.rated_torque.as_deref();
     let rated = quantity(
         "rated-torque",
@@ -88,10 +86,17 @@ pub(super) fn run(options: &Export, file: &MachineFile) -> Result<Completion> {
         ));
     };
     check(options, true)?;
-    if let (Some(_), Coordinate::Length) = (options.counts_per_turn, coordinate) {
+    let of_turns = [
+        ("--counts-per-turn", options.counts_per_turn.is_some()),
+        ("--rotor-inertia", options.rotor_inertia.is_some()),
+    ];
+    let of_turns = of_turns.into_iter().find(|(_, given)| *given);
+    if let (Some((name, _)), Coordinate::Length) = (of_turns, coordinate) {
         return Err(miette!(
-            help = "remove --counts-per-turn: the table then goes by time",
-            "the drive link of this machine slides, so that its motor has no turns"
+            help = format!(
+                "remove {name}, or give the [[drive_train]] between the motor and the drive link"
+            ),
+            "{name} is of a motor that turns, but the drive link of this machine slides and has no drive train"
         ));
     }
     let motion = file.required_motion()?;
