@@ -8,7 +8,6 @@ import pickle
 import re
 import signal
 import subprocess
-import sys
 import threading
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
@@ -16,15 +15,13 @@ from typing import Any
 
 import numpy as np
 import pytest
+from command import JRED, OWN
 
 import jred
 from jred import Machine, evaluate, study
 
 MACHINES = Path(__file__).parents[2] / "machines"
 PRESS = MACHINES / "press.toml"
-#: The command: the program of the tool where it is built, else that of the package.
-OWN = [sys.executable, "-I", "-c", "import jred; jred.main()"]
-JRED = [os.environ["JRED_COMMAND"]] if os.environ.get("JRED_COMMAND") else OWN
 
 
 def command(*words: str) -> tuple[int, str]:

@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 import math
-import os
 import re
 import subprocess
-import sys
 from functools import cache
 from json import loads
 from pathlib import Path
@@ -17,11 +15,10 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 import structured_text
+from command import JRED
 from scipy.interpolate import BSpline
 
 MACHINES = Path(__file__).parents[2] / "machines"
-OWN = [sys.executable, "-c", "import jred; jred.main()"]
-JRED = [os.environ["JRED_COMMAND"]] if os.environ.get("JRED_COMMAND") else OWN
 #: Load and friction as curves; a stroke in metres; constants alone; friction by speed as a curve. With the largest error of the table.
 OPTIONS = {"press": "1 N m", "excavator-bucket": "5 N", "hoist": "1 N m", "shaking-feeder": "0.1 N m"}
 NAMES = list(OPTIONS)
