@@ -33,7 +33,7 @@ pub type CamRow = [f64; 4];
 /// A cam's table with its units.
 #[derive(Clone, Copy, Debug)]
 pub struct Cam<'a> {
-    /// What it moves.
+    /// Name of the machine.
     pub title: &'a str,
     /// The rows, masters ascending.
     pub rows: &'a [CamRow],
@@ -96,7 +96,7 @@ impl fmt::Display for CamFault {
 }
 
 impl CamFault {
-    /// What to do.
+    /// The cure.
     pub fn cure(&self) -> String {
         format!("use --rows {}", self.limit)
     }

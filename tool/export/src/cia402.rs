@@ -22,7 +22,7 @@ pub struct ShaftInstant {
 /// A table for a drive.
 #[derive(Clone, Copy, Debug)]
 pub struct TorqueOffsets<'a> {
-    /// What it moves.
+    /// Name of the machine.
     pub title: &'a str,
     /// The instants.
     pub instants: &'a [ShaftInstant],
@@ -36,7 +36,7 @@ pub struct TorqueOffsets<'a> {
     pub unit: &'static str,
 }
 
-/// What a drive cannot represent.
+/// A figure that a drive cannot represent.
 #[derive(Clone, Debug, PartialEq)]
 pub enum TorqueOffsetFault {
     /// The rated torque (N·m, or N) in 0x6076.
@@ -95,7 +95,7 @@ impl fmt::Display for TorqueOffsetFault {
 }
 
 impl TorqueOffsetFault {
-    /// What to do.
+    /// The cure.
     pub fn cure(&self) -> String {
         match self {
             Self::Rated(..) => {

@@ -49,7 +49,7 @@ fn value(points: &str, into: &str) -> String {
 }
 
 impl Export {
-    /// What the inputs are called: torques, or forces of a sliding link.
+    /// Names of the inputs: torques, or forces of a sliding link.
     pub(crate) const fn effort(&self) -> [&'static str; 3] {
         self.coordinate.pick(
             ["DriveTorque", "RequiredTorque", "[N m]"],

@@ -7,7 +7,7 @@ use std::path::Path;
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Name(pub(crate) String);
 
-/// What names a PLC takes.
+/// The names that a PLC takes.
 #[derive(Clone, Copy, Debug)]
 pub struct PlcNames {
     /// Most characters.

@@ -9,7 +9,7 @@ const PER_LINE: usize = 8;
 pub(crate) struct Block {
     /// Its name.
     pub(crate) name: String,
-    /// What it is for, a line each.
+    /// Its purpose, a line each.
     pub(crate) about: Vec<String>,
     /// Its variables, by their use.
     pub(crate) lists: Vec<List>,
@@ -41,7 +41,7 @@ pub(crate) struct Variable {
     pub(crate) name: String,
     pub(crate) kind: Kind,
     pub(crate) initial: Initial,
-    /// What it is, with its unit.
+    /// Its meaning, with the unit.
     pub(crate) comment: String,
 }
 
