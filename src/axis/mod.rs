@@ -21,6 +21,9 @@
 //! LookAhead: greatest speed at each φ, where it stops ─────────────────┘
 //! ```
 //!
+//! An [`Observer`] is a [`Tracker`] with the model: it also sees the torque of the load, from which a [`Payload`] is estimated and a
+//! [`Monitor`](monitor::Monitor) finds jams and wear.
+//!
 //! An [`ImageSlot`] exchanges the table while the machine runs. `docs/axis.md` of the project explains each step; `examples/07_axis.rs`,
 //! `08_governor.rs` and `09_plan.rs` combine them; `examples/template` is a firmware to start from.
 //!
@@ -40,11 +43,15 @@ mod follower;
 mod governor;
 mod limits;
 mod look_ahead;
+pub mod monitor;
 mod motion;
 mod motion_range;
+mod observer;
+mod payload;
 pub mod plan;
 mod slot;
 mod stroke;
+mod torque_count;
 mod tracker;
 mod transmission;
 
@@ -61,6 +68,8 @@ pub use limits::{AccelerationBound, FeasibleAccelerations, Limit, Limits};
 pub use look_ahead::{Direction, LookAhead, Stop};
 pub use motion::{MotionState, Period};
 pub use motion_range::{MotionRange, Status};
+pub use observer::{Observed, Observer};
+pub use payload::{Payload, PayloadEstimate};
 pub use plan::Plan;
 pub use slot::ImageSlot;
 pub use stroke::{StrokeEncoder, StrokeMounting};

@@ -43,6 +43,12 @@ pub struct Period<N> {
 /// 2⁻³²
 const UNIT: f32 = 1.0 / 4_294_967_296.0;
 
+/// The acceleration of one count of [`TrackerOutput::acceleration`], in machine units.
+pub(super) fn per_square<N: Number>(seconds: f32, model: &impl MachineUnits<Number = N>) -> f32 {
+    let span = model.domain().span().to_f32();
+    span / seconds / seconds * (UNIT / 256.0) / model.scale().acceleration()
+}
+
 impl<N: Number> Period<N> {
     /// A period of `seconds`, for a model with its range and machine units.
     ///
@@ -66,9 +72,7 @@ impl<N: Number> Period<N> {
             Some(Self {
                 speed: Factor::of_count(per_count)?,
                 moved: Factor::to_count(1.0 / per_count)?,
-                acceleration: Factor::of_count(
-                    span / seconds / seconds * (UNIT / 256.0) / acceleration,
-                )?,
+                acceleration: Factor::of_count(per_square(seconds, model))?,
                 gained: Factor::new(gained)?,
                 needed: Factor::new(1.0 / gained)?,
                 stroke: matches!(domain, Domain::Stroke { .. }),
@@ -81,6 +85,12 @@ impl<N: Number> Period<N> {
             value: seconds,
             range,
         })
+    }
+
+    /// Whether phases do not wrap.
+    #[inline]
+    pub(super) const fn on_stroke(&self) -> bool {
+        self.stroke
     }
 
     /// The speed that a [`Tracker`](super::Tracker) found in this period.

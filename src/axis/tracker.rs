@@ -68,6 +68,25 @@ pub struct TrackerOutput {
 /// A quarter of the range.
 const QUARTER: u32 = 1 << 30;
 
+/// θ of the poles of a first-order lag with this corner frequency (Hz) and period (s).
+pub(super) fn memory_of(bandwidth: f32, period: f32) -> Result<f32, AxisError> {
+    positive("the bandwidth of the filter", bandwidth)?;
+    positive("the period of the tick", period)?;
+    Ok(1.0 / (1.0 + core::f32::consts::TAU * bandwidth * period))
+}
+
+/// An acceleration from units of 2⁻⁶⁴ to units of 2⁻⁴⁰, limited to 32 bits.
+#[inline]
+const fn upper(acceleration: i64) -> i32 {
+    let wide = acceleration >> 24;
+    let upper = (wide >> 32) as i32;
+    if upper == wide as i32 >> 31 {
+        wide as i32
+    } else {
+        upper >> 31 ^ i32::MAX
+    }
+}
+
 impl Tracker {
     /// A filter with the memory θ, 0 to 0.99: 0 differentiates three phases without smoothing, 0.9 averages over about ten.
     ///
@@ -108,9 +127,7 @@ impl Tracker {
     /// # Errors
     /// A number that is not positive and finite, or a memory outside 0 to 0.99.
     pub fn with_bandwidth(bandwidth: f32, period: f32) -> Result<Self, AxisError> {
-        positive("the bandwidth of the filter", bandwidth)?;
-        positive("the period of the tick", period)?;
-        Self::new(1.0 / (1.0 + core::f32::consts::TAU * bandwidth * period))
+        Self::new(memory_of(bandwidth, period)?)
     }
 
     /// The same at rest at this phase: for the start, or after the encoder was set.
@@ -163,6 +180,26 @@ impl Tracker {
         self.tracked(residual, lost)
     }
 
+    /// Sets the acceleration of the period that the next reading ends, in the units of [`TrackerOutput::acceleration`]: for an observer, whose model
+    /// predicts it.
+    #[inline]
+    pub(super) const fn accelerate(&mut self, acceleration: i32) {
+        self.acceleration = (acceleration as i64) << 24;
+    }
+
+    /// The share of a residual that corrects the acceleration, in the units of [`TrackerOutput::acceleration`] and limited as that.
+    #[inline]
+    pub(super) const fn correction(&self, residual: i32) -> i32 {
+        let [.., of_acceleration] = self.gains;
+        upper((residual as i64 * of_acceleration as i64) << 1)
+    }
+
+    /// Whether speed and acceleration restarted at 0.
+    #[inline]
+    pub(super) const fn restarted(&self) -> bool {
+        self.speed == 0 && self.acceleration == 0
+    }
+
     /// Corrects speed and acceleration by a residual. Returns the correction of the phase, and whether the motion was impossible.
     #[inline]
     const fn correct(&mut self, residual: i32) -> (i64, bool) {
@@ -187,16 +224,10 @@ impl Tracker {
 
     #[inline]
     const fn tracked(&self, residual: i32, lost: bool) -> TrackerOutput {
-        let wide = self.acceleration >> 24;
-        let upper = (wide >> 32) as i32;
         TrackerOutput {
             phase: Phase::from_bits((self.phase >> 32) as u32),
             speed: (self.speed >> 32) as i32,
-            acceleration: if upper == wide as i32 >> 31 {
-                wide as i32
-            } else {
-                upper >> 31 ^ i32::MAX
-            },
+            acceleration: upper(self.acceleration),
             residual,
             jumped: lost || residual.unsigned_abs() > self.largest,
         }

@@ -193,6 +193,16 @@ impl<'a, F: Format, const SET: CurveSet> Model<'a, F, SET> {
         &self.0
     }
 
+    /// J·α: the torque that alone causes this acceleration, at rest.
+    #[inline(always)]
+    pub(crate) fn inertial(&self, phase: Phase, alpha: AccelerationOf<F>) -> TorqueOf<F> {
+        let Self(AnyModel { table, tick }) = self;
+        let rest = F::Number::default();
+        let friction = FrictionSign::Scaled(rest);
+        let [torque, ..] = F::torque_terms(table, tick, SET, phase, rest, alpha.number(), friction);
+        TorqueOf::<F>::of(torque)
+    }
+
     /// The same model over its words, borrowed again or moved.
     #[inline(always)]
     pub(crate) fn moved<'b>(&self, words: &'b [F::Word]) -> Model<'b, F, SET> {
@@ -287,8 +297,19 @@ macro_rules! dynamics {
                 omega: SpeedOf<F>,
                 torque: TorqueOf<F>,
             ) -> Outcome<AccelerationOf<F>> {
+                self.acceleration_with(phase, omega, FrictionSign::OfSpeed(omega), torque)
+            }
+
+            /// As [`acceleration`](Self::acceleration), with Coulomb friction given by `friction`.
+            #[inline(always)]
+            pub fn acceleration_with(
+                &self,
+                phase: Phase,
+                omega: SpeedOf<F>,
+                friction: FrictionSign<F::Number>,
+                torque: TorqueOf<F>,
+            ) -> Outcome<AccelerationOf<F>> {
                 let $any = self.any();
-                let friction = FrictionSign::OfSpeed(omega);
                 let [found, _] = F::accelerations(
                     &$any.table, &$any.tick, $curves, phase, omega.number(), friction, [torque.number(); 2],
                 );

@@ -1,0 +1,360 @@
+//! Monitoring: a torque that should repeat every cycle, compared with itself in the same place of the range.
+//!
+//! ```text
+//!                  ┌─► bins over φ: mean, σ ─► every tick:  |e − mean| > limit     ─► jam
+//! e, φ ─► Monitor ─┤                      ┌──► every cycle: mean of e − mean       ─► wear  (friction)
+//!                  └─► e − mean ──────────┼──► every cycle: its spread/σ           ─► wear  (vibration)
+//!                                         └──► every cycle: its share of u(φ)      ─► wrong payload
+//! ```
+//!
+//! e is any torque of the drive link that repeats: best the load of an [`Observer`](super::Observer), else the drive's torque minus that of the model.
+//! The first cycles are the reference, with the same motion as later. What the model has wrong repeats, and ends up in the means.
+//!
+//! # Jam
+//!
+//! A tick whose e is farther from its bin's mean than the limit. If e − mean is normal, or has tails no heavier, with the σ of its bin, the
+//! probability of any false alarm in M cycles of n ticks is, by the union bound and thus for any correlation of the ticks,
+//!
+//! ```text
+//! p ≤ 2·M·n·exp(−λ²/2)        limit = 1.5·λ·σ
+//! ```
+//!
+//! The factor 1.5 is for the σ, which is an estimate; a bin's σ counts at least as that of the mean variance of all bins. 10,000 cycles of 2000 ticks
+//! with p = 0.001 have λ = 7.0. A jam of 10 % of the peak torque is seen within 5° of the crank, and 10,000 cycles with a noise of 1 % and the
+//! counts of an encoder have no false alarm (tests `a_jam_is_seen_within_five_degrees`, `ten_thousand_cycles_have_no_false_alarm`).
+//!
+//! # Wear and wrong payload
+//!
+//! Each cycle gives three numbers: the payload m by which e changed, by least squares over its torque u(φ) without its mean; the mean of e − mean
+//! without m·u; and the root-mean-square of (e − mean)/σ. Each passes a CUSUM with the allowance 2·σ and the limit h·2·σ of a cycle's number:
+//!
+//! ```text
+//! S ← max(0, S + (x − x̄)/(2·σ) − 1) > h        p ≤ 6·M·exp(−1.2·h)
+//! ```
+//!
+//! for six sums, since exp(1.2·S) is a supermartingale as long as the reference's mean is within 0.4·2·σ, 4 of its standard errors, and σ is at least
+//! half of the true one. Changes below 2·σ are not seen; one of 10·σ is after h/4, 4 cycles for the figures above. A wrong payload is not also reported as wear.
+//!
+//! # Cost
+//!
+//! A tick has integers only, three 64-bit products and no division, in every number type; the end of a cycle has a few divisions and a root in single
+//! precision, and the two ends of learning one root per bin. Memory: 40 bytes per bin.
+
+mod bin;
+mod drift;
+
+use bin::Bin;
+use drift::Drift;
+
+use super::AxisError;
+use super::error::within;
+use super::torque_count::TorqueCount;
+use crate::Phase;
+use crate::number::{Number, Real as _};
+use crate::tick::MachineUnits;
+
+/// Figures of a [`Monitor`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Watch {
+    /// The largest torque (N·m): that of the drive. Its 2⁻²⁰ is the resolution; beyond twice of it torques are limited.
+    pub largest: f32,
+    /// Reference cycles for the bins, and as many for the figures of a cycle: 32 or more.
+    pub reference: u32,
+    /// M: cycles without a false alarm, up to a million.
+    pub cycles: u32,
+    /// p: probability of a false jam in them, and of false wear or a wrong payload; 10⁻⁹ to 0.5.
+    pub false_alarm: f32,
+}
+
+/// What a tick showed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum Seen {
+    /// The reference is not complete.
+    #[default]
+    Learning,
+    /// As usual.
+    Usual,
+    /// The torque is unusual in its place: a jam, a collision, or a load that is missing.
+    Jam,
+    /// The reference cycles were never here, or too rarely.
+    Unknown,
+    /// The torque was NaN. It counts in no figure.
+    Invalid,
+}
+
+/// What a cycle showed.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Cycle {
+    /// The drifts were judged: the reference is complete, and the cycle had no jam and as many ticks as the mean reference cycle, to an eighth.
+    pub judged: bool,
+    /// Mean of e − mean over the cycle, without the payload (N·m): of a machine that turns forward, minus the friction that was added.
+    pub friction: f32,
+    /// Root-mean-square of (e − mean)/σ: 1 as in the reference.
+    pub spread: f32,
+    /// Payload that was added, in units of the payload.
+    pub payload: f32,
+    /// Friction or spread drifted.
+    pub wear: bool,
+    /// The payload is not that of the reference.
+    pub wrong_payload: bool,
+    /// Number of ticks with a jam.
+    pub jams: u32,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+enum Stage {
+    Bins,
+    Cycles,
+    Watching,
+}
+
+/// Sums of one cycle.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+struct Sums {
+    ticks: u32,
+    jams: u32,
+    off: i64,
+    weighted: i64,
+    /// Of (e − mean)²/σ² in units of 2⁻¹⁶.
+    squares: i64,
+}
+
+/// Compares a torque with itself in earlier cycles, in `BINS` parts of the range. See the [module](self).
+///
+/// One monitor is for one direction: a machine that goes there and back has two. After a repair, or for another motion, make a new one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Monitor<N, const BINS: usize> {
+    count: TorqueCount<N>,
+    watch: Watch,
+    stage: Stage,
+    /// Cycles in this stage of learning, and the ticks of the mean reference cycle.
+    learned: u32,
+    ticks: u32,
+    bins: [Bin; BINS],
+    sums: Sums,
+    /// Payload of a mean product of e − mean and weight, and the friction of a payload.
+    payload_scale: f32,
+    payload_mean: f32,
+    /// Limit of the sums of the drifts.
+    limit: f32,
+    friction: Drift,
+    spread: Drift,
+    payload: Drift,
+}
+
+/// Largest weight of a bin.
+const WEIGHT: f32 = 1024.0;
+
+/// ln x for x ≥ 1, at most 0.06 too large: the logarithm's chord between powers of two.
+fn logarithm(x: f32) -> f32 {
+    let bits = x.to_bits();
+    let exponent = (bits >> 23) as f32 - 127.0;
+    let mantissa = (bits & 0x7f_ffff) as f32 / 8_388_608.0;
+    core::f32::consts::LN_2 * (exponent + mantissa + 0.086_1)
+}
+
+impl<N: Number, const BINS: usize> Monitor<N, BINS> {
+    /// A monitor of torques of this model; `payload` is the torque (N·m) on the drive link, in +φ, by which one more unit of payload changes e at
+    /// this phase, in the motion of the reference: `|_| 0.0` without one.
+    ///
+    /// # Errors
+    /// A figure outside the range stated for it; no bin, or more than 65535; a payload's torque that is NaN or infinite.
+    pub fn new(
+        watch: Watch,
+        mut payload: impl FnMut(Phase) -> f32,
+        model: &impl MachineUnits<Number = N>,
+    ) -> Result<Self, AxisError> {
+        let count = TorqueCount::new(watch.largest, model)?;
+        let holds = (1e-9..=0.5).contains(&watch.false_alarm);
+        within(
+            "the probability of a false alarm",
+            watch.false_alarm,
+            holds,
+            "from 1e-9 to 0.5",
+        )?;
+        for (what, number, least, most, range) in [
+            ("the reference cycles", watch.reference, 32, 10_000, "from 32 to 10000"),
+            ("the cycles without a false alarm", watch.cycles, 1, 1_000_000, "from 1 to 1000000"),
+            ("the bins", BINS.min(1 << 20) as u32, 1, 65_535, "from 1 to 65535"),
+        ] {
+            let holds = (least..=most).contains(&number);
+            within(what, number as f32, holds, range)?;
+        }
+        let mut bins = [Bin::default(); BINS];
+        for (k, bin) in (0u64..).zip(&mut bins) {
+            // The middle of the bin.
+            let middle = ((2 * k + 1) << 31) / BINS as u64;
+            let torque = payload(Phase::from_bits(middle as u32));
+            if !torque.is_finite() {
+                return Err(AxisError::NotFinite("the payload's torque"));
+            }
+            bin.weight = count.of_si(torque);
+        }
+        let cycles = 6.0 * watch.cycles as f32;
+        Ok(Self {
+            count,
+            watch,
+            stage: Stage::Bins,
+            learned: 0,
+            ticks: 0,
+            bins,
+            sums: Sums::default(),
+            payload_scale: 0.0,
+            payload_mean: 0.0,
+            limit: logarithm(cycles / watch.false_alarm) / 1.2,
+            friction: Drift::default(),
+            spread: Drift::default(),
+            payload: Drift::default(),
+        })
+    }
+
+    /// Adds a tick: the phase, and the torque e there.
+    #[inline]
+    pub fn tick(&mut self, phase: Phase, torque: N::Torque) -> Seen {
+        let Some(torque) = self.count.of(torque) else {
+            return Seen::Invalid;
+        };
+        let (bin, _) = phase.cell(BINS as u32);
+        let Some(bin) = self.bins.get_mut(bin as usize) else {
+            return Seen::Unknown;
+        };
+        let sums = &mut self.sums;
+        sums.ticks = sums.ticks.saturating_add(1);
+        if self.stage == Stage::Bins {
+            bin.learn(torque);
+            return Seen::Learning;
+        }
+        if bin.limit == 0 {
+            return Seen::Unknown;
+        }
+        let off = torque - bin.mean;
+        // In units of 2⁻⁸·σ, up to eight of them.
+        let share = (i64::from(off) * i64::from(bin.inverse)) >> 16;
+        let share = share.clamp(-2048, 2048);
+        sums.off = sums.off.saturating_add(i64::from(off));
+        sums.weighted = sums.weighted.saturating_add(i64::from(off) * i64::from(bin.weight));
+        sums.squares = sums.squares.saturating_add(share * share);
+        if self.stage == Stage::Cycles {
+            Seen::Learning
+        } else if off.abs() > bin.limit {
+            sums.jams = sums.jams.saturating_add(1);
+            Seen::Jam
+        } else {
+            Seen::Usual
+        }
+    }
+
+    /// Ends a cycle of the machine: what it showed.
+    pub fn end_cycle(&mut self) -> Cycle {
+        let sums = core::mem::take(&mut self.sums);
+        if self.stage == Stage::Bins {
+            self.learned += 1;
+            if self.learned >= self.watch.reference {
+                self.finish_bins();
+            }
+            return Cycle::default();
+        }
+        let mut cycle = self.figures(&sums);
+        // To an eighth.
+        if sums.ticks == 0 || self.ticks.abs_diff(sums.ticks) > self.ticks / 8 || sums.jams > 0 {
+            return cycle;
+        }
+        if self.stage == Stage::Cycles {
+            self.friction.learn(cycle.friction);
+            self.spread.learn(cycle.spread);
+            self.payload.learn(cycle.payload);
+            self.learned += 1;
+            if self.learned >= self.watch.reference {
+                self.finish_cycles();
+            }
+            return cycle;
+        }
+        cycle.judged = true;
+        let (payload, wrong) = self.payload.judge(cycle.payload, self.limit);
+        let (friction, rubs) = self.friction.judge(cycle.friction, self.limit);
+        let (_, shakes) = self.spread.judge(cycle.spread, self.limit);
+        cycle.payload = payload;
+        cycle.friction = friction;
+        cycle.wrong_payload = wrong;
+        cycle.wear = rubs || (shakes && !wrong);
+        cycle
+    }
+
+    /// Whether the reference is complete.
+    #[must_use]
+    pub fn is_watching(&self) -> bool {
+        self.stage == Stage::Watching
+    }
+
+    /// Mean, and least deviation from it that is a jam, at this phase (N·m); `None`: not known (yet).
+    #[must_use]
+    pub fn usual(&self, phase: Phase) -> Option<[f32; 2]> {
+        let (bin, _) = phase.cell(BINS as u32);
+        let bin = self.bins.get(bin as usize)?;
+        let known = bin.limit > 0;
+        known.then(|| [bin.mean, bin.limit].map(|counts| self.count.si(counts as f32)))
+    }
+
+    fn figures(&self, sums: &Sums) -> Cycle {
+        let ticks = sums.ticks.max(1) as f32;
+        let payload = self.payload_scale * (sums.weighted as f32 / ticks);
+        let mean = self.count.si(sums.off as f32 / ticks);
+        Cycle {
+            friction: mean - payload * self.payload_mean,
+            spread: (sums.squares as f32 / ticks).sqrt() / 256.0,
+            payload,
+            jams: sums.jams,
+            ..Cycle::default()
+        }
+    }
+
+    /// The bins are learned: means, limits, and weights of the payload without their mean.
+    fn finish_bins(&mut self) {
+        let known = || self.bins.iter().filter(|bin| bin.is_known());
+        let ticks = known().fold(0u32, |sum, bin| sum.saturating_add(bin.ticks));
+        let all = ticks.max(1) as f32;
+        // The mean over the ticks of a figure of each bin.
+        let mean = |of: &dyn Fn(&Bin) -> f32| {
+            known().fold(0.0, |sum, bin| sum + of(bin) * bin.ticks as f32) / all
+        };
+        let variance = mean(&|bin| {
+            let [_, variance] = bin.moments();
+            variance
+        });
+        let payload = mean(&|bin| bin.weight as f32);
+        let most = known().fold(1.0, |most: f32, bin| {
+            most.max((bin.weight as f32 - payload).abs())
+        });
+        let square = mean(&|bin| {
+            let off = (bin.weight as f32 - payload) / most;
+            off * off
+        });
+        // Ticks of all cycles without a false alarm, on both sides.
+        self.ticks = ticks / self.watch.reference.max(1);
+        let ticks = 2.0 * self.watch.cycles as f32 * self.ticks.max(1) as f32;
+        let multiple = (2.0 * logarithm(ticks / self.watch.false_alarm)).sqrt();
+        for bin in self.bins.iter_mut().filter(|bin| bin.is_known()) {
+            bin.finish(variance, 1.5 * multiple);
+            bin.weight = ((bin.weight as f32 - payload) / most * WEIGHT) as i32;
+        }
+        self.payload_mean = self.count.si(payload);
+        if square > 0.0 {
+            self.payload_scale = 1.0 / (WEIGHT * most * square);
+        }
+        self.stage = Stage::Cycles;
+        self.learned = 0;
+    }
+
+    fn finish_cycles(&mut self) {
+        let resolution = self.count.si(1.0);
+        self.friction.finish(resolution);
+        self.spread.finish(1.0 / 256.0);
+        self.payload.finish(self.payload_scale * WEIGHT);
+        self.stage = Stage::Watching;
+    }
+}
