@@ -213,6 +213,9 @@ fn every_term(bytes: &'static [u8]) -> Result<(), ImageError> {
         black_box((Phase::default(), [0.0; 2], FrictionSign::Scaled(0.5)));
     black_box(AnyModel::torque_with(&any, phase, omega, alpha, friction));
     black_box(AnyModel::torque_terms(&any, phase, omega, alpha, friction));
+    black_box(AnyModel::acceleration_with(
+        &any, phase, omega, friction, alpha,
+    ));
     black_box(AnyModel::acceleration_range_with(
         &any, phase, omega, friction, omega, alpha,
     ));

@@ -4,11 +4,12 @@
 
 use core::hint::black_box;
 
+use jred::axis::monitor::{Monitor, Watch};
 use jred::axis::plan::{Errors, Knot, encode, image_len, with_ramp};
 use jred::axis::{
     Braking, Counter, Direction, Encoder, Envelope, FeedForward, FrictionRamp, Gearbox, Governor,
-    ImageSlot, Limits, LookAhead, MotionRange, MotionState, Mounting, Override, Period, Plan,
-    PlanFollower, Status, StrokeEncoder, StrokeMounting, TorqueLimits, Tracker, Transmission,
+    ImageSlot, Limits, LookAhead, MotionRange, MotionState, Mounting, Observer, Override, Payload,
+    Period, Plan, PlanFollower, Status, StrokeEncoder, StrokeMounting, TorqueLimits, Tracker, Transmission,
 };
 use jred::image::ImageCheck;
 use jred::number::FrictionSign;
@@ -116,8 +117,40 @@ fn every_axis<F: Format, const SET: CurveSet>(bytes: &'static [u8]) -> Result<()
         }
     }
     every_limit(model, motion);
+    every_observer(model, friction);
     every_plan(model);
     Ok(())
+}
+
+/// The observer and all that uses its load.
+fn every_observer<F: Format, const SET: CurveSet>(
+    model: &Model<'_, F, SET>,
+    friction: FrictionSign<F::Number>,
+) {
+    let (phase, torque) = black_box(<(Phase, TorqueOf<F>)>::default());
+    let Ok(observer) = Observer::with_bandwidth(black_box(60.0), black_box(1e-3), model) else {
+        return;
+    };
+    let observer = Observer::with_largest_step(observer, black_box(phase));
+    let mut observer = Observer::at(observer, phase);
+    black_box(Observer::memory(&observer));
+    let seen = Observer::update(&mut observer, model, phase, torque, friction);
+    if let Ok(payload) = &mut Payload::new(black_box(50.0), black_box(1000), &observer, model) {
+        Payload::update(payload, seen.load, torque);
+        black_box(Payload::estimate(payload));
+        Payload::restart(payload);
+    }
+    let watch = black_box(Watch {
+        largest: 50.0,
+        reference: 32,
+        cycles: 10_000,
+        false_alarm: 0.001,
+    });
+    if let Ok(monitor) = &mut Monitor::<F::Number, 16>::new(watch, |_| black_box(1.0), model) {
+        black_box(Monitor::tick(monitor, seen.motion.phase, seen.load));
+        black_box(Monitor::end_cycle(monitor));
+        black_box((Monitor::is_watching(monitor), Monitor::usual(monitor, phase)));
+    }
 }
 
 /// A plan and its follower.
@@ -213,6 +246,13 @@ fn every_limit<F: Format, const SET: CurveSet>(
     }
     let friction = FrictionSign::OfSpeed(motion.omega);
     let [least, greatest] = black_box([TorqueOf::<F>::default(); 2]);
+    black_box(Model::acceleration_with(
+        model,
+        motion.phase,
+        motion.omega,
+        friction,
+        least,
+    ));
     black_box(Model::acceleration_range_with(
         model,
         motion.phase,

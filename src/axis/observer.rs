@@ -85,7 +85,7 @@ pub struct Observed<N: Number> {
     pub residual: i32,
     /// As [`TrackerOutput::jumped`]. If the speed restarted at 0, so did the load.
     pub jumped: bool,
-    /// The torque was NaN, or torque, speed or acceleration were limited to the number range: the load is wrong until it has settled.
+    /// The torque or the friction's speed was NaN, or torque, speed or acceleration were limited to the number range: the load is wrong until it has settled.
     pub limited: bool,
 }
 
@@ -148,7 +148,7 @@ impl<N: Number> Observer<N> {
     /// Advances one period, with the encoder's phase now, and the torque on the drive link that acted since the reading before. Coulomb friction has
     /// the sign of the set-point's speed, or a [ramp](super::FrictionRamp).
     ///
-    /// A torque that is NaN counts as no acceleration, and is flagged.
+    /// A torque that is NaN counts as no acceleration, a friction's speed that is NaN as forward; both are flagged.
     #[inline]
     pub fn update<F: Format<Number = N>, const SET: CurveSet>(
         &mut self,
@@ -185,8 +185,12 @@ impl<N: Number> Observer<N> {
             omega: omega.value,
             alpha: corrected.value,
         };
-        let none = N::Acceleration::default();
+        let (none, rest) = (N::Acceleration::default(), N::Speed::default());
         let known = alpha.value >= none || alpha.value <= none;
+        let sliding = match friction {
+            FrictionSign::OfSpeed(omega) => omega >= rest || omega <= rest,
+            FrictionSign::Scaled(_) => true,
+        };
         let beyond = matches!(predicted, i32::MIN | i32::MAX);
         let saturated = [middle.saturated, acting.saturated, alpha.saturated];
         let corrections = [correction.saturated, load.saturated, omega.saturated];
@@ -195,7 +199,7 @@ impl<N: Number> Observer<N> {
             load: self.load,
             residual: tracked.residual,
             jumped: tracked.jumped,
-            limited: !known
+            limited: !(known && sliding)
                 || beyond
                 || corrected.saturated
                 || saturated.contains(&true)

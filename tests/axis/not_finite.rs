@@ -3,11 +3,12 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
+use jred::axis::monitor::{Monitor, Seen, Watch};
 use jred::axis::plan::{Errors, Knot, encode, image_len, with_ramp};
 use jred::axis::{
-    Braking, Direction, Envelope, FeedForward, FrictionRamp, Gearbox, Governor, Limits, LookAhead,
-    MotionRange, MotionState, Period, Plan, PlanFollower, StrokeEncoder, StrokeMounting,
-    TorqueLimits, Tracker, Transmission,
+    AxisError, Braking, Direction, Envelope, FeedForward, FrictionRamp, Gearbox, Governor, Limits,
+    LookAhead, MotionRange, MotionState, Observer, Payload, Period, Plan, PlanFollower,
+    StrokeEncoder, StrokeMounting, TorqueLimits, Tracker, Transmission,
 };
 use jred::image::Validity;
 use jred::number::FrictionSign;
@@ -204,6 +205,27 @@ fn ranged(omega: f32, alpha: f32) -> Becomes {
     carried(&[range.max_speed(), range.max_acceleration()])
 }
 
+fn seen(model: &Press<'_>, torque: f32, friction: FrictionSign<f32>) -> Becomes {
+    let mut observer = Observer::with_bandwidth(50.0, 0.001, model).unwrap();
+    let found = observer.update(model, Phase::default(), torque, friction);
+    flagged(found.limited, &[found.load, found.motion.omega, found.motion.alpha])
+}
+
+fn monitor(
+    model: &Press<'_>,
+    largest: f32,
+    false_alarm: f32,
+    payload: f32,
+) -> Result<Monitor<f32, 8>, AxisError> {
+    let watch = Watch {
+        largest,
+        reference: 32,
+        cycles: 1000,
+        false_alarm,
+    };
+    Monitor::new(watch, |_| payload, model)
+}
+
 /// Each function with NaN in one of its arguments, or in all; infinity has the same result as NaN, or acts as a limit.
 const CASES: &[Case] = &[
     ("MotionRange::new", Finite, |_, x| ranged(x, 1.0)),
@@ -351,6 +373,46 @@ const CASES: &[Case] = &[
     }),
     ("Tracker::with_bandwidth", Refused, |_, x| {
         refused(Tracker::with_bandwidth(50.0, x))
+    }),
+    ("Observer::with_bandwidth", Refused, |m, x| {
+        refused(Observer::<f32>::with_bandwidth(x, 0.001, m))
+            .max(refused(Observer::<f32>::with_bandwidth(50.0, x, m)))
+    }),
+    ("Observer::update", Flagged, |m, x| {
+        seen(m, x, FrictionSign::OfSpeed(1.0))
+    }),
+    ("Observer::update", Flagged, |m, x| {
+        seen(m, 1.0, FrictionSign::Scaled(x))
+    }),
+    ("Observer::update", Flagged, |m, x| {
+        // Infinity is a speed in that direction.
+        let sign = if x.is_nan() { x } else { f32::NAN };
+        seen(m, 1.0, FrictionSign::OfSpeed(sign))
+    }),
+    ("Payload::new", Refused, |m, x| {
+        let observer = Observer::with_bandwidth(50.0, 0.001, m).unwrap();
+        refused(Payload::new(x, 1000, &observer, m))
+    }),
+    ("Payload::update", Finite, |m, x| {
+        let observer = Observer::with_bandwidth(50.0, 0.001, m).unwrap();
+        let mut payload = Payload::new(10.0, 1000, &observer, m).unwrap();
+        for k in 0..100u8 {
+            payload.update(f32::from(k), f32::from(k));
+        }
+        payload.update(x, 1.0);
+        payload.update(1.0, x);
+        carried(&[payload.estimate().payload, payload.estimate().offset])
+    }),
+    ("Monitor::new", Refused, |m, x| {
+        refused(monitor(m, x, 0.01, 1.0))
+            .max(refused(monitor(m, 10.0, x, 1.0)))
+            .max(refused(monitor(m, 10.0, 0.01, x)))
+    }),
+    ("Monitor::tick", Flagged, |m, x| {
+        // Infinity is a torque beyond the largest one.
+        let mut monitor = monitor(m, 10.0, 0.01, 1.0).unwrap();
+        let seen = monitor.tick(Phase::default(), if x.is_nan() { x } else { f32::NAN });
+        flagged(seen == Seen::Invalid, &[])
     }),
     ("StrokeEncoder::new", Refused, |_, x| {
         refused(StrokeEncoder::new(
@@ -518,6 +580,14 @@ fn every_function_of_the_axis_is_tried() {
         "Period::alpha",
         "Governor::one_way",
         "Governor::both_ways",
+        "Observer::at",
+        "Observer::with_largest_step",
+        "Observer::memory",
+        "Payload::restart",
+        "Payload::estimate",
+        "Monitor::end_cycle",
+        "Monitor::is_watching",
+        "Monitor::usual",
         "Counter",
         "Mounting",
         "Encoder",

@@ -453,3 +453,13 @@ pub(crate) const FREE_MOTION: f64 = 1e-7;
 /// Lag of the same motion over the time, in turns per turn, between a thousand turns and a hundred times as many: depends on the position in the turn
 /// where the first thousand ended [1.3e-6].
 pub(crate) const FREE_MOTION_LAG: f64 = 3e-6;
+
+/// The load of an observer for J = 1 kg·m² (N·m): phases floored to a unit of 2⁻³² of a turn, over T² = 1e-6 s² times (1 − θ)³ ≤ 0.08; the single
+/// precision of gains, factors and of a load of 5.
+pub(crate) const OBSERVED: f64 = 2e-4;
+
+/// The same in Q15, as a share of the torque base: rounding of a unit of 2⁻¹⁵ in each of torque, acceleration and load, and in every period's sum.
+pub(crate) const OBSERVED_Q15: f64 = 4.0 / 32_768.0;
+
+/// An observed load where there is none, while J varies as 3 : 1 (N·m): the error of the prediction in the middle of a period, of third order.
+pub(crate) const OBSERVED_BIAS: f64 = 0.02;

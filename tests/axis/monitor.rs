@@ -1,0 +1,207 @@
+use core::f64::consts::TAU;
+
+use jred::axis::Observer;
+use jred::axis::monitor::{Cycle, Monitor, Seen, Watch};
+use jred::machine::Reducible as _;
+use jred::number::FrictionSign;
+use jred::{CurveSet, Model, Phase, Scale, Spline, curves};
+
+use super::machine::with_model_of;
+use super::watched::{CRANK, OMEGA, PAYLOAD, Plant, TICK, machine, peak};
+use crate::support::assert_near;
+
+const SET: CurveSet = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
+const BINS: usize = 64;
+
+const WATCH: Watch = Watch {
+    largest: 50.0,
+    reference: 32,
+    cycles: 10_000,
+    false_alarm: 0.001,
+};
+
+/// A machine with 10 % more load and friction than in its model, its observer and its monitor.
+#[derive(Clone, Debug)]
+struct Watched<'a> {
+    plant: Plant,
+    model: Model<'a, Spline<f32>, SET>,
+    observer: Observer<f32>,
+    monitor: Monitor<f32, BINS>,
+}
+
+/// The change of the load by one unit of payload, in the motion of the reference.
+fn unit(phase: Phase) -> f32 {
+    let here = PAYLOAD.reduction(phase.radians()).unwrap();
+    -here.torque(OMEGA, 0.0).total() as f32
+}
+
+impl Watched<'_> {
+    fn tick(&mut self, load: f64) -> Seen {
+        let command = self.plant.command();
+        let measured = self.plant.tick(command, load);
+        let friction = FrictionSign::OfSpeed(OMEGA as f32);
+        let seen = self
+            .observer
+            .update(&self.model, measured, command as f32, friction);
+        self.monitor.tick(seen.motion.phase, seen.load)
+    }
+
+    /// A turn; the ticks with an alarm, and the cycle.
+    fn turn(&mut self) -> (u32, Cycle) {
+        let jams = (0..1000).filter(|_| self.tick(0.0) == Seen::Jam).count();
+        (jams as u32, self.monitor.end_cycle())
+    }
+}
+
+/// After the reference cycles.
+fn with_reference(seed: u64, then: impl FnOnce(Watched<'_>)) {
+    with_model_of::<Spline<f32>, SET>(&CRANK, Scale::SI, |model| {
+        let plant = Plant::new(machine(0.0, 0.1), 0.01 * peak(), seed);
+        let observer = Observer::with_bandwidth(60.0, TICK as f32, &model).unwrap();
+        let monitor = Monitor::new(WATCH, unit, &model).unwrap();
+        let mut watched = Watched {
+            plant,
+            model,
+            observer,
+            monitor,
+        };
+        for _ in 0..3000 {
+            // The observer settles first.
+            let command = watched.plant.command();
+            let measured = watched.plant.tick(command, 0.0);
+            let friction = FrictionSign::OfSpeed(OMEGA as f32);
+            watched
+                .observer
+                .update(&model, measured, command as f32, friction);
+        }
+        for _ in 0..2 * WATCH.reference {
+            assert!(!watched.monitor.is_watching());
+            assert_eq!(watched.turn().0, 0);
+        }
+        assert!(watched.monitor.is_watching());
+        then(watched);
+    });
+}
+
+/// 10 % of the peak torque against the motion, from anywhere in the turn.
+#[test]
+fn a_jam_is_seen_within_five_degrees() {
+    with_reference(1, |watched| {
+        let jam = -0.1 * peak();
+        let (mut most, mut least) = (0.0_f64, f64::INFINITY);
+        for place in 0..72 {
+            let mut watched = watched.clone();
+            let from = TAU * f64::from(place) / 72.0;
+            while (watched.plant.angle() - from).rem_euclid(TAU) > 0.01 {
+                assert_eq!(watched.tick(0.0), Seen::Usual);
+            }
+            let start = watched.plant.angle();
+            while watched.tick(jam) != Seen::Jam {}
+            let way = (watched.plant.angle() - start).rem_euclid(TAU).to_degrees();
+            most = most.max(way);
+            least = least.min(way);
+        }
+        println!("{least} to {most}");
+        assert!(most < 5.0, "{most}");
+        assert!(least > 0.5, "{least}");
+    });
+}
+
+fn without_alarm(cycles: u32) {
+    with_reference(2, |mut watched| {
+        let mut most = 0.0_f32;
+        for k in 0..cycles {
+            let (jams, cycle) = watched.turn();
+            assert_eq!(jams, 0, "cycle {k}");
+            assert!(cycle.judged && !cycle.wear && !cycle.wrong_payload, "{k}: {cycle:?}");
+            most = most.max(cycle.payload.abs());
+        }
+        println!("{most}");
+    });
+}
+
+#[test]
+fn three_hundred_cycles_have_no_false_alarm() {
+    without_alarm(300);
+}
+
+#[test]
+#[ignore = "ten million ticks of a simulated machine"]
+fn ten_thousand_cycles_have_no_false_alarm() {
+    without_alarm(10_000);
+}
+
+/// Each fault is reported as what it is, after this number of cycles at most.
+#[test]
+fn faults_are_told_apart() {
+    with_reference(3, |watched| {
+        let first = |change: &dyn Fn(&mut Plant), is: &dyn Fn(&Cycle) -> bool, other: &dyn Fn(&Cycle) -> bool| {
+            let mut watched = watched.clone();
+            change(&mut watched.plant);
+            for cycles in 1..=200 {
+                let (jams, cycle) = watched.turn();
+                assert_eq!(jams, 0, "{cycle:?}");
+                assert!(!other(&cycle), "{cycles}: {cycle:?}");
+                if is(&cycle) {
+                    println!("{cycles} {cycle:?}");
+                    return (cycles, cycle);
+                }
+            }
+            panic!("not seen");
+        };
+        let wear = |cycle: &Cycle| cycle.wear;
+        let payload = |cycle: &Cycle| cycle.wrong_payload;
+        let (cycles, cycle) = first(&|plant| plant.machine.coulomb += 0.3, &wear, &payload);
+        assert!(cycles <= 10, "{cycles}");
+        assert_near("friction", cycle.friction.into(), -0.3, 0.06);
+        let (cycles, _) = first(&|plant| plant.noise *= 1.3, &wear, &payload);
+        assert!(cycles <= 30, "{cycles}");
+        let (cycles, cycle) = first(&|plant| plant.machine = machine(0.3, 0.1), &payload, &wear);
+        assert!(cycles <= 10, "{cycles}");
+        assert_near("payload", cycle.payload.into(), 0.3, 0.06);
+    });
+}
+
+#[test]
+fn what_is_unknown_is_reported() {
+    with_reference(4, |mut watched| {
+        assert_eq!(watched.monitor.tick(Phase::default(), f32::NAN), Seen::Invalid);
+        let far = watched.monitor.tick(Phase::default(), f32::INFINITY);
+        assert_eq!(far, Seen::Jam);
+        let [mean, limit] = watched.monitor.usual(Phase::default()).unwrap();
+        assert!(mean.abs() < 5.0 && limit > 0.1 && limit < 0.1 * peak() as f32, "{mean} {limit}");
+        let cycle = watched.monitor.end_cycle();
+        assert!(!cycle.judged && cycle.jams == 1, "{cycle:?}");
+        let fresh = Monitor::<f32, BINS>::new(WATCH, |_| 0.0, &watched.model).unwrap();
+        assert!(fresh.usual(Phase::default()).is_none());
+        let mut half = fresh;
+        // Only half of the turn is learned.
+        for _ in 0..2 * WATCH.reference {
+            for k in 0..100u32 {
+                let seen = half.tick(Phase::from_bits(k * (1 << 24)), 1.0 + (k % 3) as f32);
+                assert!(matches!(seen, Seen::Learning | Seen::Unknown));
+            }
+            half.end_cycle();
+        }
+        assert_eq!(half.tick(Phase::from_bits(1 << 29), 2.0), Seen::Usual);
+        assert_eq!(half.tick(Phase::from_bits(15 << 28), 2.0), Seen::Unknown);
+    });
+}
+
+#[test]
+fn monitors_that_cannot_be_are_refused() {
+    with_model_of::<Spline<f32>, SET>(&CRANK, Scale::SI, |model| {
+        for watch in [
+            Watch { largest: 0.0, ..WATCH },
+            Watch { largest: f32::NAN, ..WATCH },
+            Watch { reference: 31, ..WATCH },
+            Watch { cycles: 0, ..WATCH },
+            Watch { false_alarm: 0.6, ..WATCH },
+            Watch { false_alarm: f32::NAN, ..WATCH },
+        ] {
+            assert!(Monitor::<f32, BINS>::new(watch, |_| 0.0, &model).is_err(), "{watch:?}");
+        }
+        assert!(Monitor::<f32, 0>::new(WATCH, |_| 0.0, &model).is_err());
+        assert!(Monitor::<f32, BINS>::new(WATCH, |_| f32::NAN, &model).is_err());
+    });
+}

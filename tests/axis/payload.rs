@@ -1,0 +1,83 @@
+use jred::axis::{Observer, Payload};
+use jred::number::FrictionSign;
+use jred::{CurveSet, Scale, Spline, curves};
+
+use super::machine::with_model_of;
+use super::watched::{CRANK, OMEGA, PAYLOAD, Plant, TICK, machine, peak};
+use crate::support::assert_near;
+
+const SET: CurveSet = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
+
+/// The payload and the constant load that are found after some turns, with their share of the variance, and the same for no motion.
+fn found(payload: f64, friction: f64, noise: f64) -> [f64; 3] {
+    let mut found = [0.0; 3];
+    with_model_of::<Spline<f32>, SET>(&CRANK, Scale::SI, |model| {
+        with_model_of::<Spline<f32>, { curves::LOAD }>(&PAYLOAD, Scale::SI, |unit| {
+            let mut plant = Plant::new(machine(payload, 0.0), noise, 11);
+            plant.machine.coulomb += friction;
+            let mut observer = Observer::with_bandwidth(60.0, TICK as f32, &model).unwrap();
+            let mut estimate = Payload::new(50.0, 4000, &observer, &model).unwrap();
+            for k in 0..8000 {
+                let command = plant.command();
+                let measured = plant.tick(command, 0.0);
+                let friction = FrictionSign::OfSpeed(OMEGA as f32);
+                let seen = observer.update(&model, measured, command as f32, friction);
+                if k == 1000 {
+                    assert!(estimate.estimate().excited);
+                    estimate.restart();
+                    assert!(!estimate.estimate().excited);
+                }
+                let motion = seen.motion;
+                let torque = unit.torque(motion.phase, motion.omega, motion.alpha);
+                estimate.update(seen.load, torque);
+            }
+            estimate.update(f32::NAN, 1.0);
+            estimate.update(1.0, f32::NAN);
+            let last = estimate.estimate();
+            assert!(last.excited);
+            found = [last.payload, last.offset, last.explained].map(f64::from);
+        });
+    });
+    found
+}
+
+#[test]
+fn a_payload_is_found() {
+    for payload in [0.0, 0.5, 3.0, -1.0] {
+        let [mass, offset, explained] = found(payload, 0.0, 0.0);
+        println!("{payload}: {mass} {offset} {explained}");
+        assert_near("payload", mass, payload, 0.002 * payload.abs() + 0.002);
+        assert_near("offset", offset, 0.0, 0.02);
+        assert!(payload == 0.0 || explained > 0.99, "{explained}");
+    }
+    // Friction that the table lacks is the offset.
+    let [mass, offset, _] = found(2.0, 0.7, 0.0);
+    assert_near("payload", mass, 2.0, 0.01);
+    assert_near("offset", offset, -0.7, 0.02);
+    let [mass, _, explained] = found(2.0, 0.0, 0.01 * peak());
+    println!("noisy {mass} {explained}");
+    assert_near("noisy payload", mass, 2.0, 0.04);
+}
+
+/// Without a change of the unit's torque nothing is known, whatever the load.
+#[test]
+fn a_motion_without_excitation_says_so() {
+    with_model_of::<Spline<f32>, SET>(&CRANK, Scale::SI, |model| {
+        let observer = Observer::with_bandwidth(60.0, TICK as f32, &model).unwrap();
+        let mut estimate = Payload::new(50.0, 200, &observer, &model).unwrap();
+        for k in 0..1000u16 {
+            estimate.update(f32::from(k % 7), 3.0);
+        }
+        // The filter's step has left the window.
+        let none = estimate.estimate();
+        assert!(!none.excited && none.payload == 0.0, "{none:?}");
+        for (largest, window) in [
+            (0.0, 200),
+            (f32::NAN, 200),
+            (50.0, 63),
+            (50.0, (1 << 20) + 1),
+        ] {
+            assert!(Payload::new(largest, window, &observer, &model).is_err());
+        }
+    });
+}
