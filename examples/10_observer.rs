@@ -47,7 +47,9 @@ const WATCH: Watch = Watch {
 /// The torque that a die of a tenth of all moving masses takes at this speed.
 fn die(press: &Press, phase: Phase, omega: Speed<Q31>) -> Torque<Q31> {
     let friction = FrictionSign::OfSpeed(omega);
-    let velocity = press.torque_terms(phase, omega, Default::default(), friction).velocity;
+    let velocity = press
+        .torque_terms(phase, omega, Default::default(), friction)
+        .velocity;
     Torque::from_bits(velocity.to_bits() / 10)
 }
 
@@ -71,7 +73,10 @@ impl Machine {
 
     /// A noise between −1 and 1, the same in every run.
     fn random(&mut self) -> f32 {
-        self.noise = self.noise.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        self.noise = self
+            .noise
+            .wrapping_mul(1_664_525)
+            .wrapping_add(1_013_904_223);
         (self.noise as i32) as f32 / 2_147_483_648.0
     }
 
@@ -98,7 +103,9 @@ impl Machine {
         let measured = Phase::from_bits(self.motion.phase.to_bits() / COUNT * COUNT);
 
         let friction = FrictionSign::OfSpeed(self.speed);
-        self.seen = self.observer.update(&self.press, measured, command, friction);
+        self.seen = self
+            .observer
+            .update(&self.press, measured, command, friction);
     }
 }
 
@@ -148,7 +155,12 @@ fn run() -> Result<(), Failure> {
     for eighth in 0..8u32 {
         let phase = Phase::from_bits(eighth << 29);
         let [mean, limit] = monitor.usual(phase).ok_or("a bin is not known")?;
-        println!("{:3} deg {:6} mN m +- {:6} mN m", 45 * eighth, milli(mean), milli(limit));
+        println!(
+            "{:3} deg {:6} mN m +- {:6} mN m",
+            45 * eighth,
+            milli(mean),
+            milli(limit)
+        );
     }
     let mut alarms = 0;
     for _ in 0..20 {
@@ -173,7 +185,10 @@ fn run() -> Result<(), Failure> {
     }
     let way = machine.motion.phase.to_bits().wrapping_sub(start);
     let way = (u64::from(way) * 36_000) >> 32;
-    println!("a jam of {} N m is seen after {ticks} ticks, {way} hundredths of a degree", milli(JAM) / 1000);
+    println!(
+        "a jam of {} N m is seen after {ticks} ticks, {way} hundredths of a degree",
+        milli(JAM) / 1000
+    );
     for _ in 0..100 {
         machine.tick(0.0);
     }
@@ -190,7 +205,11 @@ fn run() -> Result<(), Failure> {
         checksum = (checksum ^ machine.seen.load.to_bits() as u32).wrapping_mul(16_777_619);
     }
     let estimate = payload.estimate();
-    println!("payload {} of 1000 units, explains {} of 1000 of the load", milli(estimate.payload), milli(estimate.explained));
+    println!(
+        "payload {} of 1000 units, explains {} of 1000 of the load",
+        milli(estimate.payload),
+        milli(estimate.explained)
+    );
     let mut turns = 0;
     let cycle = loop {
         let (_, cycle) = turn(&mut machine, &mut monitor);
@@ -199,7 +218,11 @@ fn run() -> Result<(), Failure> {
             break cycle;
         }
     };
-    println!("wrong payload after {turns} turns: {} of 1000 units more, wear: {}", milli(cycle.payload), cycle.wear);
+    println!(
+        "wrong payload after {turns} turns: {} of 1000 units more, wear: {}",
+        milli(cycle.payload),
+        cycle.wear
+    );
     println!("checksum {checksum:08x}");
     if alarms == 0 && way < 500 {
         Ok(())

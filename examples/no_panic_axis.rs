@@ -9,7 +9,8 @@ use jred::axis::plan::{Errors, Knot, encode, image_len, with_ramp};
 use jred::axis::{
     Braking, Counter, Direction, Encoder, Envelope, FeedForward, FrictionRamp, Gearbox, Governor,
     ImageSlot, Limits, LookAhead, MotionRange, MotionState, Mounting, Observer, Override, Payload,
-    Period, Plan, PlanFollower, Status, StrokeEncoder, StrokeMounting, TorqueLimits, Tracker, Transmission,
+    Period, Plan, PlanFollower, Status, StrokeEncoder, StrokeMounting, TorqueLimits, Tracker,
+    Transmission,
 };
 use jred::image::ImageCheck;
 use jred::number::FrictionSign;
@@ -149,7 +150,10 @@ fn every_observer<F: Format, const SET: CurveSet>(
     if let Ok(monitor) = &mut Monitor::<F::Number, 16>::new(watch, |_| black_box(1.0), model) {
         black_box(Monitor::tick(monitor, seen.motion.phase, seen.load));
         black_box(Monitor::end_cycle(monitor));
-        black_box((Monitor::is_watching(monitor), Monitor::usual(monitor, phase)));
+        black_box((
+            Monitor::is_watching(monitor),
+            Monitor::usual(monitor, phase),
+        ));
     }
 }
 

@@ -101,9 +101,8 @@ fn a_jam_is_seen_within_five_degrees() {
             most = most.max(way);
             least = least.min(way);
         }
-        println!("{least} to {most}");
-        assert!(most < 5.0, "{most}");
-        assert!(least > 0.5, "{least}");
+        // The claim is 5°; a result that is suddenly much better fails too.
+        assert!(most < 3.0 && least > 1.0, "{least} to {most}");
     });
 }
 
@@ -113,10 +112,13 @@ fn without_alarm(cycles: u32) {
         for k in 0..cycles {
             let (jams, cycle) = watched.turn();
             assert_eq!(jams, 0, "cycle {k}");
-            assert!(cycle.judged && !cycle.wear && !cycle.wrong_payload, "{k}: {cycle:?}");
+            assert!(
+                cycle.judged && !cycle.wear && !cycle.wrong_payload,
+                "{k}: {cycle:?}"
+            );
             most = most.max(cycle.payload.abs());
         }
-        println!("{most}");
+        assert!(most < 0.05, "{most}");
     });
 }
 
@@ -135,7 +137,9 @@ fn ten_thousand_cycles_have_no_false_alarm() {
 #[test]
 fn faults_are_told_apart() {
     with_reference(3, |watched| {
-        let first = |change: &dyn Fn(&mut Plant), is: &dyn Fn(&Cycle) -> bool, other: &dyn Fn(&Cycle) -> bool| {
+        let first = |change: &dyn Fn(&mut Plant),
+                     is: &dyn Fn(&Cycle) -> bool,
+                     other: &dyn Fn(&Cycle) -> bool| {
             let mut watched = watched.clone();
             change(&mut watched.plant);
             for cycles in 1..=200 {
@@ -143,7 +147,6 @@ fn faults_are_told_apart() {
                 assert_eq!(jams, 0, "{cycle:?}");
                 assert!(!other(&cycle), "{cycles}: {cycle:?}");
                 if is(&cycle) {
-                    println!("{cycles} {cycle:?}");
                     return (cycles, cycle);
                 }
             }
@@ -156,20 +159,26 @@ fn faults_are_told_apart() {
         assert_near("friction", cycle.friction.into(), -0.3, 0.06);
         let (cycles, _) = first(&|plant| plant.noise *= 1.3, &wear, &payload);
         assert!(cycles <= 30, "{cycles}");
-        let (cycles, cycle) = first(&|plant| plant.machine = machine(0.3, 0.1), &payload, &wear);
+        let (cycles, cycle) = first(&|plant| plant.machine = machine(0.1, 0.1), &payload, &wear);
         assert!(cycles <= 10, "{cycles}");
-        assert_near("payload", cycle.payload.into(), 0.3, 0.06);
+        assert_near("payload", cycle.payload.into(), 0.1, 0.02);
     });
 }
 
 #[test]
 fn what_is_unknown_is_reported() {
     with_reference(4, |mut watched| {
-        assert_eq!(watched.monitor.tick(Phase::default(), f32::NAN), Seen::Invalid);
+        assert_eq!(
+            watched.monitor.tick(Phase::default(), f32::NAN),
+            Seen::Invalid
+        );
         let far = watched.monitor.tick(Phase::default(), f32::INFINITY);
         assert_eq!(far, Seen::Jam);
         let [mean, limit] = watched.monitor.usual(Phase::default()).unwrap();
-        assert!(mean.abs() < 5.0 && limit > 0.1 && limit < 0.1 * peak() as f32, "{mean} {limit}");
+        assert!(
+            mean.abs() < 5.0 && limit > 0.1 && limit < 0.1 * peak() as f32,
+            "{mean} {limit}"
+        );
         let cycle = watched.monitor.end_cycle();
         assert!(!cycle.judged && cycle.jams == 1, "{cycle:?}");
         let fresh = Monitor::<f32, BINS>::new(WATCH, |_| 0.0, &watched.model).unwrap();
@@ -192,14 +201,32 @@ fn what_is_unknown_is_reported() {
 fn monitors_that_cannot_be_are_refused() {
     with_model_of::<Spline<f32>, SET>(&CRANK, Scale::SI, |model| {
         for watch in [
-            Watch { largest: 0.0, ..WATCH },
-            Watch { largest: f32::NAN, ..WATCH },
-            Watch { reference: 31, ..WATCH },
+            Watch {
+                largest: 0.0,
+                ..WATCH
+            },
+            Watch {
+                largest: f32::NAN,
+                ..WATCH
+            },
+            Watch {
+                reference: 31,
+                ..WATCH
+            },
             Watch { cycles: 0, ..WATCH },
-            Watch { false_alarm: 0.6, ..WATCH },
-            Watch { false_alarm: f32::NAN, ..WATCH },
+            Watch {
+                false_alarm: 0.6,
+                ..WATCH
+            },
+            Watch {
+                false_alarm: f32::NAN,
+                ..WATCH
+            },
         ] {
-            assert!(Monitor::<f32, BINS>::new(watch, |_| 0.0, &model).is_err(), "{watch:?}");
+            assert!(
+                Monitor::<f32, BINS>::new(watch, |_| 0.0, &model).is_err(),
+                "{watch:?}"
+            );
         }
         assert!(Monitor::<f32, 0>::new(WATCH, |_| 0.0, &model).is_err());
         assert!(Monitor::<f32, BINS>::new(WATCH, |_| f32::NAN, &model).is_err());

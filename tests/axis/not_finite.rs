@@ -208,7 +208,10 @@ fn ranged(omega: f32, alpha: f32) -> Becomes {
 fn seen(model: &Press<'_>, torque: f32, friction: FrictionSign<f32>) -> Becomes {
     let mut observer = Observer::with_bandwidth(50.0, 0.001, model).unwrap();
     let found = observer.update(model, Phase::default(), torque, friction);
-    flagged(found.limited, &[found.load, found.motion.omega, found.motion.alpha])
+    flagged(
+        found.limited,
+        &[found.load, found.motion.omega, found.motion.alpha],
+    )
 }
 
 fn monitor(

@@ -29,8 +29,8 @@ impl Noise {
 pub(crate) const TICK: f64 = 1e-3;
 /// Speed of the set-point (rad/s): a turn is 1000 ticks.
 pub(crate) const OMEGA: f64 = TAU;
-/// Counts of the encoder per turn of the crank: 10,000 behind a gear of 20.
-const COUNTS: f64 = 200_000.0;
+/// Counts of the encoder per turn of the crank: 17 bits on the motor, behind a gear of 20.
+const COUNTS: f64 = 131_072.0 * 20.0;
 
 /// A crank whose J varies as 3 : 1, with a load of one wave per turn, and friction.
 pub(crate) const CRANK: Wave = Wave {

@@ -178,9 +178,27 @@ impl<N: Number, const BINS: usize> Monitor<N, BINS> {
             "from 1e-9 to 0.5",
         )?;
         for (what, number, least, most, range) in [
-            ("the reference cycles", watch.reference, 32, 10_000, "from 32 to 10000"),
-            ("the cycles without a false alarm", watch.cycles, 1, 1_000_000, "from 1 to 1000000"),
-            ("the bins", BINS.min(1 << 20) as u32, 1, 65_535, "from 1 to 65535"),
+            (
+                "the reference cycles",
+                watch.reference,
+                32,
+                10_000,
+                "from 32 to 10000",
+            ),
+            (
+                "the cycles without a false alarm",
+                watch.cycles,
+                1,
+                1_000_000,
+                "from 1 to 1000000",
+            ),
+            (
+                "the bins",
+                BINS.min(1 << 20) as u32,
+                1,
+                65_535,
+                "from 1 to 65535",
+            ),
         ] {
             let holds = (least..=most).contains(&number);
             within(what, number as f32, holds, range)?;
@@ -237,7 +255,9 @@ impl<N: Number, const BINS: usize> Monitor<N, BINS> {
         let share = (i64::from(off) * i64::from(bin.inverse)) >> 16;
         let share = share.clamp(-2048, 2048);
         sums.off = sums.off.saturating_add(i64::from(off));
-        sums.weighted = sums.weighted.saturating_add(i64::from(off) * i64::from(bin.weight));
+        sums.weighted = sums
+            .weighted
+            .saturating_add(i64::from(off) * i64::from(bin.weight));
         sums.squares = sums.squares.saturating_add(share * share);
         if self.stage == Stage::Cycles {
             Seen::Learning
