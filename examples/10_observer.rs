@@ -50,7 +50,7 @@ fn die(press: &Press, phase: Phase, omega: Speed<Q31>) -> Torque<Q31> {
     let velocity = press
         .torque_terms(phase, omega, Default::default(), friction)
         .velocity;
-    Torque::from_bits(velocity.to_bits() / 10)
+    Torque::<Q31>::from_bits(velocity.to_bits() / 10)
 }
 
 /// The press that is simulated, and the drive's program.
@@ -86,7 +86,7 @@ impl Machine {
         let rest = Default::default();
         let error = self.speed.saturating_sub(self.seen.motion.omega).to_bits();
         let needed = self.press.torque(self.seen.motion.phase, self.speed, rest);
-        let command = needed.saturating_add(Torque::from_bits(error.saturating_mul(8)));
+        let command = needed.saturating_add(Torque::<Q31>::from_bits(error.saturating_mul(8)));
 
         let noise = NOISE * self.random();
         for _ in 0..4 {

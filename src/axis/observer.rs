@@ -30,7 +30,7 @@ use crate::{Model, Phase};
 /// ```
 ///
 /// of it: half after 2.7, 90 % after 5.3, all but 1 % after 8.4/(1 − θ) periods, without overshoot. For constant J this is exact (test
-/// `a_load_settles_as_the_closed_form_says`); while J varies, to 4 % of the load at a bandwidth of 25 times the machine's turns a second (test
+/// `a_load_settles_as_the_closed_form_says`); while J varies as 3 : 1, to 0.2 % of the load at a bandwidth of 25 times the machine's turns a second (test
 /// `a_variable_inertia_settles_the_same`). A lasting load has no error left. Noise of the encoder makes σ_d = J·σ_α with the σ_α of the [`Tracker`]
 /// (test `the_encoder_makes_the_noise_of_the_tracker`).
 ///

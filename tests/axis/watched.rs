@@ -95,6 +95,13 @@ impl Plant {
         }
     }
 
+    /// Another payload, at the same speed.
+    pub(crate) fn load(&mut self, payload: f64) {
+        self.machine = machine(payload, 0.1);
+        self.motion =
+            FreeMotion::new(&self.machine, self.motion.phi(), self.motion.omega()).unwrap();
+    }
+
     /// Angle within the turn (rad).
     pub(crate) fn angle(&self) -> f64 {
         self.motion.phi().rem_euclid(TAU)

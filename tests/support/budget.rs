@@ -461,5 +461,5 @@ pub(crate) const OBSERVED: f64 = 2e-4;
 /// The same in Q15, as a share of the torque base: rounding of a unit of 2⁻¹⁵ in each of torque, acceleration and load, and in every period's sum.
 pub(crate) const OBSERVED_Q15: f64 = 4.0 / 32_768.0;
 
-/// An observed load where there is none, while J varies as 3 : 1 (N·m): the error of the prediction in the middle of a period, of third order.
-pub(crate) const OBSERVED_BIAS: f64 = 0.02;
+/// An observed load where there is none, while J varies as 3 : 1 (N·m): the error of the prediction in the middle of a period, of third order [4.4e-4].
+pub(crate) const OBSERVED_BIAS: f64 = 1e-3;
