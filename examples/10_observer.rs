@@ -29,6 +29,8 @@ const BANDWIDTH: f32 = 60.0;
 const OMEGA: f32 = 6.0;
 /// Largest torque on the crank (N·m).
 const LARGEST: f32 = 250.0;
+/// Torque of the controller for an error of the speed (N·m·s/rad).
+const GAIN: f32 = 4.0;
 /// A jam, and the noise of the drive's torque (N·m).
 const JAM: f32 = -16.0;
 const NOISE: f32 = 1.6;
@@ -44,13 +46,13 @@ const WATCH: Watch = Watch {
     false_alarm: 0.001,
 };
 
-/// The torque that a die of a tenth of all moving masses takes at this speed.
+/// The torque that a die takes at this speed which is half as heavy as all moving parts.
 fn die(press: &Press, phase: Phase, omega: Speed<Q31>) -> Torque<Q31> {
     let friction = FrictionSign::OfSpeed(omega);
     let velocity = press
         .torque_terms(phase, omega, Default::default(), friction)
         .velocity;
-    Torque::<Q31>::from_bits(velocity.to_bits() / 10)
+    Torque::<Q31>::from_bits(velocity.to_bits() / 2)
 }
 
 /// The press that is simulated, and the drive's program.
@@ -84,9 +86,9 @@ impl Machine {
     fn tick(&mut self, load: f32) {
         // The drive's torque: that of the model, and a controller.
         let rest = Default::default();
-        let error = self.speed.saturating_sub(self.seen.motion.omega).to_bits();
+        let error = OMEGA - self.press.table().scale().omega_si(self.seen.motion.omega);
         let needed = self.press.torque(self.seen.motion.phase, self.speed, rest);
-        let command = needed.saturating_add(Torque::<Q31>::from_bits(error.saturating_mul(8)));
+        let command = needed.saturating_add(self.torque(GAIN * error));
 
         let noise = NOISE * self.random();
         for _ in 0..4 {
@@ -194,9 +196,9 @@ fn run() -> Result<(), Failure> {
     }
     monitor.end_cycle();
 
-    // A die that is heavier by half of a tenth of all moving masses, twice.
-    machine.dies = 2;
-    let mut payload = Payload::new(LARGEST, 4096, &machine.observer, &press)?;
+    // Another die.
+    machine.dies = 1;
+    let mut payload = Payload::new(0.2 * LARGEST, 4096, &machine.observer, &press)?;
     let mut checksum = 0u32;
     for _ in 0..4096 {
         machine.tick(0.0);
