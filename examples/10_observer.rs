@@ -14,7 +14,9 @@ mod support;
 use jred::axis::monitor::{Cycle, Monitor, Seen, Watch};
 use jred::axis::{MotionState, Observed, Observer, Payload, Period};
 use jred::number::FrictionSign;
-use jred::{CurveSet, Image, Model, Phase, Q31, Speed, Spline, Torque, curves, include_image};
+use jred::{
+    Acceleration, CurveSet, Image, Model, Phase, Q31, Speed, Spline, Torque, curves, include_image,
+};
 use support::{Failure, milli, println, program};
 
 /// The curves of the press, as `jred export` prints them.
@@ -50,7 +52,7 @@ const WATCH: Watch = Watch {
 fn die(press: &Press, phase: Phase, omega: Speed<Q31>) -> Torque<Q31> {
     let friction = FrictionSign::OfSpeed(omega);
     let velocity = press
-        .torque_terms(phase, omega, Default::default(), friction)
+        .torque_terms(phase, omega, Acceleration::default(), friction)
         .velocity;
     Torque::<Q31>::from_bits(velocity.to_bits() / 2)
 }
@@ -85,7 +87,7 @@ impl Machine {
     /// A tick, with a load that nobody knows (N·m).
     fn tick(&mut self, load: f32) {
         // The drive's torque: that of the model, and a controller.
-        let rest = Default::default();
+        let rest = Acceleration::default();
         let error = OMEGA - self.press.table().scale().omega_si(self.seen.motion.omega);
         let needed = self.press.torque(self.seen.motion.phase, self.speed, rest);
         let command = needed.saturating_add(self.torque(GAIN * error));

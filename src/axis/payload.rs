@@ -2,7 +2,7 @@
 
 use super::torque_count::{FULL, TorqueCount};
 use super::{AxisError, Observer};
-use crate::number::{Number, Real as _};
+use crate::number::{Number, Real};
 use crate::tick::MachineUnits;
 
 /// How much payload a machine carries, by least squares of the load torque d of an [`Observer`] over the torque of a unit of payload.
@@ -127,7 +127,7 @@ impl<N: Number> Payload<N> {
         let unit_variance = mean(sums.unit_square) - unit * unit;
         let load_variance = mean(sums.load_square) - load * load;
         let covariance = mean(sums.product) - unit * load;
-        if unit_variance.sqrt() < FULL / 1000.0 || unit_variance.is_nan() {
+        if Real::sqrt(unit_variance) < FULL / 1000.0 || unit_variance.is_nan() {
             return PayloadEstimate::default();
         }
         let payload = -covariance / unit_variance;

@@ -84,7 +84,7 @@ fn made(
     torque: f32,
     deceleration: f32,
     limit: f32,
-) -> Result<LookAhead<f32, 32>, jred::axis::AxisError> {
+) -> Result<LookAhead<f32, 32>, AxisError> {
     let period = period(model);
     let braking = Braking {
         torque,
@@ -110,10 +110,7 @@ fn governed(model: &Press<'_>, motion: MotionState<f32>, commanded: f32) -> Beco
     )
 }
 
-fn gearbox(
-    model: &Press<'_>,
-    gearbox: [f32; 3],
-) -> Result<Transmission<f32>, jred::axis::AxisError> {
+fn gearbox(model: &Press<'_>, gearbox: [f32; 3]) -> Result<Transmission<f32>, AxisError> {
     Transmission::new(geared(gearbox), model)
 }
 

@@ -1,6 +1,6 @@
 //! The torque that is usual in one part of the range.
 
-use crate::number::Real as _;
+use crate::number::Real;
 
 /// Sums of the reference cycles in a bin, then what is usual there; torques in counts.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -52,7 +52,8 @@ impl Bin {
     /// Ends learning: with the variance of all bins as the least, and the multiple of σ that is no noise.
     pub(super) fn finish(&mut self, least: f32, multiple: f32) {
         let [mean, variance] = self.moments();
-        let deviation = (if variance > least { variance } else { least }).sqrt() + 1.0;
+        let variance = if variance > least { variance } else { least };
+        let deviation = Real::sqrt(variance) + 1.0;
         self.mean += (mean + if mean < 0.0 { -0.5 } else { 0.5 }) as i32;
         self.limit = (multiple * deviation) as i32;
         self.inverse = (16_777_216.0 / deviation) as i32;

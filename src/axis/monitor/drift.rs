@@ -1,6 +1,6 @@
 //! A figure of each cycle that must not drift.
 
-use crate::number::Real as _;
+use crate::number::Real;
 
 /// Two-sided CUSUM (E. S. Page, *Continuous inspection schemes*, Biometrika 41 (1954) 100) of one number a cycle.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -37,7 +37,11 @@ impl Drift {
         let cycles = self.cycles as f32;
         let mean = self.sum / cycles;
         let variance = (self.squares - mean * self.sum) / (cycles - 1.0);
-        let deviation = if variance > 0.0 { variance.sqrt() } else { 0.0 };
+        let deviation = if variance > 0.0 {
+            Real::sqrt(variance)
+        } else {
+            0.0
+        };
         self.mean += mean;
         self.scale = 0.5 / (deviation + least);
     }

@@ -50,7 +50,7 @@ use super::AxisError;
 use super::error::within;
 use super::torque_count::TorqueCount;
 use crate::Phase;
-use crate::number::{Number, Real as _};
+use crate::number::{Number, Real};
 use crate::tick::MachineUnits;
 
 /// Figures of a [`Monitor`].
@@ -326,7 +326,7 @@ impl<N: Number, const BINS: usize> Monitor<N, BINS> {
         let mean = self.count.si(sums.off as f32 / ticks);
         Cycle {
             friction: mean - payload * self.payload_mean,
-            spread: (sums.squares as f32 / ticks).sqrt() / 256.0,
+            spread: Real::sqrt(sums.squares as f32 / ticks) / 256.0,
             payload,
             jams: sums.jams,
             ..Cycle::default()
@@ -357,7 +357,7 @@ impl<N: Number, const BINS: usize> Monitor<N, BINS> {
         // Ticks of all cycles without a false alarm, on both sides.
         self.ticks = ticks / self.watch.reference.max(1);
         let ticks = 2.0 * self.watch.cycles as f32 * self.ticks.max(1) as f32;
-        let multiple = (2.0 * logarithm(ticks / self.watch.false_alarm)).sqrt();
+        let multiple = Real::sqrt(2.0 * logarithm(ticks / self.watch.false_alarm));
         for bin in self.bins.iter_mut().filter(|bin| bin.is_known()) {
             bin.finish(variance, 1.5 * multiple);
             bin.weight = ((bin.weight as f32 - payload) / most * WEIGHT) as i32;
