@@ -147,7 +147,9 @@ fn every_observer<F: Format, const SET: CurveSet>(
         cycles: 10_000,
         false_alarm: 0.001,
     });
-    if let Ok(monitor) = &mut Monitor::<F::Number, 16>::new(watch, |_| black_box(1.0), model) {
+    let mut monitor: Result<Monitor<F::Number, 16>, _> =
+        Monitor::new(watch, |_| black_box(1.0), model);
+    if let Ok(monitor) = &mut monitor {
         black_box(Monitor::tick(monitor, seen.motion.phase, seen.load));
         black_box(Monitor::end_cycle(monitor));
         black_box((

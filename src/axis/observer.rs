@@ -30,8 +30,8 @@ use crate::{Model, Phase};
 /// ```
 ///
 /// of it: half after 2.7, 90 % after 5.3, all but 1 % after 8.4/(1 − θ) periods, without overshoot. For constant J this is exact (test
-/// `a_load_settles_as_the_closed_form_says`); while J varies as 3 : 1, to 0.2 % of the load at a bandwidth of 25 times the machine's turns a second (test
-/// `a_variable_inertia_settles_the_same`). A lasting load has no error left. Noise of the encoder makes σ_d = J·σ_α with the σ_α of the [`Tracker`]
+/// `a_load_settles_as_the_closed_form_says`); while J varies as 3 : 1, to 0.2 % of the load at a bandwidth of 25 times the machine's turns a second
+/// (test `a_variable_inertia_settles_the_same`). A lasting load has no error left. Noise of the encoder makes σ_d = J·σ_α with the σ_α of the [`Tracker`]
 /// (test `the_encoder_makes_the_noise_of_the_tracker`).
 ///
 /// The torque must be the one that *acted* since the reading before: after [`TorqueLimits`](super::TorqueLimits), with the losses of the gearbox, and
@@ -85,7 +85,8 @@ pub struct Observed<N: Number> {
     pub residual: i32,
     /// As [`TrackerOutput::jumped`]. If the speed restarted at 0, so did the load.
     pub jumped: bool,
-    /// The torque or the friction's speed was NaN, or torque, speed or acceleration were limited to the number range: the load is wrong until it has settled.
+    /// The torque or the friction's speed was NaN, or torque, speed or acceleration were limited to the number range: the load is wrong until it has
+    /// settled.
     pub limited: bool,
 }
 
