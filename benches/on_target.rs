@@ -32,13 +32,16 @@ mod target {
     use cortex_m::peripheral::{CPUID, SYST};
     use cortex_m_rt::entry;
     use cortex_m_semihosting::{debug, hprintln};
+    use jred::axis::monitor::{Monitor, Watch};
     use jred::axis::plan::{Errors, Knot, encode, image_len};
-    use jred::axis::{Override, Plan, PlanFollower};
+    use jred::axis::{Observer, Override, Payload, Plan, PlanFollower};
     use jred::duty::{Curve, Limits, Meter, Window};
     use jred::error::Error;
     use jred::machine::{Machine, Mechanism, Reducible};
+    use jred::number::FrictionSign;
+    use jred::table::{Format, TorqueOf};
     use jred::tabulate::{fill, scratch_len};
-    use jred::{CurveSet, Domain, Image, Model, Scale, Spline, curves, include_image};
+    use jred::{CurveSet, Domain, Image, Model, Phase, Q31, Scale, Spline, curves, include_image};
     use panic_semihosting as _;
 
     use crate::ceilings::judge;
@@ -169,7 +172,82 @@ mod target {
             black_box(meter.figures());
             report(name, count / TICKS);
         }
-        plan(counter, &mut report).map_or(Ok(1), |()| Ok(failures))
+        let float = include_image!("../examples/data/press_f32.jred");
+        let fixed = include_image!("../examples/data/press_q31.jred");
+        let names = [
+            "observer-f32",
+            "payload-f32",
+            "monitor-f32",
+            "monitor-f32-cycle",
+        ];
+        let in_float = observer::<Spline<f32>>(counter, float, names, &mut report);
+        let names = [
+            "observer-q31",
+            "payload-q31",
+            "monitor-q31",
+            "monitor-q31-cycle",
+        ];
+        let in_fixed = observer::<Spline<Q31>>(counter, fixed, names, &mut report);
+        let planned = plan(counter, &mut report);
+        let all = in_float.and(in_fixed).and(planned);
+        all.map_or(Ok(1), |()| Ok(failures))
+    }
+
+    /// The observer, and all that uses its load; the monitor watches.
+    fn observer<F: Format>(
+        counter: &mut Counter,
+        image: &'static [u8],
+        [of_observer, of_payload, of_monitor, of_cycle]: [&str; 4],
+        report: &mut dyn FnMut(&str, u32),
+    ) -> Option<()> {
+        const PRESS: CurveSet = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
+        const REFERENCE: u32 = 32;
+        let image = Image::from_bytes(image).ok()?;
+        let model: Model<'_, F, PRESS> = image.model().ok()?;
+        let scale = *model.table().scale();
+        let mut observer = Observer::with_bandwidth(60.0, 0.001, &model).ok()?;
+        let place = |k: u32| Phase::from_bits(black_box(k << 22));
+        let torque: TorqueOf<F> = scale.to_torque(10.0).value;
+        let friction = FrictionSign::OfSpeed(scale.omega(5.0).value);
+        let count = counter.count(|| {
+            for k in 0..TICKS {
+                let torque = black_box(torque);
+                black_box(observer.update(&model, place(k), torque, friction));
+            }
+        });
+        report(of_observer, count / TICKS);
+        let mut payload = Payload::new(200.0, 1 << 16, &observer, &model).ok()?;
+        let count = counter.count(|| {
+            for _ in 0..TICKS {
+                payload.update(black_box(torque), black_box(torque));
+            }
+        });
+        black_box(payload.estimate());
+        report(of_payload, count / TICKS);
+        let watch = Watch {
+            largest: 200.0,
+            reference: REFERENCE,
+            cycles: 10_000,
+            false_alarm: 0.001,
+        };
+        let mut monitor = Monitor::<F::Number, 64>::new(watch, |_| 1.0, &model).ok()?;
+        for _ in 0..2 * REFERENCE {
+            for k in 0..TICKS {
+                monitor.tick(place(k), torque);
+            }
+            monitor.end_cycle();
+        }
+        let count = counter.count(|| {
+            for k in 0..TICKS {
+                black_box(monitor.tick(place(k), black_box(torque)));
+            }
+        });
+        report(of_monitor, count / TICKS);
+        let count = counter.count(|| {
+            black_box(monitor.end_cycle());
+        });
+        report(of_cycle, count);
+        Some(())
     }
 
     /// A set-point of a plan of 256 rows, and of its follower while the rate changes; the model is in single precision.
