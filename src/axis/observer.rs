@@ -40,7 +40,7 @@ use crate::{Model, Phase};
 ///
 /// Fixed point computes as the table does: d to a few units of the last place of its torque (test `fixed_point_observes_the_same`).
 ///
-/// Cost: forward dynamics once, J·α once, two periods; in `f32` one division.
+/// Cost on a Cortex-M4F with a table of splines: 293 instructions in `f32`, 497 in `Q31` (`scripts/test counts`); in `f32` one division.
 ///
 /// ```
 /// use jred::axis::Observer;
