@@ -18,7 +18,7 @@ mod support;
 
 use core::f32::consts::{PI, TAU};
 
-use closed_loop::{Cascade, Figures, LEAD, Stepped, TICK, run as run_loop};
+use closed_loop::{COUNTS, Cascade, Figures, LEAD, Stepped, TICK, run as run_loop};
 use jred::axis::{FeedForward, MotionState};
 use jred::error::Error;
 use jred::image::Validity;
@@ -106,7 +106,7 @@ fn measure(
     };
     let start = core::f64::consts::PI;
     let mut plant = Stepped::new(machine, start).map_err(Error::from)?;
-    let mut controller = Cascade::new(inertia, start)?;
+    let mut controller = Cascade::new(inertia, COUNTS, start)?;
     let mut figures = Figures::default();
     run_loop(
         &mut plant,

@@ -29,16 +29,14 @@ pub(crate) const LAG: f64 = 0.000_244_701_9;
 /// From a command to its torque (s): the delay of a tick, half a tick in which it is held, and the lag of the current loop.
 pub(crate) const LEAD: f32 = 1.5 * TICK + LAG as f32;
 
-const ENCODER: Encoder = match Encoder::new(Mounting::direct(COUNTS)) {
-    Ok(encoder) => encoder,
-    Err(_) => panic!("the encoder's figures"), // when it is compiled
-};
-
 /// Position P and speed PI, without any knowledge of the machine but a mean inertia J̄.
 ///
 /// With ω_b = 2π·BANDWIDTH the speed controller has the gain J̄·ω_b and the integral time 4/ω_b, the position controller the gain ω_b/4: for a constant
 /// inertia all three poles are real.
 pub(crate) struct Cascade {
+    encoder: Encoder,
+    /// Counts in a turn of the drive link.
+    counts: u32,
     tracker: Tracker,
     /// Gain of the speed controller (N·m·s/rad).
     gain: f32,
@@ -47,10 +45,14 @@ pub(crate) struct Cascade {
 }
 
 impl Cascade {
-    /// For a mean inertia (kg·m²), with the machine at rest at a position (rad).
-    pub(crate) fn new(inertia: f32, phi: f64) -> Result<Self, AxisError> {
+    /// For a mean inertia (kg·m²) and an encoder with these counts in a turn, with the machine at rest at a position (rad).
+    pub(crate) fn new(inertia: f32, counts: u32, phi: f64) -> Result<Self, AxisError> {
+        let encoder = Encoder::new(Mounting::direct(counts))?;
+        let start = encoder.phase_wide(count(phi, counts));
         Ok(Self {
-            tracker: Tracker::with_bandwidth(FILTER, TICK)?.at(ENCODER.phase_wide(count(phi))),
+            encoder,
+            counts,
+            tracker: Tracker::with_bandwidth(FILTER, TICK)?.at(start),
             gain: inertia * TAU * BANDWIDTH,
             integral: 0.0,
         })
@@ -59,7 +61,7 @@ impl Cascade {
     /// The feedback torque (N·m) of a tick.
     pub(crate) fn feedback(&mut self, count: i64, wanted: MotionState<f32>) -> f32 {
         const RATE: f32 = TAU * BANDWIDTH / 4.0;
-        let phase = ENCODER.phase_wide(count);
+        let phase = self.encoder.phase_wide(count);
         let tracked = self.tracker.update(phase);
         let omega = tracked.speed as f32 * (UNIT / TICK);
         let error = wanted.omega - omega + RATE * apart(wanted.phase, phase);
@@ -78,10 +80,10 @@ fn apart(to: Phase, from: Phase) -> f32 {
 }
 
 /// The encoder's count at a position (rad).
-fn count(phi: f64) -> i64 {
-    let counts = phi * (f64::from(COUNTS) / f64::consts::TAU);
-    let whole = counts as i64;
-    whole - i64::from((whole as f64) > counts)
+fn count(phi: f64, counts: u32) -> i64 {
+    let place = phi * (f64::from(counts) / f64::consts::TAU);
+    let whole = place as i64;
+    whole - i64::from((whole as f64) > place)
 }
 
 /// The motor's torque (N·m) within a tick: the response of the current loop to a step.
@@ -168,7 +170,7 @@ pub(crate) fn run<P: Plant>(
     let (mut torque, mut command) = (0.0, 0.0);
     for tick in 0..ticks {
         let [now, later] = wanted(tick);
-        let feedback = controller.feedback(count(plant.phi()), now);
+        let feedback = controller.feedback(count(plant.phi(), controller.counts), now);
         let ahead = ahead(later);
         let error = apart(now.phase, Phase::from_radians(plant.phi()));
         observe(tick, Seen { feedback, error });

@@ -80,27 +80,12 @@ const SET: CurveSet = curves::LOAD | curves::VISCOUS | curves::COULOMB;
 impl<'m, M: Reducible> Known<'m, M> {
     /// Of a machine, for motions up to these extremes.
     pub(crate) fn new(machine: &'m M, motion: Paced<'m>, extremes: [f64; 2]) -> Result<Self, Fault> {
-        let mut sums = [0.0; 3];
-        for place in 0..PLACES {
-            let here = machine.reduction(turn(place))?;
-            for (sum, value) in sums
-                .iter_mut()
-                .zip([here.inertia, here.viscous, here.coulomb])
-            {
-                *sum += value / f64::from(PLACES);
-            }
-        }
         Ok(Self {
             machine,
             motion,
-            means: sums.map(|mean| mean as f32),
+            means: means(machine)?,
             extremes,
         })
-    }
-
-    /// The mean inertia (kg·m²).
-    pub(crate) const fn mean_inertia(&self) -> f32 {
-        self.means[0]
     }
 
     /// Runs something with a way to feed forward.
@@ -209,6 +194,27 @@ impl<'m, M: Reducible> Known<'m, M> {
         };
         (0..PLACES).map(torque).collect()
     }
+}
+
+/// The means of J, b and c over the turn.
+fn means(machine: &impl Reducible) -> Result<[f32; 3], PoseError> {
+    let mut sums = [0.0; 3];
+    for place in 0..PLACES {
+        let here = machine.reduction(turn(place))?;
+        for (sum, value) in sums
+            .iter_mut()
+            .zip([here.inertia, here.viscous, here.coulomb])
+        {
+            *sum += value / f64::from(PLACES);
+        }
+    }
+    Ok(sums.map(|mean| mean as f32))
+}
+
+/// The mean inertia (kg·m²), which gives the gains of the controller as well.
+pub(crate) fn mean_inertia(machine: &impl Reducible) -> Result<f32, PoseError> {
+    let [inertia, ..] = means(machine)?;
+    Ok(inertia)
 }
 
 /// A place of the turn (rad).

@@ -73,8 +73,8 @@ pub(crate) struct Altered {
 }
 
 impl Case {
-    /// Whether the machine has process loads that its model leaves out.
-    pub(crate) fn has_process(&self) -> bool {
+    /// Whether its process loads are left out.
+    pub(crate) fn is_idle(&self) -> bool {
         self.process == 0.0
     }
 

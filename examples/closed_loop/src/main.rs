@@ -12,10 +12,12 @@ mod feed_forward;
 mod machine;
 mod page;
 mod plant;
+mod plots;
 mod study;
 #[cfg(test)]
 mod tests;
 
+use std::path::Path;
 use std::process::ExitCode;
 
 /// Why the study ends.
@@ -26,6 +28,7 @@ fn main() -> ExitCode {
     let words: Vec<&str> = words.iter().map(String::as_str).collect();
     let done = match words.as_slice() {
         [] => tables(),
+        ["--plots", folder] => plots(Path::new(folder)),
         _ => Err("unknown arguments; give none, or --plots FOLDER".into()),
     };
     match done {
@@ -42,6 +45,19 @@ fn tables() -> Result<(), Fault> {
     for case in machine::CASES {
         println!("{}", page::table(case)?);
     }
-    print!("{}", page::remarks()?);
+    print!("{}", page::summary()?);
+    Ok(())
+}
+
+/// Writes the pictures.
+fn plots(folder: &Path) -> Result<(), Fault> {
+    for (name, plot) in [
+        ("closed-loop-speed.svg", plots::over_pace()?),
+        ("closed-loop-cycle.svg", plots::over_cycle()?),
+    ] {
+        let path = folder.join(name);
+        std::fs::write(&path, plot)
+            .map_err(|error| format!("cannot write {}: {error}; give a folder that exists", path.display()))?;
+    }
     Ok(())
 }

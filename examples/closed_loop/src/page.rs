@@ -5,7 +5,8 @@ use std::fmt::Write as _;
 use crate::Fault;
 use crate::feed_forward::Way;
 use crate::machine::{CASES, Case, Deviation};
-use crate::study::{Bench, Found, PACES, Solver};
+use crate::closed_loop::COUNTS;
+use crate::study::{Bench, PACES, Run};
 
 /// Deviations of the machine from its model, at the pace of the file.
 const DEVIATIONS: [(&str, Deviation); 5] = [
@@ -15,9 +16,6 @@ const DEVIATIONS: [(&str, Deviation); 5] = [
     ("friction +50 %", Deviation::Friction(1.5)),
     ("payload", Deviation::Payload),
 ];
-
-/// The pace of the file, whose following error is listed.
-const OWN: f64 = 1.0;
 
 /// The table of a machine: RMS feedback torque by way over pace and deviation, and the following error.
 pub(crate) fn table(case: Case) -> Result<String, Fault> {
@@ -32,52 +30,76 @@ pub(crate) fn table(case: Case) -> Result<String, Fault> {
     }
     let columns = PACES.len() + DEVIATIONS.len() + 1;
     let _ = writeln!(text, " error, mrad |\n|---|{}", "---:|".repeat(columns));
+    let deviations = DEVIATIONS.map(|(_, deviation)| Run::with(deviation));
+    let runs: Vec<Run> = PACES.map(Run::at).into_iter().chain(deviations).collect();
     for way in Way::ALL {
-        let found = |pace, deviation| bench.found(way, pace, deviation, Solver::DormandPrince);
         let _ = write!(text, "| {} |", way.name());
-        for pace in PACES {
-            let _ = write!(text, " {} |", short(found(pace, Deviation::None)?.feedback));
+        for found in bench.found(way, &runs)? {
+            let _ = write!(text, " {} |", short(found.feedback));
         }
-        for (_, deviation) in DEVIATIONS {
-            let _ = write!(text, " {} |", short(found(OWN, deviation)?.feedback));
+        for found in bench.found(way, &[Run::NOMINAL])? {
+            let _ = writeln!(text, " {} |", short(1000.0 * found.error));
         }
-        let error = 1000.0 * found(OWN, Deviation::None)?.error;
-        let _ = writeln!(text, " {} |", short(error));
     }
     Ok(text)
 }
 
-/// What the tables leave open, in sentences.
-pub(crate) fn remarks() -> Result<String, Fault> {
-    let mut text = String::new();
+/// The machines side by side: what the table of jred is worth, and what its rest consists of.
+pub(crate) fn summary() -> Result<String, Fault> {
+    let finer = Run {
+        counts: 16 * COUNTS,
+        ..Run::NOMINAL
+    };
+    let stepped = Run {
+        stepped: true,
+        ..Run::NOMINAL
+    };
+    let unknown = Run::with(Deviation::Process);
+    let rows = [
+        ("constant J", Way::MeanInertia, Run::NOMINAL),
+        ("jred, `f32`", Way::Float, Run::NOMINAL),
+        ("jred, 16 times finer encoder", Way::Float, finer),
+        ("jred, machine in fixed steps", Way::Float, stepped),
+        ("constant J, unknown process load", Way::MeanInertia, unknown),
+        ("jred, unknown process load", Way::Float, unknown),
+    ];
+    let mut columns = Vec::new();
     for case in CASES {
         let file = case.read()?;
         let bench = Bench::new(case, &file)?;
-        let found = |way, solver| bench.found(way, OWN, Deviation::None, solver);
-        let [jred, constant] = [Way::Float, Way::MeanInertia].map(|way| found(way, Solver::DormandPrince));
-        let stepped = found(Way::Float, Solver::Stepped)?.feedback;
-        let [jred, constant] = [jred?, constant?].map(|found: Found| found.feedback);
-        let _ = writeln!(
-            text,
-            "- {}: {:.0} times less feedback torque with jred than with constant J; with the machine in fixed steps {} N m",
-            case.name,
-            constant / jred,
-            short(stepped)
-        );
-        if case.has_process() {
-            for way in [Way::MeanInertia, Way::Float] {
-                let found = bench.found(way, OWN, Deviation::Process, Solver::DormandPrince)?;
-                let _ = writeln!(
-                    text,
-                    "- {} with a process load that no feed-forward knows, {}: {} N m",
-                    case.name,
-                    way.name(),
-                    short(found.feedback)
-                );
-            }
+        let of = |way| {
+            let runs: Vec<Run> = rows.iter().filter(|row| row.1 == way).map(|row| row.2).collect();
+            bench.found(way, &runs).map(Vec::into_iter)
+        };
+        let (mut constant, mut jred) = (of(Way::MeanInertia)?, of(Way::Float)?);
+        let mut column = Vec::new();
+        for (_, way, run) in rows {
+            let found = if way == Way::Float { jred.next() } else { constant.next() };
+            let known = run.deviation != Deviation::Process || case.is_idle();
+            column.push(found.filter(|_| known).map(|found| found.feedback));
+        }
+        columns.push((case, column));
+    }
+    let mut text = "| RMS feedback torque, N m |".to_owned();
+    for (case, _) in &columns {
+        let _ = write!(text, " {} |", case.name);
+    }
+    text += "\n|---|---:|---:|---:|\n";
+    for (k, (name, ..)) in rows.iter().enumerate() {
+        let _ = write!(text, "| {name} |");
+        for (_, column) in &columns {
+            let found = column.get(k).copied().flatten();
+            let _ = write!(text, " {} |", found.map(short).unwrap_or_default());
+        }
+        text += "\n";
+    }
+    text += "| constant J/jred |";
+    for (_, column) in &columns {
+        if let [Some(constant), Some(jred), ..] = column.as_slice() {
+            let _ = write!(text, " {:.0} |", constant / jred);
         }
     }
-    Ok(text)
+    Ok(text + "\n")
 }
 
 /// Three digits.

@@ -94,18 +94,23 @@ impl<'m, M: Reducible> Integrated<'m, M> {
         }
         // Where it rests within the last step.
         let at = |x: f64| -> Result<[f64; 2], PlantError> {
+            if x == 0.0 {
+                return Ok(*from);
+            }
             let span = [start + before, start + before + x];
             let steps = self.steps(torque, direction, span, *from)?;
             Ok(steps.last().map_or(*from, |(_, state)| *state))
         };
         let length = after - before;
-        let speeds = [from[1], to[1]];
-        let x = if from[1] == 0.0 {
-            0.0
+        // From rest the speed is zero at the start of the step as well.
+        let early = if from[1] == 0.0 { RELEASE.min(0.5 * length) } else { 0.0 };
+        let speeds = [at(early)?[1], to[1]];
+        let (x, phi) = if speeds[0] * direction > 0.0 {
+            let x = zero(|x| Ok::<_, PlantError>(at(x)?[1]), [early, length], speeds, 1e-12)?;
+            (x, at(x)?[0])
         } else {
-            zero(|x| Ok::<_, PlantError>(at(x)?[1]), [0.0, length], speeds, 1e-12)?
+            (length, from[0])
         };
-        let [phi, _] = if x > 0.0 { at(x)? } else { *from };
         [self.phi, self.omega] = [phi, 0.0];
         Ok(start + before + x)
     }

@@ -5,16 +5,14 @@ use jred_report::plot::{Axes, Axis, Series, Style, lines};
 use crate::Fault;
 use crate::feed_forward::Way;
 use crate::machine::{CASES, Deviation};
-use crate::study::{Bench, Solver};
-
-/// The pace of the file.
-const OWN: f64 = 1.0;
+use crate::study::{Bench, Run};
 
 /// The feedback torque of the press over its pace.
 pub(crate) fn over_pace() -> Result<String, Fault> {
     let [press, ..] = CASES;
     let file = press.read()?;
     let bench = Bench::new(press, &file)?;
+    let paces = [4_u8, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14].map(|tenths| f64::from(tenths) / 10.0);
     let mut series = Vec::new();
     for way in [
         Way::None,
@@ -23,14 +21,12 @@ pub(crate) fn over_pace() -> Result<String, Fault> {
         Way::TorqueTable,
         Way::Float,
     ] {
-        let mut points = Vec::new();
-        for pace in (4..=14).map(|tenths| f64::from(tenths) / 10.0) {
-            let found = bench.found(way, pace, Deviation::None, Solver::DormandPrince)?;
-            points.push((120.0 * pace, found.feedback));
-        }
+        let found = bench.found(way, &paces.map(Run::at))?;
+        let points = paces.iter().map(|pace| 120.0 * pace);
+        let points = points.zip(found.iter().map(|found| found.feedback));
         series.push(Series {
             name: way.name().trim_end_matches(", `f32`"),
-            points,
+            points: points.collect(),
             style: Style::Line,
         });
     }
@@ -54,8 +50,10 @@ pub(crate) fn over_cycle() -> Result<String, Fault> {
         ("jred, J +20 %", Way::Float, Deviation::Inertia(1.2)),
     ] {
         let mut points = Vec::new();
-        bench.observe(way, OWN, deviation, Solver::DormandPrince, |time, seen| {
-            points.push((1000.0 * time, f64::from(seen.feedback)));
+        bench.with(way, |ahead| {
+            bench.observe(ahead, Run::with(deviation), |time, seen| {
+                points.push((1000.0 * time, f64::from(seen.feedback)));
+            })
         })?;
         series.push(Series {
             name,

@@ -5,13 +5,16 @@ use jred::axis::MotionState;
 use jred_file::model::machine::MachineFile;
 
 use crate::Fault;
-use crate::closed_loop::{Cascade, Figures, LEAD, Plant, Seen, Stepped, TICK, run};
-use crate::feed_forward::{Ahead, Known, Way};
+use crate::closed_loop::{COUNTS, Cascade, Figures, LEAD, Plant, Seen, Stepped, TICK, run};
+use crate::feed_forward::{Ahead, Known, Way, mean_inertia};
 use crate::machine::{Altered, Case, Deviation, Paced};
 use crate::plant::Integrated;
 
 /// Paces of the motion, as shares of that of the file.
 pub(crate) const PACES: [f64; 4] = [0.5, 0.75, 1.0, 1.25];
+
+/// The fastest pace, which the tables are made for.
+pub(crate) const FASTEST: f64 = 1.4;
 
 /// Cycles that are run; the last one is measured.
 const CYCLES: u32 = 3;
@@ -33,11 +36,39 @@ pub(crate) struct Found {
     pub(crate) error: f64,
 }
 
-/// Which integrator moves the machine.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Solver {
-    DormandPrince,
-    Stepped,
+/// A run: the machine, its pace, and how it is simulated.
+#[derive(Clone, Copy)]
+pub(crate) struct Run {
+    pub(crate) pace: f64,
+    pub(crate) deviation: Deviation,
+    /// Counts of the encoder in a turn of the drive link.
+    pub(crate) counts: u32,
+    /// Whether the machine moves in fixed steps, as on a Cortex-M.
+    pub(crate) stepped: bool,
+}
+
+impl Run {
+    /// As the controller knows the machine, at the pace of its file.
+    pub(crate) const NOMINAL: Self = Self {
+        pace: 1.0,
+        deviation: Deviation::None,
+        counts: COUNTS,
+        stepped: false,
+    };
+
+    pub(crate) const fn at(pace: f64) -> Self {
+        Self {
+            pace,
+            ..Self::NOMINAL
+        }
+    }
+
+    pub(crate) const fn with(deviation: Deviation) -> Self {
+        Self {
+            deviation,
+            ..Self::NOMINAL
+        }
+    }
 }
 
 impl<'f> Bench<'f> {
@@ -52,35 +83,40 @@ impl<'f> Bench<'f> {
         Ok(Paced { motion, pace })
     }
 
-    /// Figures of a way at a pace, for a machine that deviates.
-    pub(crate) fn found(
+    /// Figures of runs with a way to feed forward.
+    pub(crate) fn found(&self, way: Way, runs: &[Run]) -> Result<Vec<Found>, Fault> {
+        self.with(way, |ahead| {
+            let runs = runs.iter().map(|run| {
+                let mut figures = Figures::default();
+                self.observe(ahead, *run, |_, seen| figures.add(seen))?;
+                Ok(Found {
+                    feedback: figures.mean_square().sqrt(),
+                    error: f64::from(figures.error),
+                })
+            });
+            runs.collect()
+        })
+    }
+
+    /// Does something with a way to feed forward.
+    pub(crate) fn with<T>(
         &self,
         way: Way,
-        pace: f64,
-        deviation: Deviation,
-        solver: Solver,
-    ) -> Result<Found, Fault> {
-        let mut figures = Figures::default();
-        self.observe(way, pace, deviation, solver, |_, seen| figures.add(seen))?;
-        Ok(Found {
-            feedback: figures.mean_square().sqrt(),
-            error: f64::from(figures.error),
-        })
+        act: impl FnOnce(Ahead) -> Result<T, Fault>,
+    ) -> Result<T, Fault> {
+        let fastest = self.paced(FASTEST)?.extremes();
+        Known::new(&self.model, self.paced(1.0)?, fastest)?.with(way, act)?
     }
 
     /// Observes the last cycle of a run; times are from its start (s).
     pub(crate) fn observe(
         &self,
-        way: Way,
-        pace: f64,
-        deviation: Deviation,
-        solver: Solver,
+        ahead: Ahead,
+        run: Run,
         mut observe: impl FnMut(f64, Seen),
     ) -> Result<(), Fault> {
-        let motion = self.paced(pace)?;
-        let fastest = self.paced(PACES.into_iter().fold(pace, f64::max))?;
-        let known = Known::new(&self.model, self.paced(1.0)?, fastest.extremes())?;
-        let machine = self.case.machine(self.file, deviation)?;
+        let motion = self.paced(run.pace)?;
+        let machine = self.case.machine(self.file, run.deviation)?;
         let cycle = (motion.duration() / f64::from(TICK)).round() as u32;
         let first = (CYCLES - 1) * cycle;
         let observe = |tick: u32, seen: Seen| {
@@ -89,30 +125,27 @@ impl<'f> Bench<'f> {
             }
         };
         let [start, ..] = motion.at(0.0);
-        let inertia = known.mean_inertia();
-        known.with(way, |ahead| match solver {
-            Solver::DormandPrince => {
-                let plant = Integrated::new(&machine, start);
-                follow(plant, motion, inertia, CYCLES * cycle, ahead, observe)
-            }
-            Solver::Stepped => {
-                let plant = Stepped::new(&machine, start)?;
-                follow(plant, motion, inertia, CYCLES * cycle, ahead, observe)
-            }
-        })?
+        let controller = Cascade::new(mean_inertia(&self.model)?, run.counts, start)?;
+        let ticks = CYCLES * cycle;
+        if run.stepped {
+            let plant = Stepped::new(&machine, start)?;
+            follow(plant, controller, motion, ticks, ahead, observe)
+        } else {
+            let plant = Integrated::new(&machine, start);
+            follow(plant, controller, motion, ticks, ahead, observe)
+        }
     }
 }
 
 /// Runs a machine through a motion.
 fn follow<P: Plant<Error: Into<Fault>>>(
     mut plant: P,
+    mut controller: Cascade,
     motion: Paced,
-    inertia: f32,
     ticks: u32,
     ahead: Ahead,
     observe: impl FnMut(u32, Seen),
 ) -> Result<(), Fault> {
-    let mut controller = Cascade::new(inertia, plant.phi())?;
     let at = |time: f64| {
         let [phi, omega, alpha] = motion.at(time);
         MotionState {
