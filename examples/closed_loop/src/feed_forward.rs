@@ -79,7 +79,11 @@ const SET: CurveSet = curves::LOAD | curves::VISCOUS | curves::COULOMB;
 
 impl<'m, M: Reducible> Known<'m, M> {
     /// Of a machine, for motions up to these extremes.
-    pub(crate) fn new(machine: &'m M, motion: Paced<'m>, extremes: [f64; 2]) -> Result<Self, Fault> {
+    pub(crate) fn new(
+        machine: &'m M,
+        motion: Paced<'m>,
+        extremes: [f64; 2],
+    ) -> Result<Self, Fault> {
         Ok(Self {
             machine,
             motion,

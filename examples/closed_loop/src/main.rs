@@ -56,8 +56,12 @@ fn plots(folder: &Path) -> Result<(), Fault> {
         ("closed-loop-cycle.svg", plots::over_cycle()?),
     ] {
         let path = folder.join(name);
-        std::fs::write(&path, plot)
-            .map_err(|error| format!("cannot write {}: {error}; give a folder that exists", path.display()))?;
+        std::fs::write(&path, plot).map_err(|error| {
+            format!(
+                "cannot write {}: {error}; give a folder that exists",
+                path.display()
+            )
+        })?;
     }
     Ok(())
 }

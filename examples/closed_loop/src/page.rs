@@ -3,9 +3,9 @@
 use std::fmt::Write as _;
 
 use crate::Fault;
+use crate::closed_loop::COUNTS;
 use crate::feed_forward::Way;
 use crate::machine::{CASES, Case, Deviation};
-use crate::closed_loop::COUNTS;
 use crate::study::{Bench, PACES, Run};
 
 /// Deviations of the machine from its model, at the pace of the file.
@@ -21,7 +21,10 @@ const DEVIATIONS: [(&str, Deviation); 5] = [
 pub(crate) fn table(case: Case) -> Result<String, Fault> {
     let file = case.read()?;
     let bench = Bench::new(case, &file)?;
-    let mut text = format!("**{}**, payload {} kg\n\n| feed-forward |", case.name, case.payload);
+    let mut text = format!(
+        "**{}**, payload {} kg\n\n| feed-forward |",
+        case.name, case.payload
+    );
     for pace in PACES {
         let _ = write!(text, " {:.0} % |", 100.0 * pace);
     }
@@ -31,14 +34,16 @@ pub(crate) fn table(case: Case) -> Result<String, Fault> {
     let columns = PACES.len() + DEVIATIONS.len() + 1;
     let _ = writeln!(text, " error, mrad |\n|---|{}", "---:|".repeat(columns));
     let deviations = DEVIATIONS.map(|(_, deviation)| Run::with(deviation));
-    let runs: Vec<Run> = PACES.map(Run::at).into_iter().chain(deviations).collect();
+    let runs = PACES.map(Run::at).into_iter().chain(deviations);
+    let runs: Vec<Run> = runs.chain([Run::NOMINAL]).collect();
     for way in Way::ALL {
         let _ = write!(text, "| {} |", way.name());
-        for found in bench.found(way, &runs)? {
-            let _ = write!(text, " {} |", short(found.feedback));
-        }
-        for found in bench.found(way, &[Run::NOMINAL])? {
-            let _ = writeln!(text, " {} |", short(1000.0 * found.error));
+        let found = bench.found(way, &runs)?;
+        if let Some((nominal, all)) = found.split_last() {
+            for found in all {
+                let _ = write!(text, " {} |", short(found.feedback));
+            }
+            let _ = writeln!(text, " {} |", short(1000.0 * nominal.error));
         }
     }
     Ok(text)
@@ -60,7 +65,11 @@ pub(crate) fn summary() -> Result<String, Fault> {
         ("jred, `f32`", Way::Float, Run::NOMINAL),
         ("jred, 16 times finer encoder", Way::Float, finer),
         ("jred, machine in fixed steps", Way::Float, stepped),
-        ("constant J, unknown process load", Way::MeanInertia, unknown),
+        (
+            "constant J, unknown process load",
+            Way::MeanInertia,
+            unknown,
+        ),
         ("jred, unknown process load", Way::Float, unknown),
     ];
     let mut columns = Vec::new();
@@ -68,13 +77,21 @@ pub(crate) fn summary() -> Result<String, Fault> {
         let file = case.read()?;
         let bench = Bench::new(case, &file)?;
         let of = |way| {
-            let runs: Vec<Run> = rows.iter().filter(|row| row.1 == way).map(|row| row.2).collect();
+            let runs: Vec<Run> = rows
+                .iter()
+                .filter(|row| row.1 == way)
+                .map(|row| row.2)
+                .collect();
             bench.found(way, &runs).map(Vec::into_iter)
         };
         let (mut constant, mut jred) = (of(Way::MeanInertia)?, of(Way::Float)?);
         let mut column = Vec::new();
         for (_, way, run) in rows {
-            let found = if way == Way::Float { jred.next() } else { constant.next() };
+            let found = if way == Way::Float {
+                jred.next()
+            } else {
+                constant.next()
+            };
             let known = run.deviation != Deviation::Process || case.is_idle();
             column.push(found.filter(|_| known).map(|found| found.feedback));
         }
@@ -105,5 +122,5 @@ pub(crate) fn summary() -> Result<String, Fault> {
 /// Three digits.
 pub(crate) fn short(value: f64) -> String {
     let digits = 2 - value.abs().max(1e-3).log10().floor() as i32;
-    format!("{value:.*}", digits.clamp(0, 4) as usize)
+    format!("{value:.*}", digits.clamp(0, 5) as usize)
 }

@@ -103,10 +103,19 @@ impl<'m, M: Reducible> Integrated<'m, M> {
         };
         let length = after - before;
         // From rest the speed is zero at the start of the step as well.
-        let early = if from[1] == 0.0 { RELEASE.min(0.5 * length) } else { 0.0 };
+        let early = if from[1] == 0.0 {
+            RELEASE.min(0.5 * length)
+        } else {
+            0.0
+        };
         let speeds = [at(early)?[1], to[1]];
         let (x, phi) = if speeds[0] * direction > 0.0 {
-            let x = zero(|x| Ok::<_, PlantError>(at(x)?[1]), [early, length], speeds, 1e-12)?;
+            let x = zero(
+                |x| Ok::<_, PlantError>(at(x)?[1]),
+                [early, length],
+                speeds,
+                1e-12,
+            )?;
             (x, at(x)?[0])
         } else {
             (length, from[0])
