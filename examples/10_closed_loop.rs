@@ -9,6 +9,9 @@
 //! cargo run -p jred --example 10_closed_loop --profile firmware --target thumbv7em-none-eabihf      on a Cortex-M4F in QEMU
 //! ```
 //!
+//! A machine under construction needs more stack than the 16 KiB of the Cortex-M0 of the examples.
+//!
+//! runs on: cortex-m3 cortex-m4 cortex-m7 cortex-m33
 //! computes in: double precision
 #![cfg_attr(target_os = "none", no_std, no_main)]
 
