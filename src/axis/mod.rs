@@ -25,7 +25,7 @@
 //! [`Monitor`](monitor::Monitor) finds jams and wear.
 //!
 //! An [`ImageSlot`] exchanges the table while the machine runs. `docs/axis.md` of the project explains each step; `examples/07_axis.rs`,
-//! `08_governor.rs`, `09_plan.rs` and `10_observer.rs` combine them; `examples/template` is a firmware to start from.
+//! `08_governor.rs`, `09_plan.rs` and `11_observer.rs` combine them; `examples/template` is a firmware to start from.
 //!
 //! # NaN and infinity
 //!

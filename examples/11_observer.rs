@@ -4,8 +4,8 @@
 //! contain. The monitor learns it from 64 turns; then a part jams, and later a heavier die is mounted, whose mass the observer's load gives.
 //!
 //! ```text
-//! cargo run -p jred --example 10_observer                                                    on the host
-//! cargo run -p jred --example 10_observer --profile firmware --target thumbv6m-none-eabi     on a Cortex-M0 in QEMU
+//! cargo run -p jred --example 11_observer                                                    on the host
+//! cargo run -p jred --example 11_observer --profile firmware --target thumbv6m-none-eabi     on a Cortex-M0 in QEMU
 //! ```
 #![cfg_attr(target_os = "none", no_std, no_main)]
 
