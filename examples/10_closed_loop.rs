@@ -1,4 +1,4 @@
-//! What a table is worth: a press under the controller of its drive, with and without feed-forward.
+//! The worth of a table: a press under the controller of its drive, with and without feed-forward.
 //!
 //! The idle stroke of the press of `machines/press.toml`, 120 a minute. The machine moves by its exact mechanics, in double precision; the controller
 //! computes in single precision, sees an encoder's counts and reaches the machine a tick and a current loop late. `docs/closed-loop.md` describes the

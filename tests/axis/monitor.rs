@@ -1,13 +1,14 @@
 use core::f64::consts::TAU;
 
-use jred::axis::Observer;
 use jred::axis::monitor::{Cycle, Monitor, Seen, Watch};
+use jred::axis::{Observed, Observer};
 use jred::machine::Reducible as _;
 use jred::number::FrictionSign;
-use jred::{CurveSet, Model, Phase, Scale, Spline, curves};
+use jred::table::Format;
+use jred::{CurveSet, Model, Phase, Q31, Scale, Spline, curves};
 
 use super::machine::with_model_of;
-use super::watched::{CRANK, OMEGA, PAYLOAD, Plant, TICK, machine, peak};
+use super::watched::{CRANK, OMEGA, PAYLOAD, Plant, TICK, bases, machine, peak};
 use crate::support::assert_near;
 
 const SET: CurveSet = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
@@ -22,11 +23,11 @@ const WATCH: Watch = Watch {
 
 /// A machine with 10 % more load and friction than in its model, its observer and its monitor.
 #[derive(Clone, Debug)]
-struct Watched<'a> {
+struct Watched<'a, F: Format> {
     plant: Plant,
-    model: Model<'a, Spline<f32>, SET>,
-    observer: Observer<f32>,
-    monitor: Monitor<f32, BINS>,
+    model: Model<'a, F, SET>,
+    observer: Observer<F::Number>,
+    monitor: Monitor<F::Number, BINS>,
 }
 
 /// The change of the load by one unit of payload, in the motion of the reference.
@@ -35,15 +36,20 @@ fn unit(phase: Phase) -> f32 {
     -here.torque(OMEGA, 0.0).total() as f32
 }
 
-impl Watched<'_> {
+impl<F: Format> Watched<'_, F> {
     fn tick(&mut self, load: f64) -> Seen {
+        let seen = self.observe(load);
+        assert!(!seen.limited);
+        self.monitor.tick(seen.motion.phase, seen.load)
+    }
+
+    fn observe(&mut self, load: f64) -> Observed<F::Number> {
         let command = self.plant.command();
         let measured = self.plant.tick(command, load);
-        let friction = FrictionSign::OfSpeed(OMEGA as f32);
-        let seen = self
-            .observer
-            .update(&self.model, measured, command as f32, friction);
-        self.monitor.tick(seen.motion.phase, seen.load)
+        let scale = self.model.table().scale();
+        let friction = FrictionSign::OfSpeed(scale.omega(OMEGA as f32).value);
+        let acted = scale.to_torque(command as f32).value;
+        self.observer.update(&self.model, measured, acted, friction)
     }
 
     /// A turn; the ticks with an alarm, and the cycle.
@@ -54,8 +60,8 @@ impl Watched<'_> {
 }
 
 /// After the reference cycles.
-fn with_reference(seed: u64, then: impl FnOnce(Watched<'_>)) {
-    with_model_of::<Spline<f32>, SET>(&CRANK, Scale::SI, |model| {
+fn with_reference<F: Format>(scale: Scale, seed: u64, then: impl FnOnce(Watched<'_, F>)) {
+    with_model_of::<F, SET>(&CRANK, scale, |model| {
         let plant = Plant::new(machine(0.0, 0.1), 0.01 * peak(), seed);
         let observer = Observer::with_bandwidth(60.0, TICK as f32, &model).unwrap();
         let monitor = Monitor::new(WATCH, unit, &model).unwrap();
@@ -67,12 +73,7 @@ fn with_reference(seed: u64, then: impl FnOnce(Watched<'_>)) {
         };
         for _ in 0..3000 {
             // The observer settles first.
-            let command = watched.plant.command();
-            let measured = watched.plant.tick(command, 0.0);
-            let friction = FrictionSign::OfSpeed(OMEGA as f32);
-            watched
-                .observer
-                .update(&model, measured, command as f32, friction);
+            watched.observe(0.0);
         }
         for _ in 0..2 * WATCH.reference {
             assert!(!watched.monitor.is_watching());
@@ -84,9 +85,8 @@ fn with_reference(seed: u64, then: impl FnOnce(Watched<'_>)) {
 }
 
 /// 10 % of the peak torque against the motion, from anywhere in the turn.
-#[test]
-fn a_jam_is_seen_within_five_degrees() {
-    with_reference(1, |watched| {
+fn a_jam_is_seen<F: Format>(scale: Scale) {
+    with_reference::<F>(scale, 1, |watched| {
         let jam = -0.1 * peak();
         let (mut most, mut least) = (0.0_f64, f64::INFINITY);
         for place in 0..72 {
@@ -106,8 +106,14 @@ fn a_jam_is_seen_within_five_degrees() {
     });
 }
 
+#[test]
+fn a_jam_is_seen_within_five_degrees() {
+    a_jam_is_seen::<Spline<f32>>(Scale::SI);
+    a_jam_is_seen::<Spline<Q31>>(bases());
+}
+
 fn without_alarm(cycles: u32) {
-    with_reference(2, |mut watched| {
+    with_reference::<Spline<f32>>(Scale::SI, 2, |mut watched| {
         let mut most = 0.0_f32;
         for k in 0..cycles {
             let (jams, cycle) = watched.turn();
@@ -128,9 +134,8 @@ fn ten_thousand_cycles_have_no_false_alarm() {
 }
 
 /// Each fault is reported as what it is, after this number of cycles at most.
-#[test]
-fn faults_are_told_apart() {
-    with_reference(3, |watched| {
+fn faults_are_told<F: Format>(scale: Scale) {
+    with_reference::<F>(scale, 3, |watched| {
         let first = |change: &dyn Fn(&mut Plant),
                      is: &dyn Fn(&Cycle) -> bool,
                      other: &dyn Fn(&Cycle) -> bool| {
@@ -160,8 +165,14 @@ fn faults_are_told_apart() {
 }
 
 #[test]
+fn faults_are_told_apart() {
+    faults_are_told::<Spline<f32>>(Scale::SI);
+    faults_are_told::<Spline<Q31>>(bases());
+}
+
+#[test]
 fn what_is_unknown_is_reported() {
-    with_reference(4, |mut watched| {
+    with_reference::<Spline<f32>>(Scale::SI, 4, |mut watched| {
         assert_eq!(
             watched.monitor.tick(Phase::default(), f32::NAN),
             Seen::Invalid

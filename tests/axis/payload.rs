@@ -1,18 +1,19 @@
 use jred::axis::{Observer, Payload};
 use jred::number::FrictionSign;
-use jred::{CurveSet, Scale, Spline, curves};
+use jred::table::Format;
+use jred::{CurveSet, Q31, Scale, Spline, curves};
 
 use super::machine::with_model_of;
-use super::watched::{CRANK, OMEGA, PAYLOAD, Plant, TICK, machine, peak};
+use super::watched::{CRANK, OMEGA, PAYLOAD, Plant, TICK, bases, machine, peak};
 use crate::support::assert_near;
 
 const SET: CurveSet = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
 
 /// The payload and the constant load that are found after some turns, with their share of the variance, and the same for no motion.
-fn found(payload: f64, friction: f64, noise: f64) -> [f64; 3] {
+fn found<F: Format>(scale: Scale, payload: f64, friction: f64, noise: f64) -> [f64; 3] {
     let mut found = [0.0; 3];
-    with_model_of::<Spline<f32>, SET>(&CRANK, Scale::SI, |model| {
-        with_model_of::<Spline<f32>, { curves::LOAD }>(&PAYLOAD, Scale::SI, |unit| {
+    with_model_of::<F, SET>(&CRANK, scale, |model| {
+        with_model_of::<F, { curves::LOAD }>(&PAYLOAD, scale, |unit| {
             let mut plant = Plant::new(machine(payload, 0.0), noise, 11);
             plant.machine.coulomb += friction;
             let mut observer = Observer::with_bandwidth(60.0, TICK as f32, &model).unwrap();
@@ -20,8 +21,10 @@ fn found(payload: f64, friction: f64, noise: f64) -> [f64; 3] {
             for k in 0..8000 {
                 let command = plant.command();
                 let measured = plant.tick(command, 0.0);
-                let friction = FrictionSign::OfSpeed(OMEGA as f32);
-                let seen = observer.update(&model, measured, command as f32, friction);
+                let scale = model.table().scale();
+                let friction = FrictionSign::OfSpeed(scale.omega(OMEGA as f32).value);
+                let acted = scale.to_torque(command as f32).value;
+                let seen = observer.update(&model, measured, acted, friction);
                 if k == 1000 {
                     assert!(estimate.estimate().excited);
                     estimate.restart();
@@ -31,8 +34,6 @@ fn found(payload: f64, friction: f64, noise: f64) -> [f64; 3] {
                 let torque = unit.torque(motion.phase, motion.omega, motion.alpha);
                 estimate.update(seen.load, torque);
             }
-            estimate.update(f32::NAN, 1.0);
-            estimate.update(1.0, f32::NAN);
             let last = estimate.estimate();
             assert!(last.excited);
             found = [last.payload, last.offset, last.explained].map(f64::from);
@@ -41,8 +42,8 @@ fn found(payload: f64, friction: f64, noise: f64) -> [f64; 3] {
     found
 }
 
-#[test]
-fn a_payload_is_found() {
+fn payloads_are_found<F: Format>(scale: Scale) {
+    let found = |payload, friction, noise| found::<F>(scale, payload, friction, noise);
     for payload in [0.0, 0.5, 3.0, -1.0] {
         let [mass, offset, explained] = found(payload, 0.0, 0.0);
         assert_near("payload", mass, payload, 0.002 * payload.abs() + 0.002);
@@ -57,6 +58,12 @@ fn a_payload_is_found() {
     assert_near("noisy payload", mass, 2.0, 0.04);
 }
 
+#[test]
+fn a_payload_is_found() {
+    payloads_are_found::<Spline<f32>>(Scale::SI);
+    payloads_are_found::<Spline<Q31>>(bases());
+}
+
 /// Without a change of the unit's torque nothing is known, whatever the load.
 #[test]
 fn a_motion_without_excitation_says_so() {
@@ -66,6 +73,8 @@ fn a_motion_without_excitation_says_so() {
         for k in 0..1000u16 {
             estimate.update(f32::from(k % 7), 3.0);
         }
+        estimate.update(f32::NAN, 1.0);
+        estimate.update(1.0, f32::NAN);
         // The filter's step has left the window.
         let none = estimate.estimate();
         assert!(!none.excited && none.payload == 0.0, "{none:?}");

@@ -2,10 +2,11 @@
 
 use core::f64::consts::TAU;
 
-use jred::Phase;
 use jred::machine::{FreeMotion, Reducible as _};
+use jred::{Phase, Scale};
 
 use crate::support::machines::Wave;
+use crate::support::scale_of;
 
 /// Numbers with the standard normal distribution, the same in every run (xorshift, G. Marsaglia 2003; G. Box and M. Muller 1958).
 #[derive(Clone, Debug)]
@@ -51,6 +52,11 @@ pub(crate) const PAYLOAD: Wave = Wave {
     coulomb: 0.0,
     domain: jred::Domain::Turn,
 };
+
+/// Bases of fixed point for the machine with its payloads.
+pub(crate) fn bases() -> Scale {
+    scale_of(100.0, 8.0, 4.0)
+}
 
 /// The machine with this payload, and friction and load that its model has wrong by this share.
 pub(crate) fn machine(payload: f64, wrong: f64) -> Wave {

@@ -49,7 +49,7 @@ pub(crate) const CASES: [Case; 3] = [
     },
 ];
 
-/// What differs between the machine and the controller's model of it.
+/// Differences between the machine and the controller's model of it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Deviation {
     /// Nothing.

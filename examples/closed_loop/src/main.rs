@@ -1,4 +1,4 @@
-//! What feed-forward is worth: machines with exact mechanics under the controller of a drive, with and without a table of jred.
+//! The worth of feed-forward: machines with exact mechanics under the controller of a drive, with and without a table of jred.
 //!
 //! ```text
 //! cargo run --release -p jred-closed-loop                  the tables of docs/closed-loop.md
