@@ -5,7 +5,7 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use jred::error::Error;
-use jred::harmonic::{Identification, Sample, fit, scratch_len, terms};
+use jred::harmonic::{fit, scratch_len, terms};
 use jred::machine::{Link, Machine};
 use jred::mechanism::{Branch, SliderCrank};
 use jred::table::{Shape, Table, words_len};
@@ -13,9 +13,6 @@ use jred::tabulate::Request;
 use jred::{CurveSet, Harmonic, Model, Phase, curves};
 
 const SET: CurveSet = curves::LOAD | terms::SYMMETRIC;
-/// J and load, eleven harmonics.
-const WORDS: usize = words_len::<Harmonic<f64>>(11, SET);
-
 /// The model with these coefficients.
 fn model(words: &[f32], harmonics: u32) -> Result<Model<'_, Harmonic<f32>, SET>, Error> {
     let table = Table::new(words, Shape::harmonics(harmonics, SET)).map_err(Error::Table)?;
@@ -83,30 +80,5 @@ fn main() -> Result<(), Error> {
             black_box(model.torque(black_box(phase), 10.0, 20.0));
         }
     });
-    let samples: Vec<_> = (0..1000u32)
-        .map(|k| {
-            let t = f64::from(k) * 0.01;
-            let phase = Phase::from_radians(6.0 * t.sin());
-            let (omega, alpha) = (6.0 * t.cos(), -6.0 * t.sin());
-            let torque = model.torque(phase, omega as f32, alpha as f32).into();
-            Sample {
-                phase,
-                omega,
-                alpha,
-                torque,
-            }
-        })
-        .collect();
-    time(
-        &format!("identify {WORDS} coefficients from 1000 samples"),
-        50,
-        || {
-            let mut kept = Identification::<WORDS, SET>::new().expect("whole harmonics");
-            for sample in &samples {
-                kept.add(sample).expect("finite");
-            }
-            black_box(kept.solve()).ok();
-        },
-    );
     Ok(())
 }

@@ -34,9 +34,12 @@ mod target {
     use cortex_m_semihosting::{debug, hprintln};
     use jred::axis::monitor::{Monitor, Watch};
     use jred::axis::plan::{Errors, Knot, encode, image_len};
-    use jred::axis::{Observer, Override, Payload, Plan, PlanFollower};
+    use jred::axis::{
+        Identification, IdentificationSettings, Observer, Override, Payload, Plan, PlanFollower,
+    };
     use jred::duty::{Curve, Limits, Meter, Window};
     use jred::error::Error;
+    use jred::harmonic::terms;
     use jred::machine::{Machine, Mechanism, Reducible};
     use jred::number::FrictionSign;
     use jred::table::{Format, TorqueOf};
@@ -189,7 +192,8 @@ mod target {
         ];
         let in_fixed = observer::<Spline<Q31>>(counter, fixed, names, &mut report);
         let planned = plan(counter, &mut report);
-        let all = in_float.and(in_fixed).and(planned);
+        let identified = identify(counter, &mut report);
+        let all = in_float.and(in_fixed).and(planned).and(identified);
         all.map_or(Ok(1), |()| Ok(failures))
     }
 
@@ -247,6 +251,43 @@ mod target {
             black_box(monitor.end_cycle());
         });
         report(of_cycle, count);
+        Some(())
+    }
+
+    /// A tick of an identification with six harmonics and cogging, on average and the longest one, and the solution in the background.
+    fn identify(counter: &mut Counter, report: &mut dyn FnMut(&str, u32)) -> Option<()> {
+        const SET: CurveSet =
+            curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS | terms::GENERAL;
+        let settings = IdentificationSettings {
+            period: 1e-3,
+            max_speed: 14.0,
+            inertia: 0.1,
+            torque_delay: 1e-3,
+            torque_noise: 0.1,
+            angle_noise: 5e-4,
+            memory: f32::INFINITY,
+        };
+        let mut made = Identification::<f32, 30, 256, SET>::new(&settings, &[36]).ok()?;
+        // Two turns a second.
+        let place = |k: u32| Phase::from_bits(k.wrapping_mul(8_590_000));
+        for k in 0..TICKS {
+            made.add(place(k), 10.0);
+        }
+        let mut most = 0;
+        let (mut sum, mut k) = (0, TICKS);
+        while k < 2 * TICKS {
+            let count = counter.count(|| {
+                black_box(made.add(place(k), black_box(10.0)));
+            });
+            (sum, most, k) = (sum + count, most.max(count), k + 1);
+        }
+        report("identify-f32", sum / TICKS);
+        report("identify-f32-most", most);
+        let equations = made.equations();
+        let count = counter.count(|| {
+            black_box(equations.solve());
+        });
+        report("identify-f32-solve", count);
         Some(())
     }
 

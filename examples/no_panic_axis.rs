@@ -7,11 +7,12 @@ use core::hint::black_box;
 use jred::axis::monitor::{Monitor, Watch};
 use jred::axis::plan::{Errors, Knot, encode, image_len, with_ramp};
 use jred::axis::{
-    Braking, Counter, Direction, Encoder, Envelope, FeedForward, FrictionRamp, Gearbox, Governor,
-    ImageSlot, Limits, LookAhead, MotionRange, MotionState, Mounting, Observer, Override, Payload,
-    Period, Plan, PlanFollower, Status, StrokeEncoder, StrokeMounting, TorqueLimits, Tracker,
-    Transmission,
+    Braking, Counter, Direction, Encoder, Envelope, Equations, FeedForward, Found, FrictionRamp,
+    Gearbox, Governor, Identification, IdentificationSettings, ImageSlot, Limits, LookAhead,
+    MotionRange, MotionState, Mounting, Observer, Override, Payload, Period, Plan, PlanFollower,
+    Status, StrokeEncoder, StrokeMounting, TorqueLimits, Tracker, Transmission,
 };
+use jred::harmonic::terms;
 use jred::image::ImageCheck;
 use jred::number::FrictionSign;
 use jred::table::{AccelerationOf, Format, SpeedOf, TorqueOf};
@@ -40,6 +41,7 @@ fn calls() -> Result<(), ImageError> {
     every_axis::<Spline<Q31>, PRESS>(fixed)?;
     let _ = black_box(every_axis::<Rows16, PRESS>(fixed));
     every_slot(float);
+    every_identification();
     every_encoder();
     if cfg!(gate_double) {
         every_double();
@@ -157,6 +159,31 @@ fn every_observer<F: Format, const SET: CurveSet>(
             Monitor::usual(monitor, phase),
         ));
     }
+}
+
+/// The identification: its tick, and its background.
+fn every_identification() {
+    const SET: CurveSet = PRESS | terms::SYMMETRIC;
+    let settings = black_box(IdentificationSettings {
+        period: 1e-3,
+        max_speed: 14.0,
+        inertia: 0.5,
+        torque_delay: 1e-3,
+        torque_noise: 0.1,
+        angle_noise: 1e-4,
+        memory: 100.0,
+    });
+    let made: Result<Identification<f32, 8, 64, SET>, _> =
+        Identification::new(&settings, black_box(&[36]));
+    let Ok(mut identification) = made else {
+        return;
+    };
+    let (phase, torque) = black_box((Phase::default(), 1.0));
+    black_box(Identification::add(&mut identification, phase, torque));
+    Identification::gap(&mut identification);
+    let found = Equations::solve(&Identification::equations(&identification));
+    Identification::adopt(&mut identification, &found);
+    black_box((Found::inertia(&found, phase), Found::words(&found)));
 }
 
 /// A plan and its follower.

@@ -198,7 +198,7 @@ pub mod table {
 
 /// Harmonics: a smooth machine as short Fourier series instead of a table of cells.
 ///
-/// Found from its mechanism by [`fit`](harmonic::fit); ticked by [`Model`] in the format [`Harmonic`].
+/// Found from its mechanism by [`fit`](harmonic::fit), or on the machine by [`Identification`](axis::Identification); ticked by [`Model`] in the format [`Harmonic`].
 ///
 /// ```
 /// use jred::error::Error;
@@ -239,10 +239,6 @@ pub mod harmonic {
     pub use crate::tabulate::harmonic::{
         Fit, HarmonicError, fit, measure, scratch_len, terms_in_use,
     };
-    // Identification from measurements is not part of 1.0: no machine has tried it yet, so that its interface may change.
-    #[cfg(feature = "mechanics")]
-    #[doc(hidden)]
-    pub use crate::tabulate::harmonic::{EXCITED, Identification, Identified, Sample, identify};
 }
 
 /// A slider-crank in closed form: lengths and masses instead of a table, ticked by [`Model`] in the format [`SliderCrankForm`].

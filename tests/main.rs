@@ -23,7 +23,6 @@ mod geneva;
 mod golden;
 mod harmonic;
 mod harmonic_fit;
-mod harmonic_identify;
 mod harmonic_refused;
 mod hoist;
 mod image;

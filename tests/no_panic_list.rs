@@ -45,11 +45,18 @@ fn implemented(header: &str) -> Vec<String> {
 
 /// The public functions of a file, as `Type::name` or `name`; without crate-private ones.
 fn public(text: &str, into: &mut BTreeSet<String>) {
-    let mut types = Vec::new();
+    let (mut types, mut head) = (Vec::new(), String::new());
     for line in text.lines() {
         let code = line.trim_start();
-        if code.starts_with("impl") && code.ends_with('{') {
-            types = implemented(code);
+        // A long one takes two lines.
+        let begins = code.starts_with("impl") && code.ends_with(['{', '>']);
+        if begins || !head.is_empty() {
+            head.push(' ');
+            head.push_str(code);
+            if head.ends_with('{') {
+                types = implemented(head.trim_start());
+                head.clear();
+            }
         } else if line == "}" {
             types.clear();
         }

@@ -8,7 +8,6 @@ mod fixed_point;
 mod fixed_vs_float;
 mod harmonic;
 mod harmonic_fit;
-mod harmonic_identify;
 mod harmonic_refused;
 mod image;
 mod image_damage;

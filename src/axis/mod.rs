@@ -24,8 +24,10 @@
 //! An [`Observer`] is a [`Tracker`] with the model: it also sees the torque of the load, from which a [`Payload`] is estimated and a
 //! [`Monitor`](monitor::Monitor) finds jams and wear.
 //!
+//! An [`Identification`] finds J, load and friction from the encoder and the torque, while the machine turns.
+//!
 //! An [`ImageSlot`] exchanges the table while the machine runs. `docs/axis.md` of the project explains each step; `examples/07_axis.rs`,
-//! `08_governor.rs`, `09_plan.rs` and `11_observer.rs` combine them; `examples/template` is a firmware to start from.
+//! `08_governor.rs`, `09_plan.rs`, `11_observer.rs` and `12_identify.rs` combine them; `examples/template` is a firmware to start from.
 //!
 //! # NaN and infinity
 //!
@@ -41,6 +43,7 @@ mod error;
 mod feed_forward;
 mod follower;
 mod governor;
+mod identify;
 mod limits;
 mod look_ahead;
 pub mod monitor;
@@ -64,6 +67,9 @@ pub use error::AxisError;
 pub use feed_forward::{CheckedTorque, FeedForward, FrictionRamp, LimitedTorque, TorqueLimits};
 pub use follower::{Override, PlanFollower, PlanState, SetPoint};
 pub use governor::{Governor, GovernorOutput};
+pub use identify::{
+    Equations, Found, FoundStatus, Identification, IdentificationSettings, Sampled,
+};
 pub use limits::{AccelerationBound, FeasibleAccelerations, Limit, Limits};
 pub use look_ahead::{Direction, LookAhead, Stop};
 pub use motion::{MotionState, Period};

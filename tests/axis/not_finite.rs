@@ -6,9 +6,10 @@ use std::path::Path;
 use jred::axis::monitor::{Monitor, Seen, Watch};
 use jred::axis::plan::{Errors, Knot, encode, image_len, with_ramp};
 use jred::axis::{
-    AxisError, Braking, Direction, Envelope, FeedForward, FrictionRamp, Gearbox, Governor, Limits,
-    LookAhead, MotionRange, MotionState, Observer, Payload, Period, Plan, PlanFollower,
-    StrokeEncoder, StrokeMounting, TorqueLimits, Tracker, Transmission,
+    AxisError, Braking, Direction, Envelope, FeedForward, FrictionRamp, Gearbox, Governor,
+    Identification, IdentificationSettings, Limits, LookAhead, MotionRange, MotionState, Observer,
+    Payload, Period, Plan, PlanFollower, Sampled, StrokeEncoder, StrokeMounting, TorqueLimits,
+    Tracker, Transmission,
 };
 use jred::image::Validity;
 use jred::number::FrictionSign;
@@ -226,6 +227,18 @@ fn monitor(
     Monitor::new(watch, |_| payload, model)
 }
 
+type Identified = Identification<f32, 4, 256, SET>;
+
+const IDENTIFIED: IdentificationSettings = IdentificationSettings {
+    period: 0.001,
+    max_speed: 14.0,
+    inertia: 1.0,
+    torque_delay: 0.0,
+    torque_noise: 0.1,
+    angle_noise: 0.001,
+    memory: 10.0,
+};
+
 /// Each function with NaN in one of its arguments, or in all; infinity has the same result as NaN, or acts as a limit.
 const CASES: &[Case] = &[
     ("MotionRange::new", Finite, |_, x| ranged(x, 1.0)),
@@ -388,6 +401,41 @@ const CASES: &[Case] = &[
         // Infinity is a speed in that direction.
         let sign = if x.is_nan() { x } else { f32::NAN };
         seen(m, 1.0, FrictionSign::OfSpeed(sign))
+    }),
+    ("Identification::new", Refused, |_, x| {
+        let good = IDENTIFIED;
+        // Infinity: never forget.
+        let memory = if x > 0.0 { f32::NAN } else { x };
+        [
+            IdentificationSettings { period: x, ..good },
+            IdentificationSettings {
+                max_speed: x,
+                ..good
+            },
+            IdentificationSettings { inertia: x, ..good },
+            IdentificationSettings {
+                torque_delay: x,
+                ..good
+            },
+            IdentificationSettings {
+                torque_noise: x,
+                ..good
+            },
+            IdentificationSettings {
+                angle_noise: x,
+                ..good
+            },
+            IdentificationSettings { memory, ..good },
+        ]
+        .map(|settings| refused(Identified::new(&settings, &[])))
+        .into_iter()
+        .fold(Refused, Becomes::max)
+    }),
+    ("Identification::add", Flagged, |_, x| {
+        let mut identified = Identified::new(&IDENTIFIED, &[]).unwrap();
+        let added = identified.add(Phase::default(), x);
+        let found = identified.equations().solve();
+        flagged(added == Sampled::NotFinite, &found.coefficients)
     }),
     ("Payload::new", Refused, |m, x| {
         let observer = Observer::with_bandwidth(50.0, 0.001, m).unwrap();
@@ -580,6 +628,12 @@ fn every_function_of_the_axis_is_tried() {
         "Period::alpha",
         "Governor::one_way",
         "Governor::both_ways",
+        "Identification::gap",
+        "Identification::equations",
+        "Identification::adopt",
+        "Equations::solve",
+        "Found::words",
+        "Found::inertia",
         "Observer::at",
         "Observer::with_largest_step",
         "Observer::memory",

@@ -323,12 +323,6 @@ pub(crate) const HARMONIC_ENERGY: f64 = 1e-8;
 /// Harmonics of the example press for 1e-3 to 1e-9 of its peak torque: the figures of `docs/harmonics.md`.
 pub(crate) const PRESS_HARMONICS: [u32; 7] = [5, 6, 8, 9, 10, 11, 12];
 
-/// Coefficients identified from exact samples, relative to the largest and times the condition number; the residual, relative to the largest torque.
-pub(crate) const IDENTIFIED: f64 = 1e-14;
-
-/// J, b and c of a slider-crank (λ = 0.25) identified with 10 harmonics; higher ones are below 1e-7 of it.
-pub(crate) const IDENTIFIED_INERTIA: f64 = 1e-6;
-
 /// Remaining error next to a jump in one table, as a share of the jump: at least half of it on one side, and an interpolating spline overshoots by
 /// less than half.
 pub(crate) const JUMP_LEFT: [f64; 2] = [0.5, 1.5];

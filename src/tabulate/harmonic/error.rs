@@ -2,10 +2,9 @@
 
 use core::fmt;
 
-use crate::curve::Coefficient;
 use crate::number::error::{Curable, error};
 
-/// Why a machine has no harmonics, or why they cannot be identified.
+/// Why a machine has no harmonics.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
@@ -20,20 +19,6 @@ pub enum HarmonicError {
         reached: f64,
         /// That number of harmonics.
         harmonics: u32,
-    },
-    /// Not more samples than coefficients.
-    TooFewSamples {
-        /// Number of samples needed.
-        needed: u32,
-        /// Number of samples given.
-        given: u32,
-    },
-    /// The samples do not determine this coefficient.
-    NotExcited {
-        /// Which.
-        coefficient: Coefficient,
-        /// Another one with the same effect in these samples; `None` if the first has no effect at all.
-        like: Option<Coefficient>,
     },
 }
 
@@ -51,18 +36,6 @@ impl fmt::Display for HarmonicError {
                 f,
                 "{harmonics} harmonics reach a torque error of {reached:.3e} N m, not {asked:e} N m"
             ),
-            Self::TooFewSamples { given, .. } => write!(
-                f,
-                "{given} samples do not tell the coefficients and their error"
-            ),
-            Self::NotExcited {
-                coefficient,
-                like: None,
-            } => write!(f, "the samples do not depend on {coefficient}"),
-            Self::NotExcited {
-                coefficient,
-                like: Some(other),
-            } => write!(f, "the samples do not tell {coefficient} from {other}"),
         }
     }
 }
@@ -76,13 +49,6 @@ impl Curable for HarmonicError {
             Self::NotConverged { .. } => f.write_str(
                 "a curve with a kink, a jump or a steep ramp needs a table; of a smooth machine allow more harmonics or a \
                  larger error, and see that the set has all of its cosines and sines (terms::ALL, or what terms_in_use finds)",
-            ),
-            Self::TooFewSamples { needed, .. } => write!(f, "give at least {needed}"),
-            Self::NotExcited { like: None, .. } => {
-                f.write_str("measure with other speeds and accelerations")
-            }
-            Self::NotExcited { like: Some(_), .. } => f.write_str(
-                "measure with other speeds and accelerations, in both directions, or leave one of them out",
             ),
         }
     }
