@@ -167,6 +167,21 @@ fn a_machine_is_identified() {
     }
 }
 
+/// Twenty bits: accelerations are far beyond the noise, and no jumps.
+#[test]
+fn a_fine_encoder_does_better() {
+    let fine = Encoder {
+        counts: 1_048_576.0,
+        jitter: 0.0,
+    };
+    let score = check::<OF_PRESS>(&PRESS, fine, false, 1);
+    assert!(
+        score.inertia < 0.003 && score.feed_forward < 0.005,
+        "{score:?}"
+    );
+    assert!(score.covered > 0.6, "{score:?}");
+}
+
 /// The figures of `docs/identify-on-the-machine.md`.
 #[test]
 #[ignore = "1600 records of half a minute: minutes with optimisation"]

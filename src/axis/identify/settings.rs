@@ -18,7 +18,10 @@ const KNOT: f32 = 0.004;
 const NARROW: f32 = 0.012;
 
 /// Six standard deviations of a second difference: a jump, in the noise of the angle.
-const JUMP: f64 = 6.0 * 2.449_489_742_783_178;
+const JUMP: f32 = 6.0 * 2.449_49;
+
+/// And at least this share of the greatest speed times the period, which no acceleration reaches.
+const LEAST_JUMP: f32 = 0.25;
 
 /// The figures of the signals that an [`Identification`](super::Identification) is given.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -128,6 +131,8 @@ impl IdentificationSettings {
         ]
         .map(T::from_single);
         let (table, products) = weights(ticks, period, late);
+        let step = self.max_speed * self.period;
+        let jump = (JUMP * self.angle_noise).max(LEAST_JUMP * step);
         // √λ = exp(−h/2τ), of an exponent below 0.003.
         let faded = 0.5 * ticks as f32 * self.period / self.memory;
         let plan = Plan {
@@ -135,7 +140,7 @@ impl IdentificationSettings {
             pivots: coefficients.div_ceil(ticks.max(1) as usize),
             late: (ring as isize + whole) as usize,
             inertia,
-            jump: T::from_f64(JUMP) * angle,
+            jump: T::from_single(jump),
             slowest: T::from_f64(SLOWEST),
             angle_variance: angle * angle,
             torque_products: products.map(|product| torque * torque * product),

@@ -10,7 +10,7 @@ use crate::curve::{Circular, CurveSet};
 impl<T: Circular, const N: usize, const RING: usize, const SET: CurveSet>
     Identification<T, N, RING, SET>
 {
-    /// The second difference of the angle is beyond its noise.
+    /// The second difference of the angle is beyond its noise and any acceleration.
     pub(super) fn jumps(&self, phase: Phase) -> bool {
         let read = |back: usize| {
             let at = (self.newest + RING - back) % RING;
