@@ -293,21 +293,24 @@ typedef struct {
  *     jred_status press_load_words(press_model *, const uint32_t *words, size_t length);
  *     number      press_torque(const press_model *, uint32_t phase, number omega, number alpha);
  *     number      press_torque_with(const press_model *, uint32_t phase, number omega, number alpha, friction);
- *     checked     press_checked(const press_model *, const motion_range *, uint32_t phase, number omega, number alpha, friction);
+ *     checked     press_at_reference(const press_model *, const motion_range *, motion reference, friction);
+ *     checked     press_at_measured(const press_model *, const motion_range *, motion measured, motion reference, friction);
  *     number      press_acceleration(const press_model *, uint32_t phase, number omega, number torque);
  *     range       press_acceleration_range(const press_model *, uint32_t phase, number omega, number least, number greatest);
+ *     observed    press_observe(const press_model *, observer *, uint32_t phase, number torque, friction);        not of JRED_ANY_MODEL
  *
  * where number is float, int32_t or int16_t, as the format ends in f32, q31 or q15, and the others jred_f32_range, jred_f32_friction_sign, ...:
- * see below. Of a number that is NaN or infinite, the torque or the acceleration is NaN or infinite; press_checked says so and gives a torque
- * that is neither. The words must live and stay the same as long as
- * the model is ticked. A tick of
- * no model (a null pointer, one that is zeroed and not loaded, or whose loading failed) gives 0, and press_checked flags both. An
+ * see below. Of a number that is NaN or infinite, the torque or the acceleration is NaN or infinite; press_at_reference and press_at_measured say so and give
+ * a torque that is neither. The words must live and stay the same as long as the model is ticked: exchange a table between two ticks, not in an
+ * interrupt between the load and the end of a tick. A tick of a model that was not loaded gives 0, and is flagged. An
  * acceleration that does not fit is the nearest end of the range; press_acceleration_range says so of each.
  *
  * Formats: spline_f32, cubic_f32, quadratic_f32, spline_q31, cubic_q31, quadratic_q31, spline16_q31, rows_q15, harmonic_f32,
  * slider_crank_f32.
  */
-#define JRED_MODEL(name, format, set) JRED_MODEL_(name, format, JRED_NUMBER_##format, s##set, set)
+#define JRED_MODEL(name, format, set)                               \
+    JRED_MODEL_(name, format, JRED_NUMBER_##format, s##set, set);   \
+    JRED_OBSERVE_(name, format, JRED_NUMBER_##format, s##set, set)
 /* The same for whatever set of curves an image has: a tick looks which they are, and takes longer. */
 #define JRED_ANY_MODEL(name, format) JRED_MODEL_(name, format, JRED_NUMBER_##format, any, JRED_ANY)
 
@@ -359,9 +362,10 @@ JRED_FRICTION_SIGN_(q31)
 JRED_FRICTION_SIGN_(q15)
 
 /* The greatest speed and acceleration that a table was made for, and a hundredth more, in the numbers of its model: made once of jred_info.
- * press_checked gives the torque, and whether the motion is beyond; NaN and infinity are, and in fixed point a number that was limited to
- * its range. speed_beyond is of omega and of the friction. What is beyond gets the torque of the nearest motion that the table
- * was made for, so that the weight of an axis stays held. The bits are those of jred::axis::FeedForward::at_reference. */
+ * press_at_reference gives the torque, and whether the motion is beyond; NaN and infinity are, and in fixed point a number that was limited to
+ * its range. press_at_measured takes phase and speed of the first motion, acceleration of the second, and looks at both speeds. speed_beyond is of
+ * the speeds and of the friction. What is beyond gets the torque of the nearest motion that the table
+ * was made for, so that the weight of an axis stays held. The bits are those of jred::axis::FeedForward. */
 #define JRED_MOTION_RANGE_(n)                                                                                      \
     typedef struct {                                                                                               \
         jred_##n max_speed;                                                                                        \
@@ -387,6 +391,14 @@ static inline bool jred_q15_no_share_(jred_q15 share) { return (void)share, fals
 static inline jred_f32 jred_f32_to_share_(jred_f32 share) { return jred_f32_within_(share, 1.0f); }
 static inline jred_q31 jred_q31_to_share_(jred_q31 share) { return share; }
 static inline jred_q15 jred_q15_to_share_(jred_q15 share) { return share; }
+
+#ifdef __cplusplus
+}
+#endif
+#include "jred_axis.h"
+#ifdef __cplusplus
+extern "C" {
+#endif
 
 /* ---- plan -------------------------------------------------------------------------------------------------------- */
 
@@ -484,23 +496,32 @@ JRED_PLAN_FOLLOWER_(q15)
                                                                                     friction.number, friction.is_share)       \
                                            : 0;                                                                               \
     }                                                                                                                         \
-    static inline jred_##n##_checked_torque name##_checked(const name##_model *model, const jred_##n##_motion_range *range,   \
-                                                    uint32_t phase, jred_##n omega, jred_##n alpha,                           \
-                                                    jred_##n##_friction_sign friction) {                                      \
+    static inline jred_##n##_checked_torque name##_checked_(const name##_model *model, const jred_##n##_motion_range *range,  \
+                                                            jred_##n##_motion motion, jred_##n##_friction_sign friction, bool beyond) { \
         jred_##n##_checked_torque checked = {0, true, true};                                                                  \
         if (!JRED_IS_LOADED_(model, set)) return checked;                                                                     \
-        checked.speed_beyond = jred_##n##_exceeds_(omega, range->max_speed) ||                                                \
+        checked.speed_beyond = beyond || jred_##n##_exceeds_(motion.omega, range->max_speed) ||                               \
                                (friction.is_share ? jred_##n##_no_share_(friction.number)                                     \
-                                                 : jred_##n##_exceeds_(friction.number, range->max_speed));                   \
-        checked.acceleration_beyond = jred_##n##_exceeds_(alpha, range->max_acceleration);                                    \
+                                                  : jred_##n##_exceeds_(friction.number, range->max_speed));                  \
+        checked.acceleration_beyond = jred_##n##_exceeds_(motion.alpha, range->max_acceleration);                             \
         if (checked.speed_beyond || checked.acceleration_beyond) {                                                            \
-            omega = jred_##n##_within_(omega, range->max_speed);                                                              \
-            alpha = jred_##n##_within_(alpha, range->max_acceleration);                                                       \
+            motion.omega = jred_##n##_within_(motion.omega, range->max_speed);                                                \
+            motion.alpha = jred_##n##_within_(motion.alpha, range->max_acceleration);                                         \
             friction.number = friction.is_share ? jred_##n##_to_share_(friction.number)                                       \
-                                              : jred_##n##_within_(friction.number, range->max_speed);                        \
+                                                : jred_##n##_within_(friction.number, range->max_speed);                      \
         }                                                                                                                     \
-        checked.torque = name##_torque_with(model, phase, omega, alpha, friction);                                            \
+        checked.torque = name##_torque_with(model, motion.phase, motion.omega, motion.alpha, friction);                       \
         return checked;                                                                                                       \
+    }                                                                                                                         \
+    static inline jred_##n##_checked_torque name##_at_reference(const name##_model *model, const jred_##n##_motion_range *range, \
+                                                                jred_##n##_motion reference, jred_##n##_friction_sign friction) { \
+        return name##_checked_(model, range, reference, friction, false);                                                     \
+    }                                                                                                                         \
+    static inline jred_##n##_checked_torque name##_at_measured(const name##_model *model, const jred_##n##_motion_range *range, \
+                                                               jred_##n##_motion measured, jred_##n##_motion reference,       \
+                                                               jred_##n##_friction_sign friction) {                           \
+        measured.alpha = reference.alpha;                                                                                     \
+        return name##_checked_(model, range, measured, friction, jred_##n##_exceeds_(reference.omega, range->max_speed));     \
     }                                                                                                                         \
     static inline jred_##n name##_acceleration(const name##_model *model, uint32_t phase, jred_##n omega,                     \
                                                          jred_##n torque) {                                                   \
@@ -514,5 +535,18 @@ JRED_PLAN_FOLLOWER_(q15)
         return range;                                                                                                         \
     }                                                                                                                         \
     struct jred_semicolon_ /* takes the semicolon behind the macro */
+
+#define JRED_OBSERVE_(name, format, number, family, set) JRED_OBSERVE__(name, format, number, family, set)
+#define JRED_OBSERVE__(name, format, n, family, set)                                                                          \
+    JRED_C_ void jred_##format##_##family##_observe(const jred_memory *memory, jred_##n##_observer *observer, uint32_t measured, \
+                                                    jred_##n torque, jred_##n number, bool is_share, jred_##n##_observed *seen); \
+    static inline jred_##n##_observed name##_observe(const name##_model *model, jred_##n##_observer *observer, uint32_t measured, \
+                                                     jred_##n torque, jred_##n##_friction_sign friction) {                    \
+        jred_##n##_observed seen = {{0, 0, 0}, 0, 0, true, true};                                                             \
+        if (JRED_IS_LOADED_(model, set) && observer->tag == 1)                                                                \
+            jred_##format##_##family##_observe(&model->memory, observer, measured, torque, friction.number, friction.is_share, &seen); \
+        return seen;                                                                                                          \
+    }                                                                                                                         \
+    struct jred_semicolon_
 
 #endif

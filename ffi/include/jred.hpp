@@ -64,6 +64,19 @@ private:
     int64_t count_;
 };
 
+/// Phase, speed and acceleration from the phases of an encoder, one in every period.
+class Tracker {
+public:
+    Tracker() : tracker_() {}
+    jred_status make(float bandwidth, float period, Phase phase) { return jred_tracker_make(&tracker_, bandwidth, period, phase.bits()); }
+    void largest_step(Phase step) { jred_tracker_largest_step(&tracker_, step.bits()); }
+    jred_tracked update(Phase measured) { return jred_tracker_update(&tracker_, measured.bits()); }
+    jred_tracked update_stroke(Phase measured) { return jred_tracker_update_stroke(&tracker_, measured.bits()); }
+
+private:
+    jred_tracker tracker_;
+};
+
 /// Follows a plan, of a model with this number: jred_f32, jred_q31 or jred_q15. `Class::follow` makes it.
 template <typename Number> class PlanFollower;
 
@@ -99,6 +112,7 @@ inline const char *name(jred_status status) { return jred_status_name(status); }
         typedef jred_##n Number;                                                                                              \
         typedef jred_##n##_range Range;                                                                                       \
         typedef jred_##n##_friction_sign FrictionSign;                                                                        \
+        typedef jred_##n##_motion Motion;                                                                                     \
         typedef jred_##n##_checked_torque CheckedTorque;                                                                      \
         Class() : model_() {}                                                                                                 \
         jred_status load(const uint32_t *words, size_t length) { return machine##_load_words(&model_, words, length); }       \
@@ -109,8 +123,14 @@ inline const char *name(jred_status status) { return jred_status_name(status); }
         Number torque(jred::Phase phase, Number omega, Number alpha, FrictionSign friction) const {                           \
             return machine##_torque_with(&model_, phase.bits(), omega, alpha, friction);                                      \
         }                                                                                                                     \
-        CheckedTorque checked(const jred_##n##_motion_range &range, jred::Phase phase, Number omega, Number alpha, FrictionSign friction) const { \
-            return machine##_checked(&model_, &range, phase.bits(), omega, alpha, friction);                                  \
+        CheckedTorque at_reference(const jred_##n##_motion_range &range, const Motion &reference, FrictionSign friction) const { \
+            return machine##_at_reference(&model_, &range, reference, friction);                                              \
+        }                                                                                                                     \
+        CheckedTorque at_measured(const jred_##n##_motion_range &range, const Motion &measured, const Motion &reference, FrictionSign friction) const { \
+            return machine##_at_measured(&model_, &range, measured, reference, friction);                                     \
+        }                                                                                                                     \
+        jred_##n##_observed observe(jred_##n##_observer &observer, jred::Phase measured, Number torque, FrictionSign friction) const { \
+            return machine##_observe(&model_, &observer, measured.bits(), torque, friction);                                  \
         }                                                                                                                     \
         Number acceleration(jred::Phase phase, Number omega, Number torque) const {                                           \
             return machine##_acceleration(&model_, phase.bits(), omega, torque);                                              \

@@ -4,10 +4,10 @@ use jred::{
     Cubic, CurveSet, Harmonic, Q15, Q31, Quadratic, Rows16, SliderCrankForm, Spline, Spline16,
 };
 
-use crate::follower::Follow;
+use crate::follower::{Follow, follow as follow_plan};
 use crate::memory::Memory;
 use crate::status::Status;
-use crate::ticks::ticks;
+use crate::ticks::{observe, ticks};
 
 macro_rules! family {
     ($name:literal, $format:ty, $number:ty, [$($set:literal)*]) => {
@@ -43,12 +43,15 @@ macro_rules! family {
                 };
                 // SAFETY: as promised by the caller.
                 memory.loaded().map_or(Status::NotLoaded, |model| unsafe {
-                    follow.follow(words, length, [period, ramp], model)
+                    follow_plan(follow, words, length, [period, ramp], model)
                 })
             }
         };
         ticks!(concat!("jred_", $name, "_any_"), $format, $number, Memory::any);
-        $(ticks!(concat!("jred_", $name, "_s", $set, "_"), $format, $number, Memory::known::<$set>);)*
+        $(
+            ticks!(concat!("jred_", $name, "_s", $set, "_"), $format, $number, Memory::known::<$set>);
+            observe!(concat!("jred_", $name, "_s", $set, "_"), $format, $number, $set);
+        )*
     };
 }
 

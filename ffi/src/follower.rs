@@ -2,70 +2,38 @@
 
 use core::mem::MaybeUninit;
 
-use jred::axis::plan::{Errors, PlanError};
+use jred::axis::plan::Errors;
 use jred::axis::{MachineUnits, Override, Plan, PlanFollower, PlanState, SetPoint};
 use jred::number::Number;
 use jred::{Q15, Q31};
 
-use crate::memory::words;
+use crate::memory::{Held, words};
 use crate::number::{CNumber, to_c};
 use crate::status::Status;
 
 /// 64-bit words of memory for a follower, as `JRED_PLAN_FOLLOWER_WORDS` of `jred.h`.
 pub(crate) const WORDS: usize = 28;
 
-/// A follower; zeros contain no follower.
-#[repr(C)]
-pub(crate) struct Follow<N: Number> {
-    /// 1; 0 without a follower.
-    tag: u64,
-    follower: MaybeUninit<PlanFollower<'static, N>>,
-}
+/// A follower in memory of the caller.
+pub(crate) type Follow<N> = Held<PlanFollower<'static, N>, WORDS>;
 
-impl<N: Number> Follow<N> {
-    const FITS: () = assert!(
-        size_of::<Self>() <= (1 + WORDS) * size_of::<u64>()
-            && align_of::<Self>() <= align_of::<u64>()
-    );
-
-    /// Creates a follower of a plan for this model; on failure there is no follower.
-    ///
-    /// # Safety
-    /// As [`words`], as long as the follower is ticked.
-    pub(crate) unsafe fn follow(
-        &mut self,
-        address: *const u32,
-        length: usize,
-        [period, ramp]: [f32; 2],
-        model: &impl MachineUnits<Number = N>,
-    ) -> Status {
-        let () = Self::FITS;
-        self.tag = 0;
-        // SAFETY: as promised by the caller.
-        let words = match unsafe { words(address, length) } {
-            Ok(words) => words,
-            Err(status) => return status,
-        };
-        let made =
-            Plan::new(words, model).and_then(|plan| PlanFollower::new(plan, period, ramp, model));
-        self.keep(made)
-    }
-
-    fn keep(&mut self, made: Result<PlanFollower<'static, N>, PlanError>) -> Status {
-        match made {
-            Ok(follower) => {
-                self.follower.write(follower);
-                self.tag = 1;
-                Status::Ok
-            }
-            Err(error) => error.into(),
-        }
-    }
-
-    fn get(&mut self) -> Option<&mut PlanFollower<'static, N>> {
-        // SAFETY: zeros or written by `follow`; the tag shows that there is a follower.
-        (self.tag == 1).then(|| unsafe { self.follower.assume_init_mut() })
-    }
+/// Creates a follower of a plan for this model; on failure there is no follower.
+///
+/// # Safety
+/// As [`words`], as long as the follower is ticked.
+pub(crate) unsafe fn follow<N: Number>(
+    memory: &mut Follow<N>,
+    address: *const u32,
+    length: usize,
+    [period, ramp]: [f32; 2],
+    model: &impl MachineUnits<Number = N>,
+) -> Status {
+    // SAFETY: as promised by the caller.
+    let made = unsafe { words(address, length) }.and_then(|words| {
+        let plan = Plan::new(words, model)?;
+        Ok(PlanFollower::new(plan, period, ramp, model)?)
+    });
+    Held::keep(Some(memory), made)
 }
 
 /// `jred_plan_state` in C.
@@ -141,7 +109,7 @@ fn next<N: CNumber>(
     percent: u32,
     planned: Option<&mut MaybeUninit<CSetPoint<N::C>>>,
 ) -> CPlanState {
-    let found = follow.and_then(Follow::get);
+    let found = follow.and_then(Held::get);
     let (state, content) = match found {
         Some(follower) => {
             let SetPoint {
@@ -171,11 +139,14 @@ fn repeat<N: Number>(follow: Option<&mut Follow<N>>) -> Status {
     let Some(follow) = follow else {
         return Status::Null;
     };
-    let Some(follower) = follow.get().copied() else {
+    let Some(follower) = follow.get() else {
         return Status::NotLoaded;
     };
     match follower.repeating() {
-        Ok(repeating) => follow.keep(Ok(repeating)),
+        Ok(repeating) => {
+            *follower = repeating;
+            Status::Ok
+        }
         Err(error) => error.into(),
     }
 }
@@ -210,14 +181,14 @@ macro_rules! functions {
 
             #[unsafe(export_name = concat!($prefix, "_start"))]
             extern "C" fn start(follow: Option<&mut Follow<$number>>) {
-                if let Some(follower) = follow.and_then(Follow::get) {
+                if let Some(follower) = follow.and_then(Held::get) {
                     follower.start();
                 }
             }
 
             #[unsafe(export_name = concat!($prefix, "_reset"))]
             extern "C" fn reset(follow: Option<&mut Follow<$number>>) {
-                if let Some(follower) = follow.and_then(Follow::get) {
+                if let Some(follower) = follow.and_then(Held::get) {
                     follower.reset();
                 }
             }

@@ -2,8 +2,9 @@
 
 use core::mem::MaybeUninit;
 
+use jred::axis::Units;
 use jred::image::Validity;
-use jred::number::Bases;
+use jred::number::{Bases, Number};
 use jred::{Domain, Image, ImageError};
 
 use crate::memory::words;
@@ -36,6 +37,20 @@ impl Info {
             speed: self.speed_base,
             inertia: self.inertia_base,
         }
+    }
+
+    /// The machine units for parts of an axis.
+    pub(crate) fn units<N: Number<Real = f32>>(info: Option<&Self>) -> Result<Units<N>, Status> {
+        let info = info.ok_or(Status::Null)?;
+        let domain = if info.stroke == 0 {
+            Domain::Turn
+        } else {
+            Domain::Stroke {
+                from: info.from,
+                to: info.to,
+            }
+        };
+        Units::new(info.bases(), domain).map_err(|_| Status::Figure)
     }
 
     pub(crate) const fn validity(&self) -> Validity {

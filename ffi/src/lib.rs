@@ -8,6 +8,7 @@
 // The boundary itself: names for the linker, words and memory of the caller. Each `unsafe` block has its reason.
 #![allow(unsafe_code, reason = "C calls by names and gives pointers")]
 
+mod axis;
 mod encoder;
 mod families;
 mod follower;

@@ -104,3 +104,51 @@ impl<F: Format> Memory<F> {
         unsafe { &*self.model.as_ptr().cast() }
     }
 }
+
+/// A follower, an observer or a payload; zeros contain none.
+#[repr(C)]
+pub(crate) struct Held<T, const WORDS: usize> {
+    /// 1; 0 if there is none.
+    tag: u64,
+    content: MaybeUninit<T>,
+}
+
+impl<T, const WORDS: usize> Held<T, WORDS> {
+    const FITS: () = assert!(
+        size_of::<Self>() <= (1 + WORDS) * size_of::<u64>()
+            && align_of::<Self>() <= align_of::<u64>()
+    );
+
+    /// Writes what was made; on failure there is none.
+    pub(crate) fn keep(memory: Option<&mut Self>, made: Result<T, Status>) -> Status {
+        let () = Self::FITS;
+        let Some(memory) = memory else {
+            return Status::Null;
+        };
+        memory.tag = 0;
+        match made {
+            Ok(made) => {
+                memory.content.write(made);
+                memory.tag = 1;
+                Status::Ok
+            }
+            Err(status) => status,
+        }
+    }
+
+    /// What is in it, if there is something.
+    pub(crate) fn get(&mut self) -> Option<&mut T> {
+        // SAFETY: the tag shows that it was written.
+        (self.tag == 1).then(|| unsafe { self.content.assume_init_mut() })
+    }
+
+    /// What is in the memory.
+    ///
+    /// # Safety
+    /// There is something: it was made with success.
+    #[inline]
+    pub(crate) unsafe fn made(&mut self) -> &mut T {
+        // SAFETY: as promised by the caller.
+        unsafe { self.content.assume_init_mut() }
+    }
+}

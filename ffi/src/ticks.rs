@@ -78,4 +78,38 @@ macro_rules! ticks {
         };
     };
 }
-pub(crate) use ticks;
+
+/// The tick of an observer, of a set that is known when the library is compiled. Memory as above; the header also checks the observer.
+macro_rules! observe {
+    ($prefix:expr, $format:ty, $number:ty, $set:literal) => {
+        const _: () = {
+            use core::mem::MaybeUninit;
+
+            use jred::Phase;
+
+            use $crate::axis::{CObserved, Observe};
+            use $crate::memory::Memory;
+            use $crate::number::{CNumber, friction, of};
+
+            type C = <$number as CNumber>::C;
+
+            #[unsafe(export_name = concat!($prefix, "observe"))]
+            unsafe extern "C" fn observe(
+                memory: &Memory<$format>,
+                observer: &mut Observe<$number>,
+                measured: u32,
+                torque: C,
+                number: C,
+                is_share: bool,
+                seen: &mut MaybeUninit<CObserved<C>>,
+            ) {
+                // SAFETY: as promised by the caller.
+                let (model, observer) = unsafe { (memory.known::<$set>(), observer.made()) };
+                let friction = friction::<$number>(number, is_share);
+                let phase = Phase::from_bits(measured);
+                seen.write(observer.update(model, phase, of(torque), friction).into());
+            }
+        };
+    };
+}
+pub(crate) use {observe, ticks};

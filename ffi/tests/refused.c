@@ -99,23 +99,23 @@ static void set_points(const press_model *press, const jred_info *info) {
     CLAIM(range.max_speed > info->max_speed && range.max_speed < 1.011f * info->max_speed && range.max_acceleration > info->max_acceleration);
     const uint32_t phase = 0x20000000u;
     const float still = press_torque(press, phase, 0.0f, 0.0f);
-    jred_f32_checked_torque checked = press_checked(press, &range, phase, 10.0f, 50.0f, jred_f32_friction_of_speed(10.0f));
+    jred_f32_checked_torque checked = press_at_reference(press, &range, (jred_f32_motion){phase, 10.0f, 50.0f}, jred_f32_friction_of_speed(10.0f));
     CLAIM(!checked.speed_beyond && !checked.acceleration_beyond && checked.torque == press_torque(press, phase, 10.0f, 50.0f));
     CLAIM(press_torque_with(press, phase, 10.0f, 50.0f, jred_f32_friction_of_speed(-1.0f)) == press_torque_with(press, phase, 10.0f, 50.0f, jred_f32_friction_scaled(-1.0f)));
     CLAIM(press_torque_with(press, phase, 10.0f, 50.0f, jred_f32_friction_of_speed(-1.0f)) < checked.torque);
     for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
         const float x = wrong[k], side = x > 0.0f ? 1.0f : x < 0.0f ? -1.0f : 0.0f;
-        checked = press_checked(press, &range, phase, x, 50.0f, jred_f32_friction_of_speed(10.0f));
+        checked = press_at_reference(press, &range, (jred_f32_motion){phase, x, 50.0f}, jred_f32_friction_of_speed(10.0f));
         CLAIM(checked.speed_beyond && !checked.acceleration_beyond);
         CLAIM(checked.torque == press_torque_with(press, phase, side * range.max_speed, 50.0f, jred_f32_friction_of_speed(10.0f)));
-        checked = press_checked(press, &range, phase, 10.0f, x, jred_f32_friction_of_speed(10.0f));
+        checked = press_at_reference(press, &range, (jred_f32_motion){phase, 10.0f, x}, jred_f32_friction_of_speed(10.0f));
         CLAIM(!checked.speed_beyond && checked.acceleration_beyond);
         CLAIM(checked.torque == press_torque_with(press, phase, 10.0f, side * range.max_acceleration, jred_f32_friction_of_speed(10.0f)));
-        checked = press_checked(press, &range, phase, 0.0f, 0.0f, jred_f32_friction_of_speed(x));
+        checked = press_at_reference(press, &range, (jred_f32_motion){phase, 0.0f, 0.0f}, jred_f32_friction_of_speed(x));
         CLAIM(checked.speed_beyond && checked.torque == press_torque_with(press, phase, 0.0f, 0.0f, jred_f32_friction_of_speed(side)));
-        checked = press_checked(press, &range, phase, 0.0f, 0.0f, jred_f32_friction_scaled(x));
+        checked = press_at_reference(press, &range, (jred_f32_motion){phase, 0.0f, 0.0f}, jred_f32_friction_scaled(x));
         CLAIM(checked.speed_beyond && checked.torque == press_torque_with(press, phase, 0.0f, 0.0f, jred_f32_friction_scaled(side)));
-        checked = press_checked(press, &range, phase, x, x, jred_f32_friction_of_speed(x));
+        checked = press_at_reference(press, &range, (jred_f32_motion){phase, x, x}, jred_f32_friction_of_speed(x));
         CLAIM(checked.speed_beyond && checked.acceleration_beyond && (x == x || checked.torque == still));
         CLAIM(jred_phase_from_radians(x) == 0 && jred_phase_from_stroke(x, 0.0f, 1.0f) == (x > 0.0f ? UINT32_MAX : 0));
         /* A bare tick does not judge: NaN stays NaN, for who looks. */
@@ -189,9 +189,9 @@ int main(void) {
     CLAIM(half == 1 << 13 && jred_q15_to_si(half, 20.0f) == 5.0f);
     encoders();
     set_points(&press, &info);
-    const jred_f32_checked_torque nothing = press_checked(&unloaded, &(jred_f32_motion_range){10.0f, 10.0f}, 0, 1.0f, 1.0f, jred_f32_friction_of_speed(1.0f));
+    const jred_f32_checked_torque nothing = press_at_reference(&unloaded, &(jred_f32_motion_range){10.0f, 10.0f}, (jred_f32_motion){0, 1.0f, 1.0f}, jred_f32_friction_of_speed(1.0f));
     CLAIM(nothing.torque == 0.0f && nothing.speed_beyond && nothing.acceleration_beyond);
-    CLAIM(fixed_checked(&fixed, &(jred_q31_motion_range){1 << 30, 1 << 30}, 0, INT32_MIN, INT32_MAX, jred_q31_friction_scaled(INT32_MIN)).speed_beyond);
+    CLAIM(fixed_at_reference(&fixed, &(jred_q31_motion_range){1 << 30, 1 << 30}, (jred_q31_motion){0, INT32_MIN, INT32_MAX}, jred_q31_friction_scaled(INT32_MIN)).speed_beyond);
 
     /* What is no plan is not followed; no follower waits. */
     static jred_f32_plan_follower follower;

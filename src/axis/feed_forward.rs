@@ -177,6 +177,7 @@ impl<'a, F: Format, const SET: CurveSet> FeedForward<'a, F, SET> {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[repr(C)]
 pub struct FrictionRamp<N> {
     share: Factor,
     number: PhantomData<N>,
@@ -213,6 +214,7 @@ impl<N: Number> FrictionRamp<N> {
 /// The torque limits of a drive, applied to the command last of all, so that the program knows by how much the drive's torque falls short.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[repr(C)]
 pub struct TorqueLimits<T> {
     limits: [T; 2],
 }

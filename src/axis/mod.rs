@@ -58,7 +58,7 @@ mod torque_count;
 mod tracker;
 mod transmission;
 
-pub use crate::tick::MachineUnits;
+pub use crate::tick::{MachineUnits, Units};
 pub use braking::Braking;
 pub use counter::Counter;
 pub use encoder::{Counting, Encoder, Mounting};

@@ -26,6 +26,7 @@ pub struct MotionState<N: Number> {
 /// units of 2⁻³¹, in `Q15` one of 2⁻¹⁵ (test `the_middle_of_a_tick_is_the_mean`).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[repr(C)]
 pub struct Period<N> {
     /// Factors from counts per period to speeds, and back.
     speed: Factor,

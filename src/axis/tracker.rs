@@ -36,8 +36,11 @@ use crate::Phase;
 /// count that jumps, a broken wire, or an encoder that was set to a new value. The filter uses such a reading like any other; the program decides
 /// whether to trust the motion until it has settled. At constant acceleration the residual is the error of the encoder's counts; a sudden change of
 /// the acceleration by Δα leaves up to 0.53·Δα·T²/(1 − θ)², 0.29 from θ = 0.9 on (test `a_change_of_the_acceleration_is_no_jump`).
+///
+/// In memory it is the `jred_tracker` of C, whose header computes the same bits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[repr(C)]
 pub struct Tracker {
     /// Units of 2⁻⁶⁴ of the range; the same per period, and per period squared.
     phase: i64,

@@ -18,6 +18,7 @@ use crate::tick::MachineUnits;
 /// Then the rotor is *not* part of the machine's reduced inertia: its torque does not go through the gearbox.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[repr(C)]
 pub struct Gearbox {
     /// i: turns of the motor per turn of the drive link (for a stroke rad/m).
     pub ratio: f32,
@@ -55,6 +56,7 @@ impl Gearbox {
 /// [`MotorTorque`](crate::MotorTorque) is not a [`Torque`](crate::Torque).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[repr(C)]
 pub struct Transmission<N> {
     base: f32,
     driving: Factor,

@@ -5,6 +5,7 @@ use super::product::high;
 /// A factor, prepared for floating point and for fixed point.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[repr(C)]
 pub struct Factor {
     pub(super) float: f32,
     /// In fixed point: an argument shifted by this uses 31 bits where the result is 1,

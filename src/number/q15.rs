@@ -9,6 +9,7 @@ use crate::{Acceleration, MotorTorque, Q31, Speed, Torque};
 /// The [`Scale`](crate::Scale) of its model defines 1. Conversions round to the nearest number, halves away from zero.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[repr(transparent)]
 pub struct Q15(i16);
 
 /// 1 in units of the last place.

@@ -14,6 +14,7 @@ use crate::{Acceleration, MotorTorque, Speed, Torque};
 /// The [`Scale`] of its model defines 1.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[repr(transparent)]
 pub struct Q31(i32);
 
 impl Q31 {

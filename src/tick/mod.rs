@@ -13,4 +13,4 @@ pub use image::{
 pub(crate) use image::{Beginning, Progress, covered, seal};
 pub use model::{AccelerationRange, AnyModel, Model, TorqueTerms};
 pub use pieces::Pieces;
-pub use units::MachineUnits;
+pub use units::{MachineUnits, Units};

@@ -1,8 +1,11 @@
 //! The machine units of a model.
 
+use core::marker::PhantomData;
+
 use super::{AnyModel, Model, Pieces};
 use crate::curve::{CurveSet, Format};
-use crate::number::{Number, Real};
+use crate::number::error::{RangeError, positive};
+use crate::number::{Bases, Number, Real};
 use crate::{Domain, Scale};
 
 /// The machine units and the range of the drive link of a [`Model`], an [`AnyModel`], or [`Pieces`]. Sealed.
@@ -45,3 +48,41 @@ macro_rules! units {
 units!([const SET: CurveSet] Model<'_, F, SET>, |model| model.table().scale(), model.table().domain());
 units!([] AnyModel<'_, F>, |model| model.table().scale(), model.table().domain());
 units!([const SET: CurveSet, const N: usize] Pieces<'_, F, SET, N>, |turn| &turn.scale, turn.domain);
+
+/// The machine units of an image whose number type the caller knows, for the library for C: there the parts of an axis are made from `jred_info`.
+#[doc(hidden)]
+#[derive(Clone, Copy, Debug)]
+pub struct Units<N> {
+    scale: Scale,
+    domain: Domain<f32>,
+    number: PhantomData<N>,
+}
+
+impl<N: Number<Real = f32>> Units<N> {
+    /// These bases and this range.
+    ///
+    /// # Errors
+    /// A base or a stroke that is not positive and finite.
+    pub fn new(bases: Bases, domain: Domain<f32>) -> Result<Self, RangeError> {
+        positive("the stroke", domain.span().into())?;
+        Ok(Self {
+            scale: Scale::new(bases)?,
+            domain,
+            number: PhantomData,
+        })
+    }
+}
+
+impl<N> crate::sealed::Sealed for Units<N> {}
+
+impl<N: Number<Real = f32>> MachineUnits for Units<N> {
+    type Number = N;
+    type Real = f32;
+
+    fn scale(&self) -> &Scale {
+        &self.scale
+    }
+    fn domain(&self) -> Domain<f32> {
+        self.domain
+    }
+}

@@ -1,29 +1,16 @@
 //! Encoders: their creation here, and their conversions in the header.
 
 use std::fmt::Write as _;
-use std::io::Write as _;
-use std::process::{Command, Stdio};
 
 use core::mem::{MaybeUninit, offset_of};
 use jred::Domain;
 use jred::axis::{Counter, Counting, Encoder, Mounting, StrokeEncoder, StrokeMounting};
 
+use super::{Numbers, answers};
 use crate::encoder::{CMounting, jred_encoder_make, jred_stroke_encoder_make};
 use crate::status::Status;
 
-/// A fixed sequence of numbers of every magnitude (xorshift; G. Marsaglia 2003).
-struct Numbers(u64);
-
 impl Numbers {
-    fn next(&mut self) -> u64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        self.0
-    }
-    fn below(&mut self, most: u64) -> u64 {
-        self.next() % most
-    }
     /// Of any magnitude and sign.
     fn long(&mut self) -> i64 {
         let shift = self.below(64);
@@ -77,47 +64,6 @@ fn field<T: Copy, E>(encoder: &E, offset: usize) -> T {
             .cast::<T>()
             .read()
     }
-}
-
-/// The answers of the program `tests/encoder.c`, one per line, with the products of this core or of the smallest cores.
-fn answers(asked: &str, short: bool) -> Vec<String> {
-    let name = format!("jred-encoder-{}-{short}", std::process::id());
-    let program = std::env::temp_dir().join(name);
-    let compiled = Command::new("cc")
-        .current_dir(env!("CARGO_MANIFEST_DIR"))
-        .args([
-            "-std=c99",
-            "-Wall",
-            "-Wextra",
-            "-Wpedantic",
-            "-Werror",
-            "-O2",
-            "-fsanitize=undefined",
-        ])
-        .args(["-fno-sanitize-recover", "-Iinclude"])
-        .arg(format!("-DJRED_SHORT_MULTIPLY_={}", u8::from(short)))
-        .args(["tests/encoder.c", "-o"])
-        .arg(&program)
-        .status();
-    assert!(
-        compiled
-            .expect("a C compiler is what Rust links with")
-            .success()
-    );
-    let mut child = Command::new(&program)
-        .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        .spawn()
-        .unwrap();
-    let mut stdin = child.stdin.take().unwrap();
-    let asked = asked.to_owned();
-    let writer = std::thread::spawn(move || stdin.write_all(asked.as_bytes()).unwrap());
-    let output = child.wait_with_output().unwrap();
-    writer.join().unwrap();
-    std::fs::remove_file(&program).unwrap();
-    assert!(output.status.success());
-    let text = String::from_utf8(output.stdout).unwrap();
-    text.lines().map(str::to_owned).collect()
 }
 
 #[test]
@@ -195,7 +141,7 @@ fn the_header_computes_the_bits_of_rust() {
         expected.push(Counter::<1>::at(count).extend(reading).to_string());
     }
     for short in [false, true] {
-        let found = answers(&asked, short);
+        let found = answers("encoder", &asked, short);
         assert_eq!(found.len(), expected.len());
         let asked = asked.lines();
         for ((asked, found), expected) in asked.zip(&found).zip(&expected) {

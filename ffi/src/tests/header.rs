@@ -3,8 +3,9 @@
 use core::ffi::{CStr, c_char};
 use core::mem::MaybeUninit;
 
-use jred::axis::{Encoder, StrokeEncoder, StrokeMounting};
+use jred::axis::{Encoder, StrokeEncoder, StrokeMounting, Tracker};
 
+use crate::axis::{OBSERVER_WORDS, PAYLOAD_WORDS, jred_tracker_make};
 use crate::encoder::{CMounting, jred_encoder_make, jred_stroke_encoder_make};
 
 use crate::follower::{CPlan, CPlanState, WORDS};
@@ -15,6 +16,7 @@ use crate::phase::{jred_phase_from_radians, jred_phase_from_stroke};
 use crate::status::{Status, jred_status_name};
 
 const HEADER: &str = include_str!("../../include/jred.h");
+const AXIS: &str = include_str!("../../include/jred_axis.h");
 
 /// The type of an argument or a result in C.
 trait C {
@@ -30,6 +32,7 @@ c! {
     *const u32: "const uint32_t *", *const c_char: "const char *",
     Option<&mut i32>: "int32_t *", Option<&mut i16>: "int16_t *", Option<&mut MaybeUninit<Info>>: "jred_info *",
     Option<&mut MaybeUninit<Encoder>>: "jred_encoder *", Option<&CMounting>: "const jred_mounting *",
+    Option<&mut MaybeUninit<Tracker>>: "jred_tracker *",
     Option<&mut MaybeUninit<StrokeEncoder>>: "jred_stroke_encoder *", Option<&StrokeMounting>: "const jred_stroke_mounting *",
 }
 
@@ -38,7 +41,8 @@ macro_rules! declared {
     ($name:ident($($argument:ty),* $(,)?) -> $result:ty) => {{
         let _: unsafe extern "C" fn($($argument),*) -> $result = $name;
         let start = format!("{} {}(", <$result as C>::NAME, stringify!($name)).replace("* ", "*");
-        let (_, rest) = HEADER.split_once(&start).unwrap_or_else(|| panic!("{start} is not declared"));
+        let headers = [HEADER, AXIS].concat();
+        let (_, rest) = headers.split_once(&start).unwrap_or_else(|| panic!("{start} is not declared"));
         let arguments = rest.split_once(')').unwrap().0.split(", ");
         let arguments: Vec<_> = arguments.map(|text| {
             let name = text.rfind([' ', '*']).unwrap() + 1;
@@ -61,6 +65,7 @@ fn the_header_declares_what_is_exported() {
             Option<&StrokeMounting>,
         ) -> Status
     );
+    declared!(jred_tracker_make(Number<MaybeUninit<Tracker>>, f32, f32, u32) -> Status);
     declared!(jred_phase_from_radians(f32) -> u32);
     declared!(jred_phase_from_stroke(f32, f32, f32) -> u32);
     declared!(jred_image_info(*const u32, usize, Number<MaybeUninit<Info>>) -> Status);
@@ -117,9 +122,13 @@ fn the_header_has_the_constants() {
         ("JRED_MEMORY_POINTERS", POINTERS.to_string()),
         ("JRED_ANY", format!("{ANY:#x}")),
         ("JRED_PLAN_FOLLOWER_WORDS", WORDS.to_string()),
+        ("JRED_OBSERVER_WORDS", OBSERVER_WORDS.to_string()),
+        ("JRED_PAYLOAD_WORDS", PAYLOAD_WORDS.to_string()),
     ] {
         assert!(
-            HEADER.contains(&format!("#define {name} {value}\n")),
+            [HEADER, AXIS]
+                .concat()
+                .contains(&format!("#define {name} {value}\n")),
             "{name}"
         );
     }
