@@ -4,12 +4,15 @@
 
 use core::hint::black_box;
 
-use jred::axis::{Encoder, Mounting};
+use jred::axis::{
+    Counter, Encoder, FeedForward, FrictionRamp, Gearbox, MotionState, Mounting, Period,
+    TorqueLimits, Tracker, Transmission,
+};
 use jred::number::{Number, Quantity};
-use jred::table::Format;
+use jred::table::{AccelerationOf, Format, MotorTorqueOf, SpeedOf};
 use jred::{
-    Cubic, CurveSet, Image, Model, Phase, Q15, Q31, Quadratic, Rows16, SliderCrankForm, Spline,
-    Spline16, curves,
+    Cubic, CurveSet, FirmwareError, Image, Model, Phase, Q15, Q31, Quadratic, Rows16,
+    SliderCrankForm, Spline, Spline16, curves,
 };
 
 use crate::target::{Kernel, Point, each};
@@ -44,6 +47,34 @@ macro_rules! kernels {
     };
 }
 
+/// A function with this name: from a count to a motor's torque.
+macro_rules! axes {
+    ($($name:ident: $number:ident, $format:ty;)*) => {
+        $(
+            #[unsafe(no_mangle)]
+            #[inline(never)]
+            extern "Rust" fn $name(
+                axis: &mut Axis<$format>,
+                count: u32,
+                omega: SpeedOf<$format>,
+                alpha: AccelerationOf<$format>,
+            ) -> MotorTorqueOf<$format> {
+                axis.interrupt(count, omega, alpha)
+            }
+        )*
+
+        pub(crate) const AXES: &[Kernel] = &[
+            $((stringify!($name), |image, points| along(image, points, $name))),*
+        ];
+    };
+}
+
+axes! {
+    jred_f32_axis: f32, Cubic<f32>;
+    jred_q31_quadratic_axis: Q31, Quadratic<Q31>;
+    jred_q15_axis: Q15, Rows16;
+}
+
 kernels! {
     jred_f32_torque: f32, Cubic<f32>, FULL, |m, p, w, a| m.torque(p, of(w), of(a)).number();
     jred_f32_acceleration: f32, Cubic<f32>, BARE, |m, p, w, t| m.acceleration(p, of(w), of(t)).value.number();
@@ -64,13 +95,96 @@ kernels! {
     jred_q15_counts: Q15, Rows16, FULL, |m, p, w, a| m.torque(counted(p), of(w), of(a)).number();
 }
 
+const ENCODER: Encoder = match Encoder::new(Mounting::direct(10_000)) {
+    Ok(encoder) => encoder,
+    Err(_) => panic!("the encoder's figures"),
+};
+
+/// An axis with every part, whose figures hardly change the torque: the filter does not smooth, the lead time is four microseconds, friction is complete
+/// from a small speed on, and the motor has no gearbox.
+struct Axis<'a, F: Format> {
+    counter: Counter<32>,
+    tracker: Tracker,
+    tick: Period<F::Number>,
+    lead: Period<F::Number>,
+    ramp: FrictionRamp<F::Number>,
+    press: FeedForward<'a, F, FULL>,
+    gearbox: Transmission<F::Number>,
+    limits: TorqueLimits<MotorTorqueOf<F>>,
+    speed: SpeedOf<F>,
+    clipped: MotorTorqueOf<F>,
+}
+
+impl<'a, F: Format> Axis<'a, F> {
+    fn new(image: &'a [u32]) -> Result<Self, FirmwareError> {
+        let image = Image::new(image)?;
+        let model = image.model::<F, FULL>()?;
+        let gearbox = Gearbox {
+            ratio: 1.0,
+            efficiency: 1.0,
+            rotor: 1e-9,
+        };
+        let limit = |torque| MotorTorqueOf::<F>::of(F::Number::per_unit(torque, 1.0).value);
+        Ok(Self {
+            counter: Counter::at(0),
+            tracker: Tracker::new(0.0)?,
+            tick: Period::new(1e-3, &model)?,
+            lead: Period::new(4e-6, &model)?,
+            ramp: FrictionRamp::new(1e-5 * model.table().scale().speed(), &model)?,
+            gearbox: Transmission::new(gearbox, &model)?,
+            limits: TorqueLimits::new(limit(-1e6), limit(1e6))?,
+            press: FeedForward::new(model, image.validity()),
+            speed: Quantity::of(F::Number::default()),
+            clipped: Quantity::of(F::Number::default()),
+        })
+    }
+
+    #[inline(always)]
+    fn interrupt(
+        &mut self,
+        count: u32,
+        omega: SpeedOf<F>,
+        alpha: AccelerationOf<F>,
+    ) -> MotorTorqueOf<F> {
+        let count = self.counter.extend(count);
+        let tracked = self.tracker.update(ENCODER.phase_wide(count));
+        self.speed = self.tick.omega(tracked).value;
+        let reference = MotionState {
+            phase: tracked.phase,
+            omega,
+            alpha,
+        };
+        let later = self.lead.later(reference).value;
+        let friction = self.ramp.at(omega);
+        let (phase, speed) = (later.phase, later.omega);
+        let needed = self.press.at_measured(phase, speed, reference, friction);
+        let motor = self.gearbox.motor(needed.torque, omega, alpha).value;
+        let limited = self.limits.limited(motor);
+        self.clipped = limited.clipped;
+        limited.torque
+    }
+}
+
+/// Calls a kernel along the axis of an image; the speed and what was cut off replace the second and the third number of a point.
+fn along<F: Format<Number: Word>>(
+    image: &[u32],
+    points: &mut [Point],
+    kernel: fn(&mut Axis<'_, F>, u32, SpeedOf<F>, AccelerationOf<F>) -> MotorTorqueOf<F>,
+) {
+    let kernel = black_box(kernel);
+    let mut axis = Axis::new(image).expect("an axis");
+    for [count, omega, alpha] in points {
+        let [speed, acceleration] = [*omega, *alpha].map(Word::number);
+        let torque = kernel(&mut axis, *count, of(speed), of(acceleration));
+        *count = torque.number().word();
+        *omega = axis.speed.number().word();
+        *alpha = axis.clipped.number().word();
+    }
+}
+
 /// The phase of a count, which is passed as a phase.
 #[inline(always)]
 fn counted(count: Phase) -> Phase {
-    const ENCODER: Encoder = match Encoder::new(Mounting::direct(10_000)) {
-        Ok(encoder) => encoder,
-        Err(_) => panic!("the encoder's figures"),
-    };
     ENCODER.phase(count.to_bits().cast_signed())
 }
 

@@ -53,6 +53,7 @@ mod target {
 
     const LISTS: &[&[Kernel]] = &[
         crate::library::KERNELS,
+        crate::library::AXES,
         crate::hand::KERNELS,
         crate::analytic::KERNELS,
         #[cfg(tick_peers)]

@@ -15,6 +15,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <string.h>
 
 #ifdef __cplusplus
 #define JRED_C_ extern "C"
@@ -379,13 +380,27 @@ JRED_FRICTION_SIGN_(q15)
     jred_status jred_##n##_motion_range_of(const jred_info *info, jred_##n##_motion_range *range);                 \
     static inline jred_##n jred_##n##_within_(jred_##n x, jred_##n most) {                                         \
         return x > most ? most : x >= -most ? x : x < -most ? (jred_##n)-most : 0;                                 \
-    }                                                                                                              \
-    static inline bool jred_##n##_exceeds_(jred_##n x, jred_##n most) { return !(x >= -most && x <= most); }
+    }
 JRED_MOTION_RANGE_(f32)
 JRED_MOTION_RANGE_(q31)
 JRED_MOTION_RANGE_(q15)
+/* Magnitudes compare as their bits, with NaN above all. */
+static inline bool jred_f32_exceeds_(jred_f32 x, jred_f32 most) {
+    uint32_t bits, limit;
+    memcpy(&bits, &x, sizeof bits);
+    memcpy(&limit, &most, sizeof limit);
+    return bits << 1 > limit << 1;
+}
+static inline bool jred_q31_exceeds_(jred_q31 x, jred_q31 most) { return x > most || x < -most; }
+static inline bool jred_q15_exceeds_(jred_q15 x, jred_q15 most) { return x > most || x < -most; }
+/* The other branch is the one to be fast. */
+#ifdef __GNUC__
+#define JRED_RARE_(condition) (__builtin_expect((condition) ? 1 : 0, 0) != 0)
+#else
+#define JRED_RARE_(condition) (condition)
+#endif
 /* In fixed point every share is one from -1 to 1. */
-static inline bool jred_f32_no_share_(jred_f32 share) { return !(share >= -1.0f && share <= 1.0f); }
+static inline bool jred_f32_no_share_(jred_f32 share) { return jred_f32_exceeds_(share, 1.0f); }
 static inline bool jred_q31_no_share_(jred_q31 share) { return (void)share, false; }
 static inline bool jred_q15_no_share_(jred_q15 share) { return (void)share, false; }
 static inline jred_f32 jred_f32_to_share_(jred_f32 share) { return jred_f32_within_(share, 1.0f); }
@@ -500,17 +515,19 @@ JRED_PLAN_FOLLOWER_(q15)
                                                             jred_##n##_motion motion, jred_##n##_friction_sign friction, bool beyond) { \
         jred_##n##_checked_torque checked = {0, true, true};                                                                  \
         if (!JRED_IS_LOADED_(model, set)) return checked;                                                                     \
-        checked.speed_beyond = beyond || jred_##n##_exceeds_(motion.omega, range->max_speed) ||                               \
-                               (friction.is_share ? jred_##n##_no_share_(friction.number)                                     \
-                                                  : jred_##n##_exceeds_(friction.number, range->max_speed));                  \
-        checked.acceleration_beyond = jred_##n##_exceeds_(motion.alpha, range->max_acceleration);                             \
-        if (checked.speed_beyond || checked.acceleration_beyond) {                                                            \
+        const bool too_fast = beyond || jred_##n##_exceeds_(motion.omega, range->max_speed) ||                                \
+                              (friction.is_share ? jred_##n##_no_share_(friction.number)                                      \
+                                                 : jred_##n##_exceeds_(friction.number, range->max_speed));                   \
+        const bool too_steep = jred_##n##_exceeds_(motion.alpha, range->max_acceleration);                                    \
+        if (JRED_RARE_(too_fast || too_steep)) {                                                                              \
             motion.omega = jred_##n##_within_(motion.omega, range->max_speed);                                                \
             motion.alpha = jred_##n##_within_(motion.alpha, range->max_acceleration);                                         \
             friction.number = friction.is_share ? jred_##n##_to_share_(friction.number)                                       \
                                                 : jred_##n##_within_(friction.number, range->max_speed);                      \
         }                                                                                                                     \
         checked.torque = name##_torque_with(model, motion.phase, motion.omega, motion.alpha, friction);                       \
+        checked.speed_beyond = too_fast;                                                                                      \
+        checked.acceleration_beyond = too_steep;                                                                              \
         return checked;                                                                                                       \
     }                                                                                                                         \
     static inline jred_##n##_checked_torque name##_at_reference(const name##_model *model, const jred_##n##_motion_range *range, \

@@ -220,6 +220,13 @@ static inline jred_tracked jred_tracker_update_stroke(jred_tracker *tracker, uin
     return jred_tracked_(tracker, residual, lost);
 }
 
+/* A phase advanced on a stroke: it stays at the ends. */
+static inline uint32_t jred_within_stroke_(uint32_t phase, int32_t moved) {
+    const uint32_t sum = phase + (uint32_t)moved;
+    if (moved < 0) return sum < phase ? sum : 0;
+    return sum >= phase ? sum : UINT32_MAX;
+}
+
 /* ---- the parts in each number type ------------------------------------------------------------------------------- */
 
 /* A gearbox between motor and drive link; the rotor is then not in the table. */
@@ -353,7 +360,7 @@ typedef struct {
                               (jred_##n##_to_count_(omega.value, &period->moved) >> 1);                                            \
         jred_##n##_later later;                                                                                                    \
         later.motion.phase = motion.phase + (uint32_t)moved;                                                                       \
-        if (period->stroke && (moved < 0) != (later.motion.phase < motion.phase)) later.motion.phase = moved < 0 ? 0 : UINT32_MAX; \
+        if (period->stroke) later.motion.phase = jred_within_stroke_(motion.phase, moved);                                         \
         later.motion.omega = omega.value;                                                                                          \
         later.motion.alpha = motion.alpha;                                                                                         \
         later.limited = gained.limited || omega.limited;                                                                           \

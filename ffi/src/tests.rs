@@ -8,6 +8,7 @@ use jred::{CurveSet, Q31, Spline, curves, include_image};
 use crate::memory::Memory;
 
 mod axis;
+mod c99;
 mod encoder;
 mod follower;
 mod header;
@@ -77,7 +78,12 @@ fn answers(name: &str, asked: &str, short: bool) -> Vec<String> {
             "-O2",
             "-fsanitize=undefined",
         ])
-        .args(["-fno-sanitize-recover", "-Iinclude"])
+        .args([
+            "-fno-sanitize-recover",
+            "-ffp-contract=off",
+            "-Iinclude",
+            "-Ic99",
+        ])
         .arg(format!("-DJRED_SHORT_MULTIPLY_={}", u8::from(short)))
         .args([&format!("tests/{name}.c"), "-o"])
         .arg(&program)

@@ -103,12 +103,15 @@ pub(crate) const KERNELS: &[Kernel] = &kernels![false:
     cmsis_analytic_acceleration  Acceleration Peer  Radians  Data::Dimensions, "no table, arm_sin_f32, arm_cos_f32";
 ];
 
-/// From a count to a torque, as in a program: for the comparison of C with Rust.
+/// From a count to a torque, and along a whole axis to that of the motor, as in a program: for the comparison of C with Rust.
 #[rustfmt::skip]
 pub(crate) const COUNTED: &[Kernel] = &kernels![true:
     jred_f32_counts              Torque       Jred  PhaseF32 table(Cubic, FULL), "jred f32, cubic, 10,000 counts";
     jred_q31_quadratic_counts    Torque       Jred  PhaseQ31 table(Quadratic, FULL), "jred q31, quadratic, 10,000 counts";
     jred_q15_counts              Torque       Jred  PhaseQ15 table(Rows16, FULL), "jred q15, 16-bit rows, 10,000 counts";
+    jred_f32_axis                Torque       Jred  PhaseF32 table(Cubic, FULL), "jred f32, cubic, axis";
+    jred_q31_quadratic_axis      Torque       Jred  PhaseQ31 table(Quadratic, FULL), "jred q31, quadratic, axis";
+    jred_q15_axis                Torque       Jred  PhaseQ15 table(Rows16, FULL), "jred q15, 16-bit rows, axis";
 ];
 
 impl Kernel {

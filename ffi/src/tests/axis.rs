@@ -18,7 +18,7 @@ use crate::number::CNumber;
 use crate::status::Status;
 
 /// A number of any kind, and how it is written.
-trait Any: CNumber {
+pub(super) trait Any: CNumber {
     const KIND: char;
     fn any(numbers: &mut Numbers) -> Self;
     fn bits(self) -> u32;

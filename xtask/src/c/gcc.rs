@@ -15,6 +15,18 @@ pub(crate) enum Language {
     Cpp,
 }
 
+/// What the headers must compile without.
+const WARNINGS: [&str; 6] = [
+    "-Wall",
+    "-Wextra",
+    "-Wconversion",
+    "-Wshadow",
+    "-Wcast-qual",
+    "-Werror",
+];
+
+const INCLUDE: [&str; 2] = ["-Iffi/include", "-Iffi/c99"];
+
 /// Folder of the library for `core` and its programs.
 pub(crate) fn folder(core: &Core) -> PathBuf {
     folder_of(core.name)
@@ -36,8 +48,11 @@ pub(crate) fn host(language: Language) -> Command {
         Language::Cpp => ("c++", "-std=c++11"),
     };
     let mut gcc = program(name);
-    gcc.args([standard, "-Wall", "-Wextra", "-Wpedantic", "-Werror", "-O2"]);
-    gcc.arg("-Iffi/include");
+    gcc.args([standard, "-Wpedantic", "-O2"]).args(WARNINGS);
+    if language == Language::C {
+        gcc.arg("-Wstrict-prototypes");
+    }
+    gcc.args(INCLUDE);
     gcc
 }
 
@@ -52,7 +67,9 @@ pub(crate) fn cross(core: &Core, language: Language) -> Command {
         Language::Cpp => &["-std=c++11", "-fno-exceptions", "-fno-rtti"],
     });
     gcc.args(core.gcc)
-        .args(["-mthumb", "-Wall", "-Wextra", "-Werror", "-Iffi/include"])
+        .arg("-mthumb")
+        .args(WARNINGS)
+        .args(INCLUDE)
         .args(["-ffunction-sections", "-fdata-sections", "-nostartfiles"])
         .args(["--specs=nano.specs", "--specs=rdimon.specs"])
         .args(["-L.", "-Tffi/examples/cortex-m.ld"])

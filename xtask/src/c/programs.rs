@@ -17,7 +17,7 @@ struct Program {
     example: Option<&'static str>,
 }
 
-const PROGRAMS: [Program; 5] = [
+const PROGRAMS: [Program; 7] = [
     Program {
         source: "ffi/examples/press.c",
         language: Language::C,
@@ -41,6 +41,18 @@ const PROGRAMS: [Program; 5] = [
         language: Language::Cpp,
         name: "plan_cpp",
         example: Some("09_plan"),
+    },
+    Program {
+        source: "ffi/examples/axis.c",
+        language: Language::C,
+        name: "axis",
+        example: Some("07_axis"),
+    },
+    Program {
+        source: "ffi/tests/both.c",
+        language: Language::C,
+        name: "both",
+        example: None,
     },
     // Images of no model, of which it checks that each is refused.
     Program {
