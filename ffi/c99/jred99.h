@@ -54,7 +54,7 @@ typedef struct {
 
 static inline float jred99_float_(uint32_t bits) {
     float x;
-    memcpy(&x, &bits, sizeof x);
+    (void)memcpy(&x, &bits, sizeof x);
     return x;
 }
 static inline int32_t jred99_signed_(uint32_t x) { return x <= 0x7fffffffu ? (int32_t)x : -(int32_t)(0xffffffffu - x) - 1; }
@@ -70,7 +70,7 @@ static inline uint32_t jred99_crc_(const uint32_t *words, size_t length) {
     uint32_t crc = 0xffffffffu;
     for (size_t k = 0; k < length; k++) {
         crc ^= words[k];
-        for (int bit = 0; bit < 32; bit++) crc = crc >> 1 ^ ((crc & 1u) != 0 ? 0xedb88320u : 0);
+        for (int bit = 0; bit < 32; bit++) crc = crc >> 1 ^ ((crc & 1u) != 0u ? 0xedb88320u : 0u);
     }
     return crc ^ 0xffffffffu;
 }
@@ -82,38 +82,38 @@ static inline bool jred99_positive_(float x) { return x > 0.0f && x <= 3.4028235
 
 static inline jred99_status jred99_load(jred99_table *table, const uint32_t *words, size_t length) {
     if (table == NULL) return JRED99_NULL;
-    memset(table, 0, sizeof *table); /* no table: number is JRED99_NONE, and every tick 0 */
+    (void)memset(table, 0, sizeof *table); /* no table: number is JRED99_NONE, and every tick 0 */
     if (words == NULL) return JRED99_NULL;
-    if (length < 25) return JRED99_LENGTH;
+    if (length < 25u) return JRED99_LENGTH;
     if (words[0] != 0x4445524au) return JRED99_MAGIC;
-    if ((words[1] & 0xffffu) != 2) return JRED99_VERSION;
+    if ((words[1] & 0xffffu) != 2u) return JRED99_VERSION;
     if (words[2] != length) return JRED99_LENGTH;
-    if (jred99_crc_(words, length - 1) != words[length - 1]) return JRED99_CRC;
+    if (jred99_crc_(words, length - 1u) != words[length - 1u]) return JRED99_CRC;
 
     const uint32_t number = words[3] & 0xffu, set = words[3] >> 8 & 0xffu, layout = words[3] >> 16 & 0xffu, stroke = words[3] >> 24;
-    const uint32_t cells = words[4], constants = set >> 4, curves = jred99_curves_(set);
+    const uint32_t cells = words[4], constants = set >> 4u, curves = jred99_curves_(set);
     const float from = jred99_float_(words[5]), to = jred99_float_(words[6]);
     const float torque = jred99_float_(words[7]), speed = jred99_float_(words[8]), inertia = jred99_float_(words[9]);
-    const float span = stroke == 0 ? 6.28318530717958647692f : to - from;
+    const float span = stroke == 0u ? 6.28318530717958647692f : to - from;
     const float bases = inertia * speed / torque * speed, factor = 0.5f * (float)cells / span * bases;
-    if (words[1] >> 16 != 24 || stroke > 1 || set > 63 || (words[20] | words[21] | words[22] | words[23]) != 0) return JRED99_HEADER;
+    if (words[1] >> 16 != 24u || stroke > 1u || set > 63u || (words[20] | words[21] | words[22] | words[23]) != 0u) return JRED99_HEADER;
     if (!jred99_positive_(span) || !jred99_positive_(torque) || !jred99_positive_(speed) || !jred99_positive_(inertia)) return JRED99_HEADER;
     for (int k = 10; k < 13; k++)
         if (!jred99_positive_(jred99_float_(words[k])) && jred99_float_(words[k]) != 0.0f) return JRED99_HEADER;
-    if (!jred99_positive_(factor) || !jred99_positive_(torque / inertia) || (set >> 1 & constants & 3u) != 0) return JRED99_HEADER;
-    const bool spline = layout == 1 && (number == 1 || number == 2);
-    if (!spline && !(layout == 5 && number == 3)) return JRED99_FORMAT;
-    if (number == 1 && (set & 8u) != 0) return JRED99_FORMAT;
-    table->pitch = spline ? 1 + curves : 3 + curves;
-    if (cells < 4 || cells > 65535 || length != 25 + (size_t)(cells + (spline ? 3 : 0)) * table->pitch) return JRED99_LENGTH;
-    for (uint32_t k = 0; spline && stroke == 0 && k < 3 * table->pitch; k++)
-        if (words[24 + k] != words[24 + cells * table->pitch + k]) return JRED99_HEADER;
-    if (number == 2) {
+    if (!jred99_positive_(factor) || !jred99_positive_(torque / inertia) || (set >> 1u & constants & 3u) != 0u) return JRED99_HEADER;
+    const bool spline = layout == 1u && (number == 1u || number == 2u);
+    if (!spline && !(layout == 5u && number == 3u)) return JRED99_FORMAT;
+    if (number == 1u && (set & 8u) != 0u) return JRED99_FORMAT;
+    table->pitch = spline ? 1u + curves : 3u + curves;
+    if (cells < 4u || cells > 65535u || length != 25u + (cells + (spline ? 3u : 0u)) * table->pitch) return JRED99_LENGTH;
+    for (uint32_t k = 0u; spline && stroke == 0u && k < 3u * table->pitch; k++)
+        if (words[24u + k] != words[24u + cells * table->pitch + k]) return JRED99_HEADER;
+    if (number == 2u) {
         /* A whole number, but for the rounding of its bases. */
         table->factor = factor < 1e6f ? (int32_t)(factor + 0.5f) : 0;
         if (table->factor == 0 || fabsf(factor - (float)table->factor) > 1e-6f * factor) return JRED99_HEADER;
     }
-    if (number == 3 && (set & 8u) != 0 && words[13] > 15) return JRED99_HEADER;
+    if (number == 3u && (set & 8u) != 0u && words[13] > 15u) return JRED99_HEADER;
     table->rows = words + 24;
     table->set = set;
     table->cells = cells;
@@ -130,7 +130,7 @@ static inline jred99_status jred99_load(jred99_table *table, const uint32_t *wor
     table->max_acceleration = jred99_float_(words[11]);
     table->torque_error = jred99_float_(words[12]);
     table->machine = words[19];
-    table->number = number == 1 ? JRED99_F32 : number == 2 ? JRED99_Q31 : JRED99_Q15;
+    table->number = number == 1u ? JRED99_F32 : number == 2u ? JRED99_Q31 : JRED99_Q15;
     return JRED99_OK;
 }
 
@@ -156,14 +156,14 @@ static inline float jred99_f32_sum_(const jred99_table *table, uint32_t phase, f
     uint32_t column = 1;
     float slope;
     *inertia = jred99_f32_curve_(table, cell, 0, u, &slope);
-    const float load = (table->set & 1u) != 0 ? jred99_f32_curve_(table, cell, column++, u, NULL) : 0.0f;
+    const float load = (table->set & 1u) != 0u ? jred99_f32_curve_(table, cell, column++, u, NULL) : 0.0f;
     float per_speed = slope * table->factor_f32 * omega;
-    if ((table->set & 2u) != 0) per_speed += jred99_f32_curve_(table, cell, column++, u, NULL);
-    if ((table->set & 16u) != 0) per_speed += jred99_float_(table->viscous);
+    if ((table->set & 2u) != 0u) per_speed += jred99_f32_curve_(table, cell, column++, u, NULL);
+    if ((table->set & 16u) != 0u) per_speed += jred99_float_(table->viscous);
     float sum = alpha == NULL ? per_speed * omega : *inertia * *alpha + per_speed * omega;
-    if ((table->set & 1u) != 0) sum -= load;
-    if ((table->set & 36u) != 0 && friction != 0.0f) {
-        const float c = fabsf((table->set & 4u) != 0 ? jred99_f32_curve_(table, cell, column, u, NULL) : jred99_float_(table->coulomb));
+    if ((table->set & 1u) != 0u) sum -= load;
+    if ((table->set & 36u) != 0u && friction != 0.0f) {
+        const float c = fabsf((table->set & 4u) != 0u ? jred99_f32_curve_(table, cell, column, u, NULL) : jred99_float_(table->coulomb));
         sum += friction < 0.0f ? -c : c;
     }
     return sum;
@@ -201,14 +201,14 @@ static inline int32_t jred99_q31_torque(const jred99_table *table, uint32_t phas
     const uint32_t u = (uint32_t)(place & 0xffffffffu) >> 1, w = (uint32_t)omega, set = table->set;
     uint32_t column = 1, slope;
     const uint32_t inertia = jred99_q31_curve_(table, cell, 0, u, &slope);
-    const uint32_t load = (set & 1u) != 0 ? jred99_q31_curve_(table, cell, column++, u, NULL) : 0;
+    const uint32_t load = (set & 1u) != 0u ? jred99_q31_curve_(table, cell, column++, u, NULL) : 0;
     uint32_t per_speed = jred99_high_(slope * (uint32_t)table->factor, w);
-    if ((set & 2u) != 0) per_speed += jred99_q31_curve_(table, cell, column++, u, NULL);
-    if ((set & 16u) != 0) per_speed += table->viscous;
+    if ((set & 2u) != 0u) per_speed += jred99_q31_curve_(table, cell, column++, u, NULL);
+    if ((set & 16u) != 0u) per_speed += table->viscous;
     uint32_t sum = jred99_high_(inertia, (uint32_t)alpha) + jred99_high_(per_speed, w) - load;
-    if ((set & 36u) != 0 && friction != 0) {
-        const uint32_t c = (set & 4u) != 0 ? jred99_q31_curve_(table, cell, column, u, NULL) : table->coulomb;
-        sum += ((c ^ (uint32_t)friction) & 0x80000000u) != 0 ? 0u - c : c;
+    if ((set & 36u) != 0u && friction != 0) {
+        const uint32_t c = (set & 4u) != 0u ? jred99_q31_curve_(table, cell, column, u, NULL) : table->coulomb;
+        sum += ((c ^ (uint32_t)friction) & 0x80000000u) != 0u ? 0u - c : c;
     }
     return jred99_signed_(sum << 2);
 }
@@ -225,22 +225,22 @@ static inline uint32_t jred99_q15_sum_(const jred99_table *table, uint32_t phase
     const uint64_t place = (uint64_t)phase * table->cells;
     const uint32_t *row = table->rows + (size_t)(place >> 32) * table->pitch, *g = row;
     const uint32_t u = (uint32_t)(place & 0xffffffffu) >> 16, set = table->set, w = (uint32_t)(int32_t)omega, a = (uint32_t)(int32_t)alpha;
-    if ((set & 1u) != 0) row++;
+    if ((set & 1u) != 0u) row++;
     const int32_t velocity = jred99_line_(row[1], u);
     const uint32_t start = row[2], *more = row + 3;
     const uint32_t mass = (start + (uint32_t)jred99_line_(row[0], u) * u) >> 16;
     uint32_t per_speed = (uint32_t)velocity * w + 0x2000u, sum;
-    if ((set & 2u) != 0) per_speed += (uint32_t)jred99_line_(*more++, u) << 15;
-    if ((set & 16u) != 0) per_speed += table->viscous;
+    if ((set & 2u) != 0u) per_speed += (uint32_t)jred99_line_(*more++, u) << 15;
+    if ((set & 16u) != 0u) per_speed += table->viscous;
     sum = (uint32_t)jred99_down_(jred99_signed_(per_speed), 14) * w;
-    if ((set & 4u) != 0 || (set & 32u) != 0) {
-        const int32_t line = (set & 4u) != 0 ? jred99_line_(*more++, u) : 0;
-        const uint32_t c = (set & 4u) != 0 ? (uint32_t)(line < 0 ? -line : line) << 16 : table->coulomb;
+    if ((set & 4u) != 0u || (set & 32u) != 0u) {
+        const int32_t line = (set & 4u) != 0u ? jred99_line_(*more++, u) : 0;
+        const uint32_t c = (set & 4u) != 0u ? (uint32_t)(line < 0 ? -line : line) << 16 : table->coulomb;
         sum += friction > 0 ? c : friction < 0 ? 0u - c : 0;
     }
-    if (inertia != NULL) *inertia = (set & 8u) != 0 ? jred99_line_(*more, u) : (int32_t)mass;
+    if (inertia != NULL) *inertia = (set & 8u) != 0u ? jred99_line_(*more, u) : (int32_t)mass;
     sum += mass * a;
-    return (set & 1u) != 0 ? sum + (start << 16) + (uint32_t)jred99_line_(*g, u) * u : sum + 0x8000u;
+    return (set & 1u) != 0u ? sum + (start << 16) + (uint32_t)jred99_line_(*g, u) * u : sum + 0x8000u;
 }
 
 static inline int16_t jred99_q15_torque(const jred99_table *table, uint32_t phase, int16_t omega, int16_t alpha, int16_t friction) {
@@ -262,7 +262,7 @@ static inline int16_t jred99_q15_acceleration(const jred99_table *table, uint32_
         resisting = jred99_down_(jred99_signed_(jred99_q15_sum_(table, phase, omega, 0, friction, &inertia)), 16);
     }
     const int32_t net = (int32_t)torque - resisting;
-    if ((set & 8u) != 0) {
+    if ((set & 8u) != 0u) {
         found = jred99_down_(jred99_signed_((uint32_t)inertia * (uint32_t)net), (int)table->inertia);
     } else {
         const uint32_t size = net < 0 ? (uint32_t)-net : (uint32_t)net;

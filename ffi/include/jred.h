@@ -387,8 +387,8 @@ JRED_MOTION_RANGE_(q15)
 /* Magnitudes compare as their bits, with NaN above all. */
 static inline bool jred_f32_exceeds_(jred_f32 x, jred_f32 most) {
     uint32_t bits, limit;
-    memcpy(&bits, &x, sizeof bits);
-    memcpy(&limit, &most, sizeof limit);
+    (void)memcpy(&bits, &x, sizeof bits);
+    (void)memcpy(&limit, &most, sizeof limit);
     return bits << 1 > limit << 1;
 }
 static inline bool jred_q31_exceeds_(jred_q31 x, jred_q31 most) { return x > most || x < -most; }

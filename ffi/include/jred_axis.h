@@ -211,7 +211,7 @@ static inline jred_tracked jred_tracker_update_stroke(jred_tracker *tracker, uin
     uint64_t lower = (uint64_t)(uint32_t)tracker->phase + (uint32_t)tracker->speed + (uint32_t)half;
     int64_t upper = (int64_t)((uint64_t)tracker->phase >> 32) + (tracker->speed >> 32) + (half >> 32) + (int64_t)(lower >> 32);
     const int64_t off = (int64_t)measured - upper;
-    const int32_t residual = off > INT32_MAX ? INT32_MAX : off < INT32_MIN ? INT32_MIN : (int32_t)off;
+    const int32_t residual = (int32_t)(off > INT32_MAX ? INT32_MAX : off < INT32_MIN ? INT32_MIN : off);
     const bool lost = jred_correct_(tracker, residual);
     const int64_t correction = jred_share_(residual, tracker->gains[0]);
     lower = (uint64_t)(uint32_t)lower + (uint32_t)correction;

@@ -8,11 +8,13 @@ mod programs;
 use anyhow::Result;
 use clap::Args;
 
+use crate::arduino;
 use crate::cores::CORES;
 use crate::run::{done, installed, program, skip};
 
 /// Checks the library for C: its examples in C and in C++ print what those in Rust print, on the host and on emulated Cortex-M cores; a
-/// tick through its interface gives the bits of one in Rust for at most 6 instructions more; no function can panic.
+/// tick through its interface gives the bits of one in Rust for at most 6 instructions more; no function can panic. The Arduino library's sketch
+/// compiles, links and runs.
 ///
 /// With an option only ticks are measured. The libraries for cores, with few sets of curves, stay in target/c/CORE. Needs
 /// arm-none-eabi-gcc and its newlib.
@@ -44,5 +46,6 @@ pub(crate) fn run(options: &Options) -> Result<()> {
         panics::none(&folder.join(gcc::LIBRARY), core.name)?;
         done(program("arm-none-eabi-size").arg(folder.join("press")))?;
     }
+    arduino::check()?;
     panics::everywhere()
 }

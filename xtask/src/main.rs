@@ -1,6 +1,7 @@
 //! Commands for developers of jred; `scripts/test` calls most of them.
 #![forbid(unsafe_code)]
 
+mod arduino;
 mod bits;
 mod book;
 mod bounds;
@@ -44,6 +45,7 @@ struct Cli {
 
 #[derive(Subcommand)]
 enum Command {
+    Arduino(arduino::Options),
     Bits(bits::Options),
     Book(book::Options),
     C(c::Options),
@@ -56,6 +58,7 @@ enum Command {
 
 fn main() -> ExitCode {
     let result = match Cli::parse().command {
+        Command::Arduino(options) => arduino::run(&options),
         Command::Bits(options) => bits::run(&options),
         Command::Book(options) => book::run(&options),
         Command::C(options) => c::run(&options),

@@ -1,0 +1,8 @@
+// What Arduino does around a sketch, for a while.
+#include "Arduino.h"
+
+int main() {
+    setup();
+    for (int k = 0; k < 1100; k++) loop();
+    return 0;
+}
