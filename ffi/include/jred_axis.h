@@ -236,16 +236,7 @@ typedef struct {
     float rotor;      /* kg m^2 */
 } jred_gearbox;
 
-/* An estimate of a payload. */
-typedef struct {
-    float payload;   /* in units of it; 0 if the motion says nothing about it */
-    float offset;    /* N m */
-    float explained; /* share of the load's variance, 0 to 1 */
-    bool excited;    /* the motion says something about it */
-} jred_payload_estimate;
-
 #define JRED_OBSERVER_WORDS 28
-#define JRED_PAYLOAD_WORDS 14
 
 /* Period: speeds and accelerations of a tracker, and motions later. The tick, or a lead time, of `seconds`.
  *
@@ -273,13 +264,6 @@ typedef struct {
  * Observer: phase, speed and the torque that the table does not contain; its tick is NAME_observe of a JRED_MODEL. A torque that is NaN is flagged.
  *
  *     jred_status       jred_n_observer_make(jred_n_observer *, const jred_info *, float bandwidth, float period, uint32_t phase);
- *
- * Payload: how much a machine carries, by the observed load and the torque of one unit of payload (a second model), up to `largest` (N m), with a
- * memory of `window` ticks, 64 to 2^20. NaN adds nothing.
- *
- *     jred_status       jred_n_payload_make(jred_n_payload *, const jred_info *, jred_n_observer *, float largest, uint32_t window);
- *     void              jred_n_payload_update(jred_n_payload *, load, unit);
- *     jred_status       jred_n_payload_estimate(jred_n_payload *, jred_payload_estimate *);
  */
 #define JRED_AXIS_(n)                                                                                                              \
     typedef struct {                                                                                                               \
@@ -327,20 +311,12 @@ typedef struct {
         bool jumped;                                                                                                               \
         bool limited; /* the load is wrong until it has settled */                                                                 \
     } jred_##n##_observed;                                                                                                         \
-    typedef struct {                                                                                                               \
-        uint64_t tag; /* 0: no payload */                                                                                          \
-        uint64_t opaque[JRED_PAYLOAD_WORDS];                                                                                       \
-    } jred_##n##_payload;                                                                                                          \
     jred_status jred_##n##_period_make(jred_##n##_period *period, const jred_info *info, float seconds);                           \
     jred_status jred_##n##_friction_ramp_make(jred_##n##_friction_ramp *ramp, const jred_info *info, float width);                 \
     jred_status jred_##n##_transmission_make(jred_##n##_transmission *transmission, const jred_info *info, const jred_gearbox *gearbox); \
     jred_status jred_##n##_torque_limits_make(jred_##n##_torque_limits *limits, jred_##n least, jred_##n greatest);                \
     jred_status jred_##n##_observer_make(jred_##n##_observer *observer, const jred_info *info, float bandwidth, float period,      \
                                          uint32_t phase);                                                                          \
-    jred_status jred_##n##_payload_make(jred_##n##_payload *payload, const jred_info *info, jred_##n##_observer *observer,         \
-                                        float largest, uint32_t window);                                                           \
-    void jred_##n##_payload_update(jred_##n##_payload *payload, jred_##n load, jred_##n unit);                                     \
-    jred_status jred_##n##_payload_estimate(jred_##n##_payload *payload, jred_payload_estimate *found);                            \
                                                                                                                                    \
     static inline jred_##n##_outcome jred_##n##_period_omega(const jred_##n##_period *period, jred_tracked tracked) {              \
         return jred_##n##_of_count_(tracked.speed, &period->speed);                                                                \

@@ -1,11 +1,11 @@
-//! Creates the parts of an axis in memory of the caller. Their ticks are in the header, inlined into the C call; only the observer's and the payload's
-//! are here.
+//! Creates the parts of an axis in memory of the caller. Their ticks are in the header, inlined into the C call; only the
+//! observer's is here.
 
 use core::mem::MaybeUninit;
 
 use jred::axis::{
-    AxisError, FrictionRamp, Gearbox, Observed, Observer, Payload, PayloadEstimate, Period,
-    TorqueLimits, Tracker, Transmission,
+    AxisError, FrictionRamp, Gearbox, Observed, Observer, Period, TorqueLimits, Tracker,
+    Transmission, Units,
 };
 use jred::number::Number;
 use jred::{Phase, Q15, Q31};
@@ -15,9 +15,8 @@ use crate::memory::Held;
 use crate::number::{CNumber, of, to_c};
 use crate::status::Status;
 
-/// 64-bit words of memory for an observer and for a payload, as in `jred.h`.
+/// 64-bit words of memory for an observer, as in `jred_axis.h`.
 pub(crate) const OBSERVER_WORDS: usize = 28;
-pub(crate) const PAYLOAD_WORDS: usize = 14;
 
 /// Writes what was created; zeros on an error, whose ticks give 0.
 fn keep<T>(memory: Option<&mut MaybeUninit<T>>, made: Result<T, Status>) -> Status {
@@ -25,13 +24,21 @@ fn keep<T>(memory: Option<&mut MaybeUninit<T>>, made: Result<T, Status>) -> Stat
         return Status::Null;
     };
     *memory = MaybeUninit::zeroed();
-    match made {
-        Ok(part) => {
+    made.map_or_else(
+        |status| status,
+        |part| {
             memory.write(part);
             Status::Ok
-        }
-        Err(status) => status,
-    }
+        },
+    )
+}
+
+/// A part for the machine units of an image.
+fn of_units<N: Number<Real = f32>, T>(
+    info: Option<&Info>,
+    make: impl FnOnce(&Units<N>) -> Result<T, AxisError>,
+) -> Result<T, Status> {
+    make(&Info::units(info)?).map_err(figure)
 }
 
 const fn figure(_: AxisError) -> Status {
@@ -54,7 +61,6 @@ pub(crate) extern "C" fn jred_tracker_make(
 }
 
 pub(crate) type Observe<N> = Held<Observer<N>, OBSERVER_WORDS>;
-pub(crate) type Pay<N> = Held<Payload<N>, PAYLOAD_WORDS>;
 
 /// `jred_…_motion` in C.
 #[repr(C)]
@@ -93,27 +99,6 @@ impl<N: CNumber> From<Observed<N>> for CObserved<N::C> {
     }
 }
 
-/// `jred_payload_estimate` in C.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(crate) struct CEstimate {
-    payload: f32,
-    offset: f32,
-    explained: f32,
-    excited: bool,
-}
-
-impl From<PayloadEstimate> for CEstimate {
-    fn from(estimate: PayloadEstimate) -> Self {
-        Self {
-            payload: estimate.payload,
-            offset: estimate.offset,
-            explained: estimate.explained,
-            excited: estimate.excited,
-        }
-    }
-}
-
 /// The functions of one number type.
 macro_rules! axis {
     ($prefix:literal, $number:ty) => {
@@ -127,9 +112,7 @@ macro_rules! axis {
                 info: Option<&Info>,
                 seconds: f32,
             ) -> Status {
-                let units = Info::units::<$number>(info);
-                let made = units.and_then(|units| Period::new(seconds, &units).map_err(figure));
-                keep(memory, made)
+                keep(memory, of_units(info, |units| Period::new(seconds, units)))
             }
 
             #[unsafe(export_name = concat!($prefix, "_friction_ramp_make"))]
@@ -138,9 +121,10 @@ macro_rules! axis {
                 info: Option<&Info>,
                 width: f32,
             ) -> Status {
-                let units = Info::units::<$number>(info);
-                let made = units.and_then(|units| FrictionRamp::new(width, &units).map_err(figure));
-                keep(memory, made)
+                keep(
+                    memory,
+                    of_units(info, |units| FrictionRamp::new(width, units)),
+                )
             }
 
             #[unsafe(export_name = concat!($prefix, "_transmission_make"))]
@@ -149,11 +133,9 @@ macro_rules! axis {
                 info: Option<&Info>,
                 gearbox: Option<&Gearbox>,
             ) -> Status {
-                let units = Info::units::<$number>(info);
-                let both = units.and_then(|units| Ok((units, *gearbox.ok_or(Status::Null)?)));
-                let made = both.and_then(|(units, gearbox)| {
-                    Transmission::new(gearbox, &units).map_err(figure)
-                });
+                let made = gearbox.ok_or(Status::Null);
+                let made = made
+                    .and_then(|gearbox| of_units(info, |units| Transmission::new(*gearbox, units)));
                 keep(memory, made)
             }
 
@@ -175,51 +157,10 @@ macro_rules! axis {
                 period: f32,
                 phase: u32,
             ) -> Status {
-                let units = Info::units::<$number>(info);
-                let made = units.and_then(|units| {
-                    Observer::with_bandwidth(bandwidth, period, &units).map_err(figure)
+                let made = of_units(info, |units| {
+                    Observer::with_bandwidth(bandwidth, period, units)
                 });
-                let made = made.map(|made| made.at(Phase::from_bits(phase)));
-                Held::keep(memory, made)
-            }
-
-            #[unsafe(export_name = concat!($prefix, "_payload_make"))]
-            extern "C" fn payload(
-                memory: Option<&mut Pay<$number>>,
-                info: Option<&Info>,
-                observer: Option<&mut Observe<$number>>,
-                largest: f32,
-                window: u32,
-            ) -> Status {
-                let observer = observer.ok_or(Status::Null);
-                let observer = observer.and_then(|held| held.get().ok_or(Status::NotLoaded));
-                let made = Info::units::<$number>(info).and_then(|units| {
-                    Payload::new(largest, window, observer?, &units).map_err(figure)
-                });
-                Held::keep(memory, made)
-            }
-
-            #[unsafe(export_name = concat!($prefix, "_payload_update"))]
-            extern "C" fn update(memory: Option<&mut Pay<$number>>, load: C, unit: C) {
-                if let Some(payload) = memory.and_then(Held::get) {
-                    payload.update(of(load), of(unit));
-                }
-            }
-
-            #[unsafe(export_name = concat!($prefix, "_payload_estimate"))]
-            extern "C" fn estimate(
-                memory: Option<&mut Pay<$number>>,
-                found: Option<&mut MaybeUninit<CEstimate>>,
-            ) -> Status {
-                let Some(found) = found else {
-                    return Status::Null;
-                };
-                let found = found.write(CEstimate::default());
-                let Some(payload) = memory.and_then(Held::get) else {
-                    return Status::NotLoaded;
-                };
-                *found = payload.estimate().into();
-                Status::Ok
+                Held::keep(memory, made.map(|made| made.at(Phase::from_bits(phase))))
             }
         };
     };

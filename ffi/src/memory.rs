@@ -105,7 +105,7 @@ impl<F: Format> Memory<F> {
     }
 }
 
-/// A follower, an observer or a payload; zeros contain none.
+/// A follower or an observer; zeros contain none.
 #[repr(C)]
 pub(crate) struct Held<T, const WORDS: usize> {
     /// 1; 0 if there is none.

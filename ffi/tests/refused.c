@@ -90,6 +90,29 @@ static void encoders(void) {
     CLAIM(jred_counter_extend(&count, 16, 100) == 65636 && jred_counter_extend(&count, 16, 65000) == 65000 && count == 65000);
 }
 
+/* Wrong figures, null pointers, and parts that were not made. */
+static void parts(const press_model *press, const press_model *unloaded, const jred_info *info) {
+    static jred_f32_period period;
+    static jred_f32_transmission transmission;
+    static jred_f32_torque_limits limits;
+    static jred_f32_observer observer;
+    static jred_tracker tracker;
+    const jred_f32_friction_sign friction = jred_f32_friction_of_speed(1.0f);
+    const jred_gearbox wrong_gearbox = {20.0f, 0.0f, 0.0f};
+    CLAIM(!press_observe(press, &observer, 1u << 30, 5.0f, friction).load && press_observe(press, &observer, 0, 5.0f, friction).limited);
+    EXPECT(jred_f32_period_make(&period, info, -1.0f), JRED_FIGURE);
+    EXPECT(jred_f32_period_make(&period, NULL, 0.001f), JRED_NULL);
+    EXPECT(jred_f32_transmission_make(&transmission, info, &wrong_gearbox), JRED_FIGURE);
+    EXPECT(jred_f32_torque_limits_make(&limits, 1.0f, 2.0f), JRED_FIGURE);
+    EXPECT(jred_tracker_make(&tracker, NAN, 0.001f, 0), JRED_FIGURE);
+    CLAIM(jred_f32_period_moved(&period, 1e6f) == 0 && jred_f32_transmission_motor(&transmission, 5.0f, 1.0f, 1.0f).value == 0.0f);
+    CLAIM(jred_f32_torque_limits_limited(&limits, 5.0f).torque == 0.0f && jred_f32_torque_limits_limited(&limits, NAN).torque == 0.0f);
+    EXPECT(jred_f32_observer_make(&observer, info, 60.0f, 0.0f, 0), JRED_FIGURE);
+    EXPECT(jred_f32_observer_make(&observer, info, 60.0f, 0.001f, 0), JRED_OK);
+    CLAIM(press_observe(unloaded, &observer, 0, 5.0f, friction).limited);
+    CLAIM(!press_observe(press, &observer, 0, 0.0f, friction).limited && press_observe(press, &observer, 0, NAN, friction).limited);
+}
+
 static const float wrong[] = {NAN, -NAN, INFINITY, -INFINITY, 1e30f, -1e30f};
 
 /* A set-point that is no number, or beyond the table, is said to be, and its torque is that of the nearest motion: the weight stays held. */
@@ -115,6 +138,10 @@ static void set_points(const press_model *press, const jred_info *info) {
         CLAIM(checked.speed_beyond && checked.torque == press_torque_with(press, phase, 0.0f, 0.0f, jred_f32_friction_of_speed(side)));
         checked = press_at_reference(press, &range, (jred_f32_motion){phase, 0.0f, 0.0f}, jred_f32_friction_scaled(x));
         CLAIM(checked.speed_beyond && checked.torque == press_torque_with(press, phase, 0.0f, 0.0f, jred_f32_friction_scaled(side)));
+        checked = press_at_measured(press, &range, (jred_f32_motion){phase, 10.0f, x}, (jred_f32_motion){0, x, 50.0f}, jred_f32_friction_of_speed(10.0f));
+        CLAIM(checked.speed_beyond && !checked.acceleration_beyond && checked.torque == press_torque(press, phase, 10.0f, 50.0f));
+        checked = press_at_measured(press, &range, (jred_f32_motion){phase, x, 0.0f}, (jred_f32_motion){0, 10.0f, 50.0f}, jred_f32_friction_of_speed(10.0f));
+        CLAIM(checked.speed_beyond && checked.torque == press_torque_with(press, phase, side * range.max_speed, 50.0f, jred_f32_friction_of_speed(10.0f)));
         checked = press_at_reference(press, &range, (jred_f32_motion){phase, x, x}, jred_f32_friction_of_speed(x));
         CLAIM(checked.speed_beyond && checked.acceleration_beyond && (x == x || checked.torque == still));
         CLAIM(jred_phase_from_radians(x) == 0 && jred_phase_from_stroke(x, 0.0f, 1.0f) == (x > 0.0f ? UINT32_MAX : 0));
@@ -189,6 +216,7 @@ int main(void) {
     CLAIM(half == 1 << 13 && jred_q15_to_si(half, 20.0f) == 5.0f);
     encoders();
     set_points(&press, &info);
+    parts(&press, &unloaded, &info);
     const jred_f32_checked_torque nothing = press_at_reference(&unloaded, &(jred_f32_motion_range){10.0f, 10.0f}, (jred_f32_motion){0, 1.0f, 1.0f}, jred_f32_friction_of_speed(1.0f));
     CLAIM(nothing.torque == 0.0f && nothing.speed_beyond && nothing.acceleration_beyond);
     CLAIM(fixed_at_reference(&fixed, &(jred_q31_motion_range){1 << 30, 1 << 30}, (jred_q31_motion){0, INT32_MIN, INT32_MAX}, jred_q31_friction_scaled(INT32_MIN)).speed_beyond);

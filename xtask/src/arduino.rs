@@ -25,54 +25,34 @@ pub(crate) struct Options {
 /// A precompiled library. The specification of Arduino libraries names its folder: `{build.mcu}`, and below it `{build.fpu}-{build.float-abi}`, without
 /// which the first one serves.
 struct Precompiled {
-    folder: &'static str,
+    folder: String,
+    core: &'static Core,
     target: &'static str,
-    rustc: &'static [&'static str],
-    /// Name in [`CORES`].
-    core: &'static str,
-    /// Options that take the place of the core's floating-point options.
-    float: Option<&'static [&'static str]>,
+    float: Vec<String>,
 }
 
-const fn of(folder: &'static str, target: &'static str, core: &'static str) -> Precompiled {
-    Precompiled {
-        folder,
-        target,
-        rustc: &[],
+/// That of every core; and where Arduino passes floats in integer registers.
+fn precompiled() -> Vec<Precompiled> {
+    let every = CORES.iter().map(|core| Precompiled {
+        folder: core.name.replace("m0", "m0plus"),
         core,
-        float: None,
-    }
+        target: core.target,
+        float: core.gcc[1..]
+            .iter()
+            .map(|option| (*option).to_owned())
+            .collect(),
+    });
+    let softfp = [("cortex-m4", "fpv4-sp-d16"), ("cortex-m7", "fpv5-d16")];
+    let softfp = softfp.iter().filter_map(|(name, fpu)| {
+        Some(Precompiled {
+            folder: format!("{name}/{fpu}-softfp"),
+            core: CORES.iter().find(|core| core.name == *name)?,
+            target: "thumbv7em-none-eabi",
+            float: vec!["-mfloat-abi=softfp".to_owned(), format!("-mfpu={fpu}")],
+        })
+    });
+    every.chain(softfp).collect()
 }
-
-const PRECOMPILED: [Precompiled; 7] = [
-    of("cortex-m0plus", "thumbv6m-none-eabi", "cortex-m0"),
-    of("cortex-m3", "thumbv7m-none-eabi", "cortex-m3"),
-    of("cortex-m4", "thumbv7em-none-eabihf", "cortex-m4"),
-    Precompiled {
-        rustc: &["-Ctarget-cpu=cortex-m7"],
-        ..of("cortex-m7", "thumbv7em-none-eabihf", "cortex-m7")
-    },
-    Precompiled {
-        rustc: &["-Ctarget-cpu=cortex-m33"],
-        ..of("cortex-m33", "thumbv8m.main-none-eabihf", "cortex-m33")
-    },
-    Precompiled {
-        float: Some(&["-mfloat-abi=softfp", "-mfpu=fpv4-sp-d16"]),
-        ..of(
-            "cortex-m4/fpv4-sp-d16-softfp",
-            "thumbv7em-none-eabi",
-            "cortex-m4",
-        )
-    },
-    Precompiled {
-        float: Some(&["-mfloat-abi=softfp", "-mfpu=fpv5-d16"]),
-        ..of(
-            "cortex-m7/fpv5-d16-softfp",
-            "thumbv7em-none-eabi",
-            "cortex-m7",
-        )
-    },
-];
 
 pub(crate) fn run(options: &Options) -> Result<()> {
     if options.check {
@@ -89,11 +69,9 @@ pub(crate) fn run(options: &Options) -> Result<()> {
 pub(crate) fn check() -> Result<()> {
     let folder = target_dir().join("arduino/check/jred");
     make(&folder, &["--cfg=few_sets"])?;
-    for made in &PRECOMPILED {
-        let core = CORES.iter().find(|core| core.name == made.core);
-        let core = core.context("no such core")?;
-        let sketch = made.link(&folder, core)?;
-        let output = text(&mut qemu(core, &sketch))?;
+    for made in precompiled() {
+        let sketch = made.link(&folder)?;
+        let output = text(&mut qemu(made.core, &sketch))?;
         expected::compare("07_axis", &output, &format!("{}, sketch", made.folder))?;
     }
     Ok(())
@@ -124,10 +102,10 @@ fn make(folder: &Path, rustc: &[&str]) -> Result<()> {
             .replace("@URL@", env!("CARGO_PKG_REPOSITORY"));
         write(&folder.join(to), content.as_bytes())?;
     }
-    for made in &PRECOMPILED {
+    for made in precompiled() {
         let library = std::fs::read(made.compile(rustc)?)?;
         write(
-            &folder.join("src").join(made.folder).join("libjred.a"),
+            &folder.join("src").join(&made.folder).join("libjred.a"),
             &library,
         )?;
     }
@@ -142,7 +120,7 @@ fn write(path: &Path, content: &[u8]) -> Result<()> {
 
 impl Precompiled {
     fn compile(&self, rustc: &[&str]) -> Result<PathBuf> {
-        let flags = format!("target.{}.rustflags = {:?}", self.target, self.rustc);
+        let flags = format!("target.{}.rustflags = {:?}", self.target, self.core.rustc);
         let mut cargo = workspace("rustc");
         cargo
             .args(["--quiet", "--package", "jred-ffi", "--profile", "firmware"])
@@ -153,25 +131,21 @@ impl Precompiled {
     }
 
     /// The sketch as the Arduino builder compiles and links it: `src` is the only folder of headers, and `-L` names the folder of the library.
-    fn link(&self, folder: &Path, core: &Core) -> Result<PathBuf> {
+    fn link(&self, folder: &Path) -> Result<PathBuf> {
         let [source, sketch, object] =
             ["examples/axis/axis.ino", "sketch", "startup.o"].map(|name| folder.join(name));
-        let mut options = vec![core.gcc[0]];
-        options.extend(self.float.unwrap_or(&core.gcc[1..]));
-        options.extend([
-            "-mthumb",
-            "-Os",
-            "-ffunction-sections",
-            "-fdata-sections",
-            "-nostartfiles",
-        ]);
-        let mut gcc = program("arm-none-eabi-gcc");
-        gcc.args(&options)
-            .args(["-std=c99", "-c", "ffi/examples/startup.c", "-o"]);
+        let compile = |name: &str| {
+            let mut gcc = program(name);
+            gcc.args([self.core.gcc[0], "-mthumb", "-Os", "-nostartfiles"])
+                .args(&self.float)
+                .args(["-ffunction-sections", "-fdata-sections"]);
+            gcc
+        };
+        let mut gcc = compile("arm-none-eabi-gcc");
+        gcc.args(["-std=c99", "-c", "ffi/examples/startup.c", "-o"]);
         done(gcc.arg(&object))?;
-        let mut gcc = program("arm-none-eabi-g++");
-        gcc.args(&options)
-            .args(["-std=gnu++11", "-fno-exceptions", "-fno-rtti"])
+        let mut gcc = compile("arm-none-eabi-g++");
+        gcc.args(["-std=gnu++11", "-fno-exceptions", "-fno-rtti"])
             // Only because the output is compared to the last bit, and the sketch computes its set-point itself.
             .arg("-ffp-contract=off")
             .args(["-Iffi/tests/arduino", "-include", "Arduino.h", "-I"])
@@ -182,12 +156,12 @@ impl Precompiled {
             .args(["-x", "none"])
             .arg(object)
             .arg("-L")
-            .arg(folder.join("src").join(self.folder))
+            .arg(folder.join("src").join(&self.folder))
             .args(["-ljred", "-L.", "-Tffi/examples/cortex-m.ld"])
             .args(["--specs=nano.specs", "--specs=rdimon.specs"])
             .args(["-Wl,--gc-sections", "-Wl,-z,noexecstack", "-o"])
             .arg(&sketch);
-        if core.name == "cortex-m0" {
+        if self.core.name == "cortex-m0" {
             gcc.arg("-Wl,--defsym=__small_ram=1");
         }
         done(&mut gcc)?;

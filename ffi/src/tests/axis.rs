@@ -1,18 +1,18 @@
-//! The parts of an axis: made here, ticked in the header; and the observer and the payload.
+//! The parts of an axis: made here, ticked in the header; and the observer.
 
 use std::fmt::Write as _;
 
 use core::mem::{MaybeUninit, zeroed};
 
 use jred::axis::{
-    FrictionRamp, Gearbox, MotionState, Observer, Payload, Period, TorqueLimits, Tracker,
-    TrackerOutput, Transmission, Units,
+    FrictionRamp, Gearbox, MotionState, Observer, Period, TorqueLimits, Tracker, TrackerOutput,
+    Transmission, Units,
 };
 use jred::number::{Bases, FrictionSign, Quantity};
 use jred::{Domain, Image, Model, Phase, Q15, Q31, Spline};
 
 use super::{Numbers, PRESS, Press, answers, jred_spline_f32_load, press};
-use crate::axis::{CEstimate, CObserved, Observe, Pay, jred_tracker_make};
+use crate::axis::{CObserved, Observe, jred_tracker_make};
 use crate::image::{Info, jred_image_info};
 use crate::number::CNumber;
 use crate::status::Status;
@@ -270,9 +270,6 @@ functions! {
     jred_f32_transmission_make(Made<Transmission<f32>>, Option<&Info>, Option<&Gearbox>) -> Status;
     jred_f32_torque_limits_make(Made<TorqueLimits<f32>>, f32, f32) -> Status;
     jred_f32_observer_make(Option<&mut Observe<f32>>, Option<&Info>, f32, f32, u32) -> Status;
-    jred_f32_payload_make(Option<&mut Pay<f32>>, Option<&Info>, Option<&mut Observe<f32>>, f32, u32) -> Status;
-    jred_f32_payload_update(Option<&mut Pay<f32>>, f32, f32);
-    jred_f32_payload_estimate(Option<&mut Pay<f32>>, Made<CEstimate>) -> Status;
     jred_spline_f32_s21_observe(*const Press, *mut Observe<f32>, u32, f32, f32, bool, *mut CObserved<f32>);
 }
 
@@ -370,6 +367,11 @@ fn parts_are_those_of_rust_and_wrong_figures_are_refused() {
             assert_eq!(made.assume_init().limited(3.0).torque.to_bits(), 0);
         }
     }
+}
+
+#[test]
+fn a_tracker_is_that_of_rust_and_parts_have_the_sizes_of_the_header() {
+    let nan = f32::NAN;
     let mut made = MaybeUninit::uninit();
     assert_eq!(
         jred_tracker_make(Some(&mut made), 60.0, 5e-4, 77),
@@ -400,27 +402,23 @@ fn parts_are_those_of_rust_and_wrong_figures_are_refused() {
     );
 }
 
-/// A thousand ticks of the observer and of a payload, over motions, torques and frictions of any kind.
+/// A thousand ticks of the observer, over motions, torques and frictions of any kind.
 #[test]
-fn the_observer_and_the_payload_have_the_bits_of_rust() {
+fn the_observer_has_the_bits_of_rust() {
     let words = press();
     let info = info(&words);
     let model: Model<'_, Spline<f32>, PRESS> = Image::new(&words).unwrap().model().unwrap();
     let mut numbers = Numbers(0x9e37_79b9_7f4a_7c15);
     let mut of_rust = Observer::with_bandwidth(60.0, 1e-3, &model).unwrap();
-    let mut payload = Payload::new(50.0, 64, &of_rust, &model).unwrap();
-    // SAFETY: zeros are no model, no observer and no payload; the words outlive them.
+    // SAFETY: zeros are no model and no observer; the words outlive them.
     unsafe {
-        let (mut memory, mut observer, mut pay): (Press, Observe<f32>, Pay<f32>) =
-            (zeroed(), zeroed(), zeroed());
+        let (mut memory, mut observer): (Press, Observe<f32>) = (zeroed(), zeroed());
         let length = words.len();
         assert_eq!(
             jred_spline_f32_load(&raw mut memory, PRESS, words.as_ptr(), length),
             0
         );
         let (info, none) = (Some(&info), None);
-        let none_yet = jred_f32_payload_make(Some(&mut pay), info, Some(&mut observer), 50.0, 64);
-        assert_eq!(none_yet, Status::NotLoaded);
         for [bandwidth, period] in [[0.0, 1e-3], [60.0, 0.0], [f32::NAN, 1e-3]] {
             let status = jred_f32_observer_make(Some(&mut observer), info, bandwidth, period, 0);
             assert_eq!(status, Status::Figure);
@@ -430,10 +428,6 @@ fn the_observer_and_the_payload_have_the_bits_of_rust() {
             Status::Null
         );
         let made = jred_f32_observer_make(Some(&mut observer), info, 60.0, 1e-3, 0);
-        assert_eq!(made, Status::Ok);
-        let status = jred_f32_payload_make(Some(&mut pay), info, Some(&mut observer), 50.0, 63);
-        assert_eq!(status, Status::Figure);
-        let made = jred_f32_payload_make(Some(&mut pay), info, Some(&mut observer), 50.0, 64);
         assert_eq!(made, Status::Ok);
         let mut phase = 0u32;
         for k in 0..1000 {
@@ -470,25 +464,6 @@ fn the_observer_and_the_payload_have_the_bits_of_rust() {
             let flags = [seen.jumped, seen.limited];
             assert_eq!(flags, [expected.jumped, expected.limited], "{k}");
             assert_eq!(seen.residual, expected.residual, "{k}");
-            let unit = (k % 13) as f32 - 6.0;
-            payload.update(expected.load, unit);
-            jred_f32_payload_update(Some(&mut pay), seen.load, unit);
         }
-        let mut found = MaybeUninit::uninit();
-        assert_eq!(
-            jred_f32_payload_estimate(Some(&mut pay), Some(&mut found)),
-            Status::Ok
-        );
-        let (found, expected) = (found.assume_init(), payload.estimate());
-        assert_eq!(found, CEstimate::from(expected));
-        assert!(expected.excited);
-        let mut nothing: Pay<f32> = zeroed();
-        let mut found = MaybeUninit::uninit();
-        let status = jred_f32_payload_estimate(Some(&mut nothing), Some(&mut found));
-        assert_eq!(
-            (status, found.assume_init()),
-            (Status::NotLoaded, CEstimate::default())
-        );
-        assert_eq!(jred_f32_payload_estimate(None, None), Status::Null);
     }
 }

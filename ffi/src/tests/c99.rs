@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use jred::image::{Validity, encode, image_len};
-use jred::number::{Bases, FrictionSign, Number, Quantity};
+use jred::number::{Bases, FrictionSign, Quantity};
 use jred::table::{Constants, Format, RowConstants, Shape, Table, words_len};
 use jred::{AnyModel, CurveSet, Domain, Image, Phase, Q31, Rows16, Scale, Spline, curves};
 

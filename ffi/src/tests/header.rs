@@ -5,7 +5,7 @@ use core::mem::MaybeUninit;
 
 use jred::axis::{Encoder, StrokeEncoder, StrokeMounting, Tracker};
 
-use crate::axis::{OBSERVER_WORDS, PAYLOAD_WORDS, jred_tracker_make};
+use crate::axis::{OBSERVER_WORDS, jred_tracker_make};
 use crate::encoder::{CMounting, jred_encoder_make, jred_stroke_encoder_make};
 
 use crate::follower::{CPlan, CPlanState, WORDS};
@@ -123,7 +123,6 @@ fn the_header_has_the_constants() {
         ("JRED_ANY", format!("{ANY:#x}")),
         ("JRED_PLAN_FOLLOWER_WORDS", WORDS.to_string()),
         ("JRED_OBSERVER_WORDS", OBSERVER_WORDS.to_string()),
-        ("JRED_PAYLOAD_WORDS", PAYLOAD_WORDS.to_string()),
     ] {
         assert!(
             [HEADER, AXIS]
