@@ -129,7 +129,8 @@ inline const char *name(jred_status status) { return jred_status_name(status); }
         CheckedTorque at_measured(const jred_##n##_motion_range &range, const Motion &measured, const Motion &reference, FrictionSign friction) const { \
             return machine##_at_measured(&model_, &range, measured, reference, friction);                                     \
         }                                                                                                                     \
-        jred_##n##_observed observe(jred_##n##_observer &observer, jred::Phase measured, Number torque, FrictionSign friction) const { \
+        template <typename Observer> /* of a set that is known: only then is it compiled */                                   \
+        jred_##n##_observed observe(Observer &observer, jred::Phase measured, Number torque, FrictionSign friction) const {   \
             return machine##_observe(&model_, &observer, measured.bits(), torque, friction);                                  \
         }                                                                                                                     \
         Number acceleration(jred::Phase phase, Number omega, Number torque) const {                                           \

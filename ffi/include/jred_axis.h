@@ -36,7 +36,12 @@ JRED_OUTCOME_(q15)
 
 /* A product is rounded before it is added to something, as in Rust: a compiler that fuses both would change the last bit. On Arm cores this says so,
  * without an instruction; for others compile with -ffp-contract=off. */
-#if defined(__GNUC__) && defined(__ARM_FP)
+#if defined(__GNUC__) && defined(__arm__) && defined(__ARM_FP)
+#define JRED_ARM_FLOAT_ 1
+#else
+#define JRED_ARM_FLOAT_ 0
+#endif
+#if JRED_ARM_FLOAT_
 #define JRED_ROUNDED_(product) __asm__("" : "+t"(product))
 #else
 #define JRED_ROUNDED_(product) ((void)(product))
@@ -44,7 +49,7 @@ JRED_OUTCOME_(q15)
 
 /* Towards 0, limited to 32 bits; 0 for NaN. */
 static inline int32_t jred_whole_(float x) {
-#if defined(__GNUC__) && defined(__ARM_FP)
+#if JRED_ARM_FLOAT_
     int32_t whole;
     __asm__("vcvt.s32.f32 %0, %1" : "=t"(whole) : "t"(x));
     return whole;

@@ -108,9 +108,14 @@ static void parts(const press_model *press, const press_model *unloaded, const j
     CLAIM(jred_f32_period_moved(&period, 1e6f) == 0 && jred_f32_transmission_motor(&transmission, 5.0f, 1.0f, 1.0f).value == 0.0f);
     CLAIM(jred_f32_torque_limits_limited(&limits, 5.0f).torque == 0.0f && jred_f32_torque_limits_limited(&limits, NAN).torque == 0.0f);
     EXPECT(jred_f32_observer_make(&observer, info, 60.0f, 0.0f, 0), JRED_FIGURE);
-    EXPECT(jred_f32_observer_make(&observer, info, 60.0f, 0.001f, 0), JRED_OK);
+    /* A machine that stands still under a torque: something balances it, and the weight. */
+    const float still = press_torque(press, 0x20000000u, 0.0f, 0.0f);
+    jred_f32_observed seen = {{0, 0.0f, 0.0f}, 0.0f, 0, false, false};
+    EXPECT(jred_f32_observer_make(&observer, info, 60.0f, 0.001f, 0x20000000u), JRED_OK);
+    for (int tick = 0; tick < 200; tick++) seen = press_observe(press, &observer, 0x20000000u, 5.0f, jred_f32_friction_scaled(0.0f));
+    CLAIM(seen.load > still - 5.01f && seen.load < still - 4.99f && !seen.limited && !seen.jumped);
     CLAIM(press_observe(unloaded, &observer, 0, 5.0f, friction).limited);
-    CLAIM(!press_observe(press, &observer, 0, 0.0f, friction).limited && press_observe(press, &observer, 0, NAN, friction).limited);
+    CLAIM(!press_observe(press, &observer, 0x20000000u, 0.0f, friction).limited && press_observe(press, &observer, 0, NAN, friction).limited);
 }
 
 static const float wrong[] = {NAN, -NAN, INFINITY, -INFINITY, 1e30f, -1e30f};

@@ -17,7 +17,7 @@ struct Program {
     example: Option<&'static str>,
 }
 
-const PROGRAMS: [Program; 7] = [
+const PROGRAMS: [Program; 8] = [
     Program {
         source: "ffi/examples/press.c",
         language: Language::C,
@@ -52,6 +52,12 @@ const PROGRAMS: [Program; 7] = [
         source: "ffi/tests/both.c",
         language: Language::C,
         name: "both",
+        example: None,
+    },
+    Program {
+        source: "ffi/tests/classes.cpp",
+        language: Language::Cpp,
+        name: "classes",
         example: None,
     },
     // Images of no model, of which it checks that each is refused.
