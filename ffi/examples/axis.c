@@ -89,7 +89,7 @@ int main(void) {
         const float phi = TAU * (z * z * z * (10.0f + z * (6.0f * z - 15.0f)));
         const float omega = pace * (30.0f * z * z * (z - 1.0f) * (z - 1.0f));
         const float alpha = pace / 0.5f * (60.0f * z * (2.0f * z - 1.0f) * (z - 1.0f));
-        /* What the timer's register would have. */
+        /* The value of the timer's register. */
         const found tick = interrupt((uint16_t)(START - (int32_t)(phi / TAU * COUNTS)), omega, alpha);
         if (tick.needed.speed_beyond || tick.needed.acceleration_beyond) return 1;
         const float off = tick.speed > omega ? tick.speed - omega : omega - tick.speed;

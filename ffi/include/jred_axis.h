@@ -167,7 +167,7 @@ typedef struct {
 /* With its poles at the corner frequency `bandwidth` (Hz), called in every `period` (s), at rest at `phase`: that of the encoder now. */
 jred_status jred_tracker_make(jred_tracker *tracker, float bandwidth, float period, uint32_t phase);
 
-/* What is farther from the prediction has jumped; a quarter of the range otherwise. A step is a distance such as jred_f32_period_moved. */
+/* A reading farther from the prediction has jumped; a quarter of the range without it. A step is a distance such as jred_f32_period_moved. */
 static inline void jred_tracker_largest_step(jred_tracker *tracker, uint32_t step) {
     tracker->largest = step > 0x80000000u ? 0u - step : step;
 }
@@ -303,7 +303,7 @@ typedef struct {
     } jred_##n##_torque_limits;                                                                                                    \
     typedef struct {                                                                                                               \
         jred_##n torque;                                                                                                           \
-        jred_##n clipped; /* what was cut off */                                                                                   \
+        jred_##n clipped; /* the part cut off */                                                                                   \
     } jred_##n##_limited;                                                                                                          \
     typedef struct {                                                                                                               \
         uint64_t tag; /* 0: no observer */                                                                                         \

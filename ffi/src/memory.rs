@@ -108,7 +108,7 @@ impl<F: Format> Memory<F> {
 /// A follower or an observer; zeros contain none.
 #[repr(C)]
 pub(crate) struct Held<T, const WORDS: usize> {
-    /// 1; 0 if there is none.
+    /// 1; 0 while it is empty.
     tag: u64,
     content: MaybeUninit<T>,
 }
@@ -119,7 +119,7 @@ impl<T, const WORDS: usize> Held<T, WORDS> {
             && align_of::<Self>() <= align_of::<u64>()
     );
 
-    /// Writes what was made; on failure there is none.
+    /// Writes the content; on failure the memory is empty.
     pub(crate) fn keep(memory: Option<&mut Self>, made: Result<T, Status>) -> Status {
         let () = Self::FITS;
         let Some(memory) = memory else {
@@ -136,13 +136,13 @@ impl<T, const WORDS: usize> Held<T, WORDS> {
         }
     }
 
-    /// What is in it, if there is something.
+    /// The content, unless the memory is empty.
     pub(crate) fn get(&mut self) -> Option<&mut T> {
         // SAFETY: the tag shows that it was written.
         (self.tag == 1).then(|| unsafe { self.content.assume_init_mut() })
     }
 
-    /// What is in the memory.
+    /// The content.
     ///
     /// # Safety
     /// There is something: it was made with success.

@@ -1,4 +1,4 @@
-/* What jred_axis.h computes inline, of parts that it is given: src/tests/axis.rs compares the bits with those of Rust. */
+/* The results of jred_axis.h for parts that it reads: src/tests/axis.rs compares the bits with those of Rust. */
 #include <inttypes.h>
 #include <stdio.h>
 #include <string.h>

@@ -1,4 +1,4 @@
-// What Arduino does around a sketch, for a while.
+// Arduino calls a sketch like this without end; here for a while.
 #include "Arduino.h"
 
 int main() {

@@ -15,7 +15,7 @@ pub(crate) enum Language {
     Cpp,
 }
 
-/// What the headers must compile without.
+/// Warnings that the headers must not cause.
 const WARNINGS: [&str; 6] = [
     "-Wall",
     "-Wextra",

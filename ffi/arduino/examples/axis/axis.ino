@@ -73,7 +73,7 @@ void loop() {
     const float phi = tau * (z * z * z * (10.0f + z * (6.0f * z - 15.0f)));
     const float omega = pace * (30.0f * z * z * (z - 1.0f) * (z - 1.0f));
     const float alpha = pace / 0.5f * (60.0f * z * (2.0f * z - 1.0f) * (z - 1.0f));
-    // What the timer's register would have.
+    // The value of the timer's register.
     const uint16_t reading = static_cast<uint16_t>(START - static_cast<int32_t>(phi / tau * 200000.0f));
 
     const int64_t count = counter.extend(reading);
