@@ -218,6 +218,7 @@ const TOOL: [(&str, &[&str]); 8] = [
             "study",
             "explain",
             "meter",
+            "settings",
         ],
     ),
     (

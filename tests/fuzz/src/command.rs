@@ -31,6 +31,7 @@ pub const COMMANDS: &[&str] = &[
     "simulate MACHINE --format json --report OUT",
     "ratio MACHINE",
     "ratio MACHINE --format csv",
+    "drive MACHINE --counts-per-turn 1048576 --bandwidth 40_Hz",
     "bus MACHINE",
     "sensitivity MACHINE",
     "tolerance MACHINE --samples 5",

@@ -5,6 +5,7 @@ pub mod bus;
 mod catalogue;
 mod core_error;
 mod documents;
+mod drive;
 mod export;
 pub mod fastest;
 pub mod gentlest;
@@ -84,6 +85,7 @@ fn dispatch(command: &options::Command) -> Result<Completion> {
         options::Command::Vary(options) => vary::vary(options),
         options::Command::Ratio(options) => ratio::ratio(options),
         options::Command::Require(options) => require::run(options),
+        options::Command::Drive(options) => drive::run(options),
         options::Command::Sensitivity(options) => sensitivity::sensitivity(options),
         options::Command::Tolerance(options) => tolerance::tolerance(options),
         options::Command::Bus(options) => bus::run(options),
@@ -118,6 +120,7 @@ const fn doing(command: &options::Command) -> &'static str {
         Command::Vary(_) | Command::Tolerance(_) => "reading machine and catalogue",
         Command::Ratio(_) => "searching gear ratios",
         Command::Require(_) => "computing requirements",
+        Command::Drive(_) => "computing parameters",
         Command::Sensitivity(_) => "changing each quantity",
         Command::Bus(_) => "following the DC bus",
         Command::Project(_) => "choosing the drives",

@@ -4,6 +4,7 @@ pub mod balance;
 pub mod bus;
 pub mod catalogue;
 pub mod documents;
+pub mod drive;
 pub mod export;
 pub mod fastest;
 pub mod gentlest;
@@ -112,6 +113,8 @@ pub enum Command {
     Ratio(search::Ratio),
     /// State what a drive of any maker must be able to do at each gear ratio, for a request for quotation; no catalogue is needed.
     Require(require::Require),
+    /// List the parameters to type into the drive: inertia, limits, encoder, gear, gains, in the words of CiA 402 and of makers.
+    Drive(drive::Drive),
     /// Show how each quantity in the machine file affects the rules, and which violates one first.
     Sensitivity(search::Sensitivity),
     /// Estimate the probability that a drive satisfies its rules when quantities scatter within tolerances.

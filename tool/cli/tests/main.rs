@@ -16,6 +16,7 @@ mod choice;
 mod cli;
 mod documents;
 mod drawing;
+mod drive;
 mod envelope_commands;
 mod export;
 mod finite;

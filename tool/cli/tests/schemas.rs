@@ -80,6 +80,7 @@ fn every_answer_follows_its_schema() {
                 "reduce --reactions --positions 24",
                 "size --explain --top 3",
                 "require",
+                "drive",
                 "size --pareto power,mass",
                 "bus",
                 "steady --delta 0.05",

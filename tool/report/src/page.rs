@@ -377,6 +377,17 @@ fn ratio(subject: &Subject, change: Option<&Remedies>) -> Vec<Figure> {
     )]
 }
 
+/// The page of a drive's parameters.
+pub fn drive_page(file: &MachineFile, shown: &list::drive::DriveView) -> String {
+    Page::page(
+        file,
+        "drive",
+        "parameters to type into the drive",
+        &shown.answer(),
+        Vec::new(),
+    )
+}
+
 /// The page with the plots of a simulation.
 pub fn simulation_page(shown: &list::simulation::SimulationView) -> String {
     let file = shown.machines.first;

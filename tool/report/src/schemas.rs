@@ -14,6 +14,7 @@ pub fn all() -> Vec<(&'static str, Schema)> {
         of_sheet(list::catalogue::FORM, &["key", "maker", "model", "source"]),
         of::<list::catalogue::CheckedData>(),
         of::<list::catalogue::PartData>(),
+        of::<list::drive::DriveData>(),
         of::<ExportData>(),
         of::<list::fastest::FastestData>(),
         of::<list::inspection::CheckData>(),

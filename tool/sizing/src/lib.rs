@@ -11,6 +11,7 @@
 //! 6. [`select`]: all drives of a catalogue, judged, filtered, ranked.
 //! 7. [`study`]: many machines: varied quantities, sensitivities, tolerances.
 //! 8. [`explain`] and [`meter`]: the reasons for a drive's rank, and its limits for the firmware's duty meter.
+//! 9. [`settings`]: figures for the parameters of a drive.
 #![forbid(unsafe_code)]
 
 pub mod bus;
@@ -22,6 +23,7 @@ pub mod judge;
 pub mod meter;
 pub mod motor;
 pub mod select;
+pub mod settings;
 pub mod study;
 pub mod thermal;
 pub mod threads;

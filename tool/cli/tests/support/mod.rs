@@ -15,12 +15,13 @@ use serde_json::Value;
 pub(crate) use shared::*;
 
 /// All commands.
-pub(crate) const COMMANDS: [&str; 22] = [
+pub(crate) const COMMANDS: [&str; 23] = [
     "new",
     "completion",
     "man",
     "catalogue",
     "require",
+    "drive",
     "reduce",
     "check",
     "size",

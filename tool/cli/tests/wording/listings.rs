@@ -76,6 +76,18 @@ fn split() {
 }
 
 #[test]
+fn drive() {
+    let desk = press();
+    let commands = "
+        drive press.toml --drive sgm7a-25a+tp004mf-4 --counts-per-turn 16777216 --bandwidth '40 Hz'
+        drive press.toml --drive sgm7a-25a+tp004mf-4 --maker sigma-7 --bandwidth '5 kHz'
+        drive press.toml --drive nothing
+        drive press.toml --maker nobody
+    ";
+    compare("drive", &desk.runs(commands));
+}
+
+#[test]
 fn export() {
     let desk = Desk::new().with_machines(&["press.toml", "shaking-feeder.toml"]);
     let commands = "

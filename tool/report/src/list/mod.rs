@@ -5,6 +5,7 @@ pub mod balance;
 pub mod bus;
 pub mod catalogue;
 pub mod contact;
+pub mod drive;
 mod driven;
 pub mod export;
 pub mod fastest;
