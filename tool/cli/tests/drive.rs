@@ -87,6 +87,13 @@ fn a_screw_follows_its_closed_form() {
     );
     let typed = parameter(&json, "sigma-7", "Pn103")["value"].as_f64();
     assert_eq!(typed, Some((100.0 * load / 3.19e-4).round()));
+    // A gain in amperes, of a motor whose data sheet has 0.519 N m/A.
+    let line = "drive {} --drive sgm7a-40a --bandwidth '30 Hz' --format json";
+    let json = jred_of(line, [&shipped("ball-screw.toml")]).json();
+    let akd = |number| parameter(&json, "akd", number)["value"].as_f64().unwrap();
+    let gain = figure(&json, "speed-gain").unwrap() / 0.519;
+    near("torque constant", akd("MOTOR.KT"), 0.519, 1e-9);
+    near("A/(rad/s)", akd("VL.KP"), gain, 1e-3);
 }
 
 /// ∫J·α² dt/∫α² dt of a Scotch yoke, J = J_0 + m·r²·sin²φ, integrated here over the law 3-4-5.
@@ -156,7 +163,7 @@ fn faults_have_their_cure() {
     let run = jred_of("drive {} --maker nobody", [&press]).ends(2);
     assert!(
         run.message()
-            .contains("write one of: cia402, ax8000, sigma-7, ax5000")
+            .contains("write one of: cia402, ax8000, sigma-7, akd, ax5000")
     );
     let run = jred_of("drive {}", [&shipped("linear-gripper.toml")]).ends(2);
     assert!(run.message().contains("rotary motors only"));

@@ -101,23 +101,11 @@ impl Settings {
         let at_motor = |inertia: f64| {
             inertia / (ratio * ratio) + gearbox.map_or(0.0, |gearbox| gearbox.inertia)
         };
-        let share = |of: &dyn Fn(&Instant) -> f64, by: &dyn Fn(&Instant) -> f64| {
-            let whole = duty.integral(by);
-            (whole > 0.0).then(|| duty.integral(|i| of(i) * by(i)) / whole)
-        };
         let inertias = duty.figures(|i| i.input_inertia);
-        let best = share(&|i| i.input_inertia, &|i| i.input_alpha.powi(2));
+        let best = mean(duty, |i| i.input_inertia, |i| i.input_alpha.powi(2));
         let load = at_motor(best.unwrap_or(inertias.mean));
         let rotor = drive.rotor();
-        let moving = |i: &Instant| f64::from(u8::from(i.omega != 0.0));
-        let dry = share(&|i| i.terms.coulomb.abs(), &moving).unwrap_or(0.0);
-        let square = duty.integral(|i| i.omega.powi(2));
-        let viscous = duty.integral(|i| i.terms.viscous * i.omega) / square;
-        let viscous = if square > 0.0 { viscous } else { 0.0 };
-        let weight = duty.integral(|i| i.terms.potential);
-        // The mean over whole turns is zero up to rounding.
-        let rounding = 1e-9 * duty.integral(|i| i.terms.potential.abs());
-        let weight = if weight.abs() > rounding { weight } else { 0.0 };
+        let [dry, viscous, weight] = losses(duty);
         let cycle = context.cycle.motor_duty(&drive);
         let cycle_peak = cycle.torque.max.abs().max(cycle.torque.min.abs());
         let peak = context.motor.envelope.peak_torque(1.0, 0.0);
@@ -174,7 +162,7 @@ impl Settings {
                 Setting::ViscousFriction,
                 Some(motor.friction[1] + viscous / (total * total)),
             ),
-            (Setting::WeightTorque, Some(weight / duty.duration / total)),
+            (Setting::WeightTorque, Some(weight / total)),
             (Setting::Bandwidth, choices.bandwidth),
             (
                 Setting::SpeedGain,
@@ -210,6 +198,30 @@ impl Settings {
         let found = self.0.iter().find(|(known, _)| *known == setting);
         found.map(|(_, value)| *value)
     }
+}
+
+/// Mean of a figure with a weight over the cycle, if the weight is anywhere.
+fn mean(
+    duty: &Duty,
+    of: impl Fn(&Instant) -> f64,
+    weight: impl Fn(&Instant) -> f64,
+) -> Option<f64> {
+    let whole = duty.integral(&weight);
+    (whole > 0.0).then(|| duty.integral(|i| of(i) * weight(i)) / whole)
+}
+
+/// Means at the drive link: dry friction while moving, viscous friction by its power, and the torque against the weight.
+fn losses(duty: &Duty) -> [f64; 3] {
+    let moving = |i: &Instant| f64::from(u8::from(i.omega != 0.0));
+    let dry = mean(duty, |i| i.terms.coulomb.abs(), moving);
+    let square = duty.integral(|i| i.omega.powi(2));
+    let viscous = duty.integral(|i| i.terms.viscous * i.omega) / square;
+    let viscous = if square > 0.0 { viscous } else { 0.0 };
+    let weight = duty.integral(|i| i.terms.potential);
+    // The mean over whole turns is zero up to rounding.
+    let rounding = 1e-9 * duty.integral(|i| i.terms.potential.abs());
+    let weight = if weight.abs() > rounding { weight } else { 0.0 };
+    [dry.unwrap_or(0.0), viscous, weight / duty.duration]
 }
 
 /// The fraction with the least denominator, up to 10000, that equals a positive ratio up to rounding.
