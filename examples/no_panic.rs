@@ -14,6 +14,7 @@
 //! - `Transfer`: derivatives of mechanisms, for making tables
 //! - `CubicSpline`, `control_points`: curves, for making tables
 //! - `fit_periodic`, `fit_bounded`, `fit_quadratic_periodic`, `fit_quadratic_bounded`: for making tables
+//! - `Units`: machine units of an image, for the library for C, whose own gate calls it
 //! - `$error::cure`: text of an error for people
 #![cfg_attr(target_os = "none", no_std, no_main)]
 

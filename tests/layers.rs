@@ -163,8 +163,8 @@ const TOOL: [(&str, &[&str]); 8] = [
     (
         "analysis",
         &[
-            "duty", "contact", "reduce", "warnings", "inspect", "simulate", "steady", "check",
-            "checked",
+            "duty", "contact", "reduce", "warnings", "inspect", "simulate", "steady", "identify",
+            "check", "checked",
         ],
     ),
     (

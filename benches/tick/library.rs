@@ -139,6 +139,7 @@ impl<'a, F: Format> Axis<'a, F> {
         })
     }
 
+    #[expect(clippy::inline_always, reason = "as the program of a drive, of one interrupt")]
     #[inline(always)]
     fn interrupt(
         &mut self,
@@ -165,11 +166,15 @@ impl<'a, F: Format> Axis<'a, F> {
     }
 }
 
+/// An interrupt of an axis: count, speed and acceleration.
+type Interrupt<F> =
+    fn(&mut Axis<'_, F>, u32, SpeedOf<F>, AccelerationOf<F>) -> MotorTorqueOf<F>;
+
 /// Calls a kernel along the axis of an image; the speed and what was cut off replace the second and the third number of a point.
 fn along<F: Format<Number: Word>>(
     image: &[u32],
     points: &mut [Point],
-    kernel: fn(&mut Axis<'_, F>, u32, SpeedOf<F>, AccelerationOf<F>) -> MotorTorqueOf<F>,
+    kernel: Interrupt<F>,
 ) {
     let kernel = black_box(kernel);
     let mut axis = Axis::new(image).expect("an axis");
@@ -183,6 +188,7 @@ fn along<F: Format<Number: Word>>(
 }
 
 /// The phase of a count, which is passed as a phase.
+#[expect(clippy::inline_always, reason = "a kernel contains it")]
 #[inline(always)]
 fn counted(count: Phase) -> Phase {
     ENCODER.phase(count.to_bits().cast_signed())

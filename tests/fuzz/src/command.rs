@@ -33,6 +33,7 @@ pub const COMMANDS: &[&str] = &[
     "ratio MACHINE --format csv",
     "drive MACHINE --counts-per-turn 1048576 --bandwidth 40_Hz",
     "bus MACHINE",
+    "identify four-bar-log.csv --machine MACHINE --counts-per-turn 4096",
     "sensitivity MACHINE",
     "tolerance MACHINE --samples 5",
     "export MACHINE --torque-error 1_N_m --out OUT --max-cells 200",

@@ -45,9 +45,10 @@ pub fn files(folders: &[&str], ending: &str) -> Vec<Vec<u8>> {
 }
 
 /// The CSV files named in the examples' machine files.
-const NAMED: [&str; 4] = [
+const NAMED: [&str; 5] = [
     "drive-log.csv",
     "force-over-stroke.csv",
+    "four-bar-log.csv",
     "load-table.csv",
     "reduced-curves.csv",
 ];

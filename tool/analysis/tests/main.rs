@@ -7,6 +7,7 @@ mod cross_check;
 mod duty;
 mod duty_meter;
 mod every_machine;
+mod identify;
 mod joint_friction;
 mod largest;
 mod load_table;

@@ -10,6 +10,7 @@ mod export;
 pub mod fastest;
 pub mod gentlest;
 mod help;
+mod identify;
 mod plan;
 mod project;
 pub mod ratio;
@@ -92,6 +93,7 @@ fn dispatch(command: &options::Command) -> Result<Completion> {
         options::Command::Project(options) => project::run(options),
         options::Command::Simulate(options) => simulate::run(options),
         options::Command::Steady(options) => steady::steady(options),
+        options::Command::Identify(options) => identify::run(options),
         options::Command::Fastest(options) => fastest::fastest(options),
         options::Command::Gentlest(options) => gentlest::gentlest(options),
         options::Command::Balance(options) => balance::balance(options),
@@ -126,6 +128,7 @@ const fn doing(command: &options::Command) -> &'static str {
         Command::Project(_) => "choosing the drives",
         Command::Simulate(_) => "following the motion",
         Command::Steady(_) => "searching for the steady cycle",
+        Command::Identify(_) => "identifying the machine",
         Command::Fastest(_) => "computing the fastest motion",
         Command::Gentlest(_) => "computing the gentlest motion",
         Command::Balance(_) => "computing counterweights and springs",

@@ -9,6 +9,7 @@ pub mod export;
 pub mod fastest;
 pub mod gentlest;
 pub mod help;
+pub mod identify;
 pub mod parts;
 pub mod plan;
 pub mod project;
@@ -127,6 +128,8 @@ pub enum Command {
     Simulate(simulate::Simulate),
     /// Find the steady cycle under the motor in `[simulation]`, its fluctuation of speed, and the flywheel that smooths it.
     Steady(Steady),
+    /// Find inertia, weight, friction and cogging of a real machine from logs of its drive, and compare them with the design.
+    Identify(identify::Identify),
     /// Find the fastest motion within the limits of a drive: moves in minimum time.
     Fastest(Box<fastest::Fastest>),
     /// Find the motion with the least RMS torque, energy or peak torque for the moves of the machine file, and compare it with all motion laws.

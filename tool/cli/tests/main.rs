@@ -21,6 +21,7 @@ mod envelope_commands;
 mod export;
 mod finite;
 mod hidden;
+mod identify;
 mod machines;
 mod made_anew;
 mod many_rows;

@@ -123,6 +123,13 @@ fn every_answer_follows_its_schema() {
             }
         }
     }
+    let [log, machine] = ["four-bar-log.csv", "four-bar.toml"];
+    let [log, machine] = [log, machine].map(|name| folder.join(name).display().to_string());
+    let identify = ["identify", &log, "--machine", &machine];
+    let identify = identify
+        .into_iter()
+        .chain(["--counts-per-turn", "4096", "--format", "json"]);
+    runs.push(identify.map(str::to_owned).collect());
     let mut met = BTreeSet::new();
     for run in runs {
         let answer: Run = jred_with(&run);

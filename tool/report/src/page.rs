@@ -23,6 +23,7 @@ mod document;
 mod drive;
 mod extract;
 mod figures;
+mod identify;
 mod mechanism;
 mod motion;
 mod notes;
@@ -38,6 +39,7 @@ use section::{Figure, Page, Section};
 
 pub(crate) use paper::in_quotes;
 
+pub use identify::identify_page;
 pub use mechanism::mechanism_page;
 pub use motion::{fastest_page, gentlest_page, steady_page};
 pub use paper::Paper;

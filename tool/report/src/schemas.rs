@@ -19,6 +19,7 @@ pub fn all() -> Vec<(&'static str, Schema)> {
         of::<list::fastest::FastestData>(),
         of::<list::inspection::CheckData>(),
         of::<list::front::FrontData>(),
+        of::<list::identify::IdentifyData>(),
         of::<list::project::ProjectData>(),
         of_sheet(list::ratio::FORM, &list::ratio::COLUMNS),
         of::<list::reduction::ReductionData>(),

@@ -78,7 +78,7 @@ pub enum Setting {
     ResistorPower,
 }
 
-/// What a person chooses.
+/// Choices of a person.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Choices {
     /// Encoder counts in a turn of the motor.

@@ -33,6 +33,7 @@ pub(crate) const COMMANDS: [&str; 23] = [
     "project",
     "simulate",
     "steady",
+    "identify",
     "fastest",
     "gentlest",
     "balance",

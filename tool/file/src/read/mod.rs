@@ -7,6 +7,7 @@ mod curve_file;
 mod document;
 mod drive_element;
 mod drive_link;
+mod drive_log;
 mod drive_train;
 mod duty_type;
 mod effect;
@@ -33,6 +34,7 @@ mod tool;
 mod variator;
 mod window;
 
+pub use drive_log::{DriveLog, LogLayout, drive_log};
 pub use mechanism::mechanism_types;
 pub use project::project;
 

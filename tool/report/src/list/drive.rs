@@ -390,7 +390,7 @@ mod tests {
         assert!(fault.contains("there is no maker \"nobody\""), "{fault}");
     }
 
-    /// Every parameter has a figure with words for the case that it is unknown, a source and an ordered range; no number is there twice.
+    /// Every parameter has a figure with words for the case that it is unknown, a source and an ordered range; no parameter is there twice.
     #[test]
     fn parameters_are_complete() {
         let all = Makers::read(None).unwrap();

@@ -11,6 +11,7 @@ pub mod export;
 pub mod fastest;
 pub mod front;
 pub mod gentlest;
+pub mod identify;
 pub mod inspection;
 pub mod kept;
 pub mod listing;

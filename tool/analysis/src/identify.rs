@@ -1,0 +1,176 @@
+//! `jred identify`: J(φ), V′(φ), friction and cogging of a machine from a log of its position and torque.
+//!
+//! ```text
+//! J(φ)·α + ½·J′(φ)·ω² + V′(φ) + b·ω + c·sgn ω + cogging(φ) = T(t)          logged as T(t − d)
+//! ```
+//!
+//! The method: [`weak`], [`fit`]; its checks: [`excitation`](Excitation), [`faults`](Fault).
+
+use std::f64::consts::TAU;
+
+mod basis;
+mod fault;
+mod fit;
+mod matrix;
+mod record;
+mod result;
+mod shaft;
+mod smooth;
+mod solution;
+mod weak;
+
+use basis::Basis;
+use fit::{DELAY_STEP, Fit, fit};
+use solution::Unfit;
+
+pub use fault::{Fault, Obstacle};
+pub use record::{RecordFault, Repair, samples};
+pub use result::{Cogging, CurvePoint, Estimate, Excitation, Identified};
+pub use shaft::{Shaft, referred, without_drive};
+
+/// Highest harmonic that is tried.
+const HARMONICS: usize = 24;
+
+/// Lowest number of harmonics that is tried if the log is short.
+const FEWEST: usize = 5;
+
+/// Share of samples in the other direction from which on the mean load is apart from Coulomb friction.
+const BOTH_WAYS: f64 = 0.02;
+
+/// Rounds in which the samples of outliers are left out.
+const CLEANING: usize = 4;
+
+/// Outliers are faults if the torque's noise without them is less than this share: a coarse encoder has some of its own.
+const FEWER: f64 = 0.9;
+
+/// Delays (ms) that are tried if the first does not lead to the delay.
+const DELAYS: std::ops::RangeInclusive<i32> = -6..=12;
+
+/// Samples at equal steps, of the drive link.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Samples {
+    /// Time between samples (s).
+    pub step: f64,
+    /// Position (rad), without jumps after a turn.
+    pub position: Vec<f64>,
+    /// Torque (N·m).
+    pub torque: Vec<f64>,
+    /// Samples that are not used: gaps, duplicates, saturated torques.
+    pub faulty: Vec<bool>,
+}
+
+/// The request.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Options {
+    /// Orders of the cogging per turn of the drive link.
+    pub cogging: Vec<u32>,
+    /// The delay of the logged torque (s), if known.
+    pub delay: Option<f64>,
+    /// Smallest step of the position (rad).
+    pub encoder_step: Option<f64>,
+}
+
+/// Identifies a machine whose drive link turns fully.
+///
+/// # Errors
+/// Why the log does not determine the machine.
+pub fn identify(samples: &Samples, options: &Options) -> Result<Identified, Obstacle> {
+    let basis = basis_of(samples, options)?;
+    let first = fitted(samples, &basis, options)?;
+    let (cleaned, spikes) = cleaned(samples, &first, options)?;
+    let (found, spikes) = match cleaned {
+        Some(cleaned) if cleaned.torque_noise < FEWER * first.torque_noise => (cleaned, spikes),
+        _ => (first, Vec::new()),
+    };
+    let order = found.order();
+    let found = found.subset(order).map_err(obstacle)?;
+    Ok(result::identified(&found, samples, options, &spikes))
+}
+
+/// The fit without the samples of outliers, and those samples; `None` without outliers.
+fn cleaned(
+    samples: &Samples,
+    first: &Fit,
+    options: &Options,
+) -> Result<(Option<Fit>, Vec<usize>), Obstacle> {
+    let mut used = samples.clone();
+    let mut spikes = Vec::new();
+    let mut cleaned: Option<Fit> = None;
+    for _ in 0..CLEANING {
+        let now = cleaned.as_ref().unwrap_or(first);
+        let outliers = fault::outliers(now);
+        if outliers.is_empty() {
+            break;
+        }
+        let (spacing, delay) = (now.weak.spacing, now.delay);
+        for row in outliers {
+            let from = row * spacing;
+            spikes.push(from + 3 * spacing);
+            used.faulty[from + 2 * spacing..from + 5 * spacing].fill(true);
+        }
+        cleaned = Some(fit(&used, &first.basis, options, Some(delay), None).map_err(obstacle)?);
+    }
+    Ok((cleaned, spikes))
+}
+
+/// The unknowns that this log may determine.
+fn basis_of(samples: &Samples, options: &Options) -> Result<Basis, Obstacle> {
+    fault::check(samples)?;
+    let moves = samples.position.windows(2).map(|pair| pair[1] - pair[0]);
+    let (mut forward, mut back) = (0.0, 0.0);
+    for step in moves {
+        *(if step > 0.0 { &mut forward } else { &mut back }) += step.abs();
+    }
+    let mean = forward.min(back) > BOTH_WAYS * (forward + back);
+    Ok(Basis {
+        harmonics: HARMONICS,
+        mean,
+        cogging: options.cogging.clone(),
+    })
+}
+
+/// The fit with as many harmonics as the rows suffice for, and with the delay searched for if it is far from the usual one.
+fn fitted(samples: &Samples, basis: &Basis, options: &Options) -> Result<Fit, Obstacle> {
+    let mut basis = basis.clone();
+    let mut found = fit(samples, &basis, options, None, None);
+    while let (Err(Unfit::Few { .. }), true) = (&found, basis.harmonics > FEWEST) {
+        basis = basis.with_harmonics((basis.harmonics * 3 / 4).max(FEWEST));
+        found = fit(samples, &basis, options, None, None);
+    }
+    let found = found.map_err(obstacle)?;
+    if found.delay_step.abs() < DELAY_STEP {
+        return Ok(found);
+    }
+    let low = basis.with_harmonics(basis.harmonics.min(8));
+    let tried = DELAYS.filter_map(|ms| {
+        let start = f64::from(ms) * 1e-3;
+        let known = Options {
+            delay: Some(start),
+            ..options.clone()
+        };
+        let tried = fit(samples, &low, &known, None, Some(1)).ok()?;
+        Some((start, tried.torque_noise))
+    });
+    let best = tried.min_by(|a, b| a.1.total_cmp(&b.1));
+    let Some((start, _)) = best else {
+        return Ok(found);
+    };
+    let again = fit(samples, &basis, options, Some(start), None).map_err(obstacle)?;
+    Ok(if again.torque_noise < found.torque_noise {
+        again
+    } else {
+        found
+    })
+}
+
+fn obstacle(unfit: Unfit) -> Obstacle {
+    match unfit {
+        Unfit::Few { rows, needed } => Obstacle::Short { rows, needed },
+        Unfit::Singular => Obstacle::NotDetermined,
+    }
+}
+
+/// The angle within a turn.
+fn within_turn(phi: f64) -> f64 {
+    phi.rem_euclid(TAU)
+}

@@ -1,0 +1,228 @@
+//! Faults of a log, and obstacles to an identification.
+
+use std::f64::consts::TAU;
+
+use schemars::JsonSchema;
+use serde::Serialize;
+
+use super::fit::Fit;
+use super::matrix::{Matrix, whiten};
+use super::{Samples, within_turn};
+
+/// Number of angle bins in a turn.
+const BINS: usize = 72;
+
+/// A bin with less than this share of the mean is not visited.
+const VISITED: f64 = 0.1;
+
+/// Whitened residuals above this many robust standard deviations are outliers.
+const OUTLIER: f64 = 5.0;
+
+/// Rows in a block of the search for a slip; statistic from which on one is reported.
+const BLOCK: usize = 250;
+const SLIP: f64 = 4.5;
+
+/// Why a log does not determine the machine.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Obstacle {
+    /// Too few independent rows are left.
+    Short {
+        /// Rows that are left: one for every 4 ms of faultless motion.
+        rows: usize,
+        /// Rows that are needed.
+        needed: usize,
+    },
+    /// Angles that are not visited, the longest range (rad).
+    NotVisited {
+        /// Its first angle.
+        from: f64,
+        /// Its last angle.
+        to: f64,
+    },
+    /// The speed is the same in every turn: share by which ω² varies at an angle.
+    SameSpeed {
+        /// Median over the angles of std ω²/mean ω².
+        variation: f64,
+    },
+    /// The unknowns cannot be told apart.
+    NotDetermined,
+}
+
+/// A fault of the log that was found.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Fault {
+    /// The encoder slipped.
+    Slip {
+        /// When (s from the beginning of the log).
+        at: f64,
+        /// By how much (rad).
+        by: f64,
+        /// The statistic: standard deviations of the difference.
+        statistic: f64,
+    },
+    /// Single torques or positions that the motion cannot explain.
+    Spikes {
+        /// Their number.
+        count: usize,
+        /// The first (s).
+        first: f64,
+    },
+    /// J is negative at every angle: torque or position is reversed.
+    Reversed,
+    /// The torque's noise is above this share of its RMS value.
+    Noisy {
+        /// The share.
+        share: f64,
+    },
+    /// The delay did not settle.
+    Delay {
+        /// The last value (s).
+        at: f64,
+    },
+}
+
+/// Angles, speeds and their variation.
+pub(super) struct Visits {
+    /// Median over the angles of std ω²/mean ω².
+    pub(super) variation: f64,
+    /// The longest range of empty bins.
+    gap: Option<[usize; 2]>,
+}
+
+/// Which angles are visited, at which speeds.
+pub(super) fn visits(samples: &Samples, speed: &[f64]) -> Visits {
+    let mut bins = vec![Vec::new(); BINS];
+    for ((phi, omega), faulty) in samples.position.iter().zip(speed).zip(&samples.faulty) {
+        if !faulty {
+            let bin = (within_turn(*phi) / TAU * BINS as f64) as usize;
+            bins[bin.min(BINS - 1)].push(omega * omega);
+        }
+    }
+    let mean = bins.iter().map(Vec::len).sum::<usize>() as f64 / BINS as f64;
+    let empty: Vec<bool> = bins
+        .iter()
+        .map(|bin| (bin.len() as f64) < VISITED * mean)
+        .collect();
+    let mut gap: Option<[usize; 2]> = None;
+    let mut length = 0;
+    for k in 0..2 * BINS {
+        length = if empty[k % BINS] { length + 1 } else { 0 };
+        if length > 0 && gap.is_none_or(|[_, longest]| length > longest) && length <= BINS {
+            gap = Some([k + 1 - length, length]);
+        }
+    }
+    let mut each: Vec<f64> = bins
+        .iter()
+        .filter(|bin| bin.len() > 20)
+        .map(|bin| {
+            let count = bin.len() as f64;
+            let mean = bin.iter().sum::<f64>() / count;
+            let square = bin.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / count;
+            square.sqrt() / mean.max(1e-9)
+        })
+        .collect();
+    each.sort_by(f64::total_cmp);
+    Visits {
+        variation: each.get(each.len() / 2).copied().unwrap_or_default(),
+        gap,
+    }
+}
+
+/// Refuses a log that cannot determine a machine, whatever the fit.
+pub(super) fn check(samples: &Samples) -> Result<(), Obstacle> {
+    const LEAST: usize = 500;
+    let count = samples.position.len();
+    if count < LEAST {
+        return Err(Obstacle::Short {
+            rows: count,
+            needed: LEAST,
+        });
+    }
+    let half = ((0.05 / samples.step) as usize).max(8);
+    let speed = super::smooth::smooth(&samples.position, samples.step, half).speed;
+    let visits = visits(samples, &speed);
+    if let Some([from, length]) = visits.gap {
+        let width = TAU / BINS as f64;
+        return Err(Obstacle::NotVisited {
+            from: (from % BINS) as f64 * width,
+            to: ((from % BINS) + length) as f64 * width,
+        });
+    }
+    if visits.variation < 0.05 {
+        return Err(Obstacle::SameSpeed {
+            variation: visits.variation,
+        });
+    }
+    Ok(())
+}
+
+/// Rows whose residual is too large.
+pub(super) fn outliers(fit: &Fit) -> Vec<usize> {
+    let kept = fit.residuals.iter().zip(&fit.kept);
+    let mut sizes: Vec<f64> = kept
+        .filter(|(_, kept)| **kept)
+        .map(|(e, _)| e.abs())
+        .collect();
+    sizes.sort_by(f64::total_cmp);
+    let median = sizes.get(sizes.len() / 2).copied().unwrap_or_default();
+    let limit = OUTLIER * 1.4826 * median;
+    let each = fit.residuals.iter().zip(&fit.kept).enumerate();
+    each.filter(|(_, (e, kept))| **kept && e.abs() > limit)
+        .map(|(i, _)| i)
+        .collect()
+}
+
+/// A slip of the encoder: the place that separates two offsets of the position best.
+pub(super) fn slip(fit: &Fit) -> Option<Fault> {
+    const CHANGE: f64 = 1e-4;
+    let moved: Vec<f64> = fit.motion.position.iter().map(|phi| phi + CHANGE).collect();
+    let torque = |position: &[f64]| {
+        fit.weak
+            .rows(&fit.basis, position, &fit.motion.speed)
+            .times(&fit.theta)
+    };
+    let (moved, here) = (torque(&moved), torque(&fit.motion.position));
+    let mut effect = Matrix::zeros(here.len(), 1);
+    for (i, row) in effect.rows_mut().enumerate() {
+        if fit.kept[i] {
+            row[0] = (moved[i] - here[i]) / CHANGE;
+        }
+    }
+    whiten(&fit.lower, &mut effect);
+    let sums: Vec<[f64; 2]> = (0..here.len() / BLOCK)
+        .map(|b| {
+            let rows = b * BLOCK..(b + 1) * BLOCK;
+            rows.fold([0.0, 0.0], |[de, dd], i| {
+                let d = effect.at(i, 0);
+                [de + d * fit.residuals[i], dd + d * d]
+            })
+        })
+        .collect();
+    let total = sums
+        .iter()
+        .fold([0.0, 0.0], |[a, b], [x, y]| [a + x, b + y]);
+    let mut before = [0.0, 0.0];
+    let mut best: Option<Fault> = None;
+    let last = sums.len().saturating_sub(2);
+    for (i, [de, dd]) in sums.iter().enumerate().take(last) {
+        before = [before[0] + de, before[1] + dd];
+        let after = [total[0] - before[0], total[1] - before[1]];
+        if i < 2 || before[1] <= 0.0 || after[1] <= 0.0 {
+            continue;
+        }
+        // The model's angle must be moved against the slip.
+        let by = before[0] / before[1] - after[0] / after[1];
+        let statistic = by.abs() / (1.0 / before[1] + 1.0 / after[1]).sqrt();
+        let larger =
+            |known: &Fault| !matches!(known, Fault::Slip { statistic: s, .. } if *s >= statistic);
+        if statistic > SLIP && best.as_ref().is_none_or(larger) {
+            best = Some(Fault::Slip {
+                at: ((i + 1) * BLOCK) as f64 * fit.weak.knots(),
+                by,
+                statistic,
+            });
+        }
+    }
+    best
+}

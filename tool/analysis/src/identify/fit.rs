@@ -1,0 +1,371 @@
+//! Generalised least squares with instruments, in rounds.
+//!
+//! ```text
+//! C = σ_T²·Δt²·Σww + σ_v²·BBᵀ = LLᵀ          covariance of the rows: noise of the torque and of the encoder
+//! θ = (Z̃ᵀX̃)⁻¹·Z̃ᵀR̃                            X̃ = L⁻¹X from the measured angle, Z̃ from the low-passed one
+//! ```
+//!
+//! X has the encoder's noise, which ordinary least squares would turn into a smaller J; Z has almost none of it, also if a controller carries it
+//! into the motion.
+
+use std::f64::consts::TAU;
+
+use super::basis::Basis;
+use super::matrix::{Band, DIAGONALS, Matrix, dot, factor, whiten};
+use super::smooth::{Smooth, half_window, noise, smooth, speed_noise};
+use super::solution::{Unfit, solve};
+use super::weak::Weak;
+use super::{Options, Samples};
+
+/// Distance of the knots of the test functions (s).
+const KNOTS: f64 = 4e-3;
+
+/// Half window of the filter of the speed (s).
+const SPEED_WINDOW: f64 = 12e-3;
+
+/// Largest change of the delay in a round (s).
+pub(super) const DELAY_STEP: f64 = 1e-3;
+
+/// The delay to begin with (s).
+const DELAY: f64 = 1e-3;
+
+/// Rows are left out if their support is this close (s) to a faulty sample or to rest.
+const NEAR: f64 = 3e-3;
+
+/// Below this speed (rad/s), or a twentieth of the RMS speed if that is lower, friction is that of a joint at rest.
+const REST: f64 = 0.3;
+
+/// Number of rounds.
+const ROUNDS: usize = 3;
+
+/// Least number of rows, as a multiple of the unknowns.
+pub(super) const ROWS: usize = 20;
+
+/// Positions over a turn.
+pub(super) const GRID: usize = 360;
+
+/// A fit.
+pub(super) struct Fit {
+    pub(super) basis: Basis,
+    pub(super) theta: Vec<f64>,
+    /// The delay (s), that of the rows, and its last change before it was bounded.
+    pub(super) delay: f64,
+    pub(super) delay_of_rows: f64,
+    pub(super) delay_step: f64,
+    /// Whether the delay is an unknown, after the others.
+    pub(super) delay_free: bool,
+    /// Standard deviations of position (rad) and torque (N·m).
+    pub(super) position_noise: f64,
+    pub(super) torque_noise: f64,
+    /// Mean square of the whitened residuals.
+    pub(super) misfit: f64,
+    /// Of the unknowns: by the noise model, with the misfit if that is above 1, and by the residuals.
+    pub(super) covariances: [Matrix; 2],
+    pub(super) residuals: Vec<f64>,
+    pub(super) whitened: Matrix,
+    pub(super) instruments: Matrix,
+    pub(super) right: Vec<f64>,
+    /// Which rows count.
+    pub(super) kept: Vec<bool>,
+    pub(super) weak: Weak,
+    pub(super) motion: Smooth,
+    pub(super) lower: Band,
+}
+
+/// Covariance of the rows; those that do not count are set apart.
+fn covariance(position: &Band, torque: &[f64; DIAGONALS], variance: f64, kept: &[bool]) -> Band {
+    let row = |(i, band): (usize, &[f64; DIAGONALS])| {
+        std::array::from_fn(|l| match (kept[i], l) {
+            (true, _) if l <= i && kept[i - l] => band[l] + variance * torque[l],
+            (false, 0) => 1.0,
+            _ => 0.0,
+        })
+    };
+    position.iter().enumerate().map(row).collect()
+}
+
+/// −2·ln of the likelihood of residuals, but for a constant.
+fn unlikeliness(band: &Band, residuals: &[f64]) -> Option<f64> {
+    let lower = factor(band)?;
+    let mut column = Matrix::zeros(residuals.len(), 1)
+        .beside(residuals)
+        .select(&[1]);
+    whiten(&lower, &mut column);
+    let squares: f64 = column.rows().map(|row| row[0] * row[0]).sum();
+    let logs: f64 = lower.iter().map(|row| row[0].ln()).sum();
+    Some(squares + 2.0 * logs)
+}
+
+/// The variance of the torque by maximum likelihood, with Newton's method on its logarithm.
+fn torque_variance(
+    position: &Band,
+    torque: &[f64; DIAGONALS],
+    kept: &[bool],
+    residuals: &[f64],
+    start: f64,
+    steps: usize,
+) -> Option<f64> {
+    let mut log = start.ln();
+    let at = |log: f64| unlikeliness(&covariance(position, torque, log.exp(), kept), residuals);
+    for _ in 0..steps {
+        let [here, above, below] = [at(log)?, at(log + 0.1)?, at(log - 0.1)?];
+        let curvature = ((above - 2.0 * here + below) / 0.01).max(1e-2 * kept.len() as f64);
+        let step = (-(above - below) / 0.2 / curvature).clamp(-1.5, 1.5);
+        log += step;
+        if step.abs() < 0.01 {
+            break;
+        }
+    }
+    Some(log.exp())
+}
+
+/// Derivative by the row's number.
+fn gradient(y: &[f64], distance: f64) -> Vec<f64> {
+    let last = y.len() - 1;
+    let slope = |i: usize| {
+        let [from, to] = [i.saturating_sub(1), (i + 1).min(last)];
+        (y[to] - y[from]) / ((to - from).max(1) as f64 * distance)
+    };
+    (0..y.len()).map(slope).collect()
+}
+
+/// The instruments with a cut-off frequency.
+struct Instruments {
+    motion: Smooth,
+    rows: Matrix,
+}
+
+impl Instruments {
+    fn new(weak: &Weak, basis: &Basis, samples: &Samples, cutoff: f64) -> Self {
+        let half = half_window(cutoff, samples.step);
+        let motion = smooth(&samples.position, samples.step, half);
+        let rows = weak.rows(basis, &motion.position, &motion.speed);
+        Self { motion, rows }
+    }
+}
+
+/// The fit with this basis, beginning at the delay `start`, if that is not known.
+pub(super) fn fit(
+    samples: &Samples,
+    basis: &Basis,
+    options: &Options,
+    start: Option<f64>,
+    rounds: Option<usize>,
+) -> Result<Fit, Unfit> {
+    let (step, position) = (samples.step, &samples.position);
+    let count = position.len();
+    let spacing = ((KNOTS / step).round() as usize).max(2);
+    let weak = Weak::new(count, spacing, step);
+    let position_noise = noise(position, &samples.faulty)
+        .max(options.encoder_step.unwrap_or_default() / 12.0f64.sqrt())
+        .max(1e-9);
+    let delay_free = options.delay.is_none();
+    let mut delay = options.delay.or(start).unwrap_or(DELAY);
+    let half = ((SPEED_WINDOW / step).round() as usize).max(4);
+    let raw = smooth(position, step, half).speed;
+    let excess = position_noise.powi(2) * speed_noise(half, step);
+    let mean_square = dot(&raw, &raw) / count as f64;
+    let travel = position.first().zip(position.last());
+    let travel = travel.map_or(0.0, |(a, b)| (b - a).abs());
+    let turns = (travel / (count as f64 * step)).max(mean_square.sqrt()) / TAU;
+    let speed: Vec<f64> = raw
+        .iter()
+        .map(|w| w.signum() * (w * w - excess).max(0.0).sqrt())
+        .collect();
+    let rows = weak.rows(basis, position, &speed);
+    let highest = 0.05 / step;
+    let first_cutoff = (5.0 * turns).max(10.0);
+    let mut instruments = Instruments::new(&weak, basis, samples, first_cutoff);
+    let margin = 2.0 * half_window(first_cutoff, step) as f64 + 5e-3 / step;
+    let edge = (margin / spacing as f64).ceil() as usize + 1;
+    let near = (NEAR / step + 1e-9) as usize;
+    let faulty = weak.touched(samples.faulty.iter().copied(), near);
+    let rest = REST.min(mean_square.sqrt() / 20.0);
+    let resting = instruments.motion.speed.iter().map(|w| w.abs() < rest);
+    let resting = weak.touched(resting, near);
+    let kept: Vec<bool> = (0..weak.count)
+        .map(|i| i >= edge && i + edge < weak.count && !faulty[i] && !resting[i])
+        .collect();
+    let used = kept.iter().filter(|kept| **kept).count();
+    let needed = ROWS * (basis.unknowns() + 1);
+    if used < needed {
+        return Err(Unfit::Few { rows: used, needed });
+    }
+    let masked = |rows: &Matrix| {
+        let mut masked = rows.clone();
+        for (row, kept) in masked.rows_mut().zip(&kept) {
+            if !kept {
+                row.fill(0.0);
+            }
+        }
+        masked
+    };
+    let torque_band = weak.torque_band();
+    // Without weights, to begin with.
+    let right = weak.torque(&samples.torque, delay)[0].clone();
+    let (x, z) = (masked(&rows), masked(&instruments.rows));
+    let zero = |values: &[f64]| -> Vec<f64> {
+        let each = values.iter().zip(&kept);
+        each.map(|(v, kept)| if *kept { *v } else { 0.0 }).collect()
+    };
+    let first = solve(&x, &z, &zero(&right), used)?;
+    let mut theta = first.theta;
+    let mut variance = 0.3 * dot(&first.residuals, &first.residuals) / used as f64 / torque_band[0];
+    let mut last = None;
+    for round in 0..rounds.unwrap_or(ROUNDS) {
+        let errors = weak.position_errors(basis, &theta, &instruments.motion);
+        let mut position_band = weak.position_band(&errors);
+        for row in &mut position_band {
+            *row = row.map(|x| x * position_noise * position_noise);
+        }
+        let [right, slope] = weak.torque(&samples.torque, delay);
+        let modelled = rows.times(&theta);
+        let residuals: Vec<f64> = right.iter().zip(&modelled).map(|(r, x)| r - x).collect();
+        let steps = if round == 0 { 6 } else { 2 };
+        variance = torque_variance(
+            &position_band,
+            &torque_band,
+            &kept,
+            &zero(&residuals),
+            variance,
+            steps,
+        )
+        .ok_or(Unfit::Singular)?;
+        let band = covariance(&position_band, &torque_band, variance, &kept);
+        let lower = factor(&band).ok_or(Unfit::Singular)?;
+        if round == 0 {
+            let grid = (0..GRID).map(|k| k as f64 * TAU / GRID as f64);
+            let size: f64 = grid
+                .map(|phi| dot(&basis.inertia_row(phi), &theta[..basis.inertias()]).abs())
+                .sum();
+            let mean = (size / GRID as f64).max(1e-300);
+            let crossing = (variance.sqrt() / (mean * position_noise)).sqrt() / TAU;
+            let cutoff = (0.7 * crossing).max(5.0 * turns).min(highest);
+            instruments = Instruments::new(&weak, basis, samples, cutoff);
+        }
+        let modelled = gradient(&instruments.rows.times(&theta), weak.knots());
+        let [mut x, mut z] = [&rows, &instruments.rows].map(masked);
+        if delay_free {
+            let negative = |v: &[f64]| -> Vec<f64> { zero(v).iter().map(|v| -v).collect() };
+            x = x.beside(&negative(&slope));
+            z = z.beside(&negative(&modelled));
+        }
+        let mut column = Matrix::zeros(right.len(), 1)
+            .beside(&zero(&right))
+            .select(&[1]);
+        for matrix in [&mut x, &mut z, &mut column] {
+            whiten(&lower, matrix);
+        }
+        let right: Vec<f64> = column.rows().map(|row| row[0]).collect();
+        let mut found = solve(&x, &z, &right, used)?;
+        let delay_of_rows = delay;
+        let delay_step = if delay_free {
+            found.theta.pop().unwrap_or_default()
+        } else {
+            0.0
+        };
+        delay += delay_step.clamp(-DELAY_STEP, DELAY_STEP);
+        theta.clone_from(&found.theta);
+        last = Some((lower, x, z, right, found, delay_of_rows, delay_step));
+    }
+    let (lower, whitened, z, right, found, delay_of_rows, delay_step) =
+        last.ok_or(Unfit::Singular)?;
+    Ok(Fit {
+        basis: basis.clone(),
+        theta: found.theta,
+        delay,
+        delay_of_rows,
+        delay_step,
+        delay_free,
+        position_noise,
+        torque_noise: variance.sqrt(),
+        misfit: found.misfit,
+        covariances: found.covariances,
+        residuals: found.residuals,
+        whitened,
+        instruments: z,
+        right,
+        kept,
+        weak,
+        motion: instruments.motion,
+        lower,
+    })
+}
+
+impl Fit {
+    pub(super) fn used(&self) -> usize {
+        self.kept.iter().filter(|kept| **kept).count()
+    }
+
+    /// The same rows with fewer harmonics.
+    pub(super) fn subset(mut self, harmonics: usize) -> Result<Self, Unfit> {
+        let mut columns = self.basis.columns_of(harmonics);
+        if self.delay_free {
+            columns.push(self.basis.unknowns());
+        }
+        self.whitened = self.whitened.select(&columns);
+        self.instruments = self.instruments.select(&columns);
+        let used = self.used();
+        let mut found = solve(&self.whitened, &self.instruments, &self.right, used)?;
+        if self.delay_free {
+            self.delay = self.delay_of_rows + found.theta.pop().unwrap_or_default();
+        }
+        self.basis = self.basis.with_harmonics(harmonics);
+        self.theta = found.theta;
+        self.misfit = found.misfit;
+        self.covariances = found.covariances;
+        self.residuals = found.residuals;
+        Ok(self)
+    }
+
+    /// The smallest number of harmonics whose next ones are jointly insignificant (Wald), and two more.
+    pub(super) fn order(&self) -> usize {
+        const NEXT: usize = 4;
+        const FROM: usize = 3;
+        const MORE: usize = 2;
+        let most = self.basis.harmonics;
+        let normal = self.instruments.transposed_product(&self.whitened);
+        let spread = self.instruments.transposed_product(&self.instruments);
+        let right = self.instruments.transposed_times(&self.right);
+        for harmonics in FROM..most {
+            let next = NEXT.min(most - harmonics);
+            let wide = self.basis.with_harmonics(harmonics + next);
+            let mut columns = self.basis.columns_of(harmonics + next);
+            if self.delay_free {
+                columns.push(self.basis.unknowns());
+            }
+            let Some(inverse) = normal.block(&columns).inverse() else {
+                continue;
+            };
+            let shown: Vec<f64> = columns.iter().map(|&c| right[c]).collect();
+            let theta = inverse.times(&shown);
+            let covariance = inverse.congruence(&spread.block(&columns));
+            let potential = wide.potential();
+            let tested: Vec<usize> = (1 + 2 * harmonics..potential)
+                .chain(potential + 2 * harmonics..wide.mean_load())
+                .collect();
+            let values: Vec<f64> = tested.iter().map(|&i| theta[i]).collect();
+            let Some(weight) = covariance.block(&tested).inverse() else {
+                continue;
+            };
+            let wald = dot(&values, &weight.times(&values)) / self.misfit.max(1.0);
+            let count = tested.len() as f64;
+            if wald < count + 2.5 * (2.0 * count).sqrt() {
+                return (harmonics + MORE).min(most);
+            }
+        }
+        most
+    }
+
+    /// Variance of a sum of unknowns, from unknown `from` on with these factors: the larger of the two covariances.
+    pub(super) fn variance(&self, from: usize, factors: &[f64]) -> f64 {
+        let each = self.covariances.iter().map(|covariance| {
+            let sum = factors.iter().enumerate().map(|(i, a)| {
+                let row = &covariance.row(from + i)[from..from + factors.len()];
+                a * dot(row, factors)
+            });
+            sum.sum::<f64>()
+        });
+        each.fold(0.0, f64::max)
+    }
+}

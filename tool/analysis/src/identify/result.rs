@@ -1,0 +1,248 @@
+//! The result of an identification.
+
+use std::f64::consts::TAU;
+
+use schemars::JsonSchema;
+use serde::Serialize;
+
+use super::fault::{Fault, slip, visits};
+use super::fit::{DELAY_STEP, Fit, GRID};
+use super::matrix::dot;
+use super::{Options, Samples};
+
+/// Quantile of the normal distribution for a band of 95 %.
+const BAND: f64 = 1.96;
+
+/// A share of the torque's noise that some fault must have caused.
+const NOISY: f64 = 0.1;
+
+/// A value with its 95 % band.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, JsonSchema)]
+pub struct Estimate {
+    /// The value.
+    pub value: f64,
+    /// Half width of its band.
+    pub band: f64,
+}
+
+/// Cogging of an order.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
+pub struct Cogging {
+    /// Periods in a turn of the drive link.
+    pub order: u32,
+    /// Factor of its cosine (N·m).
+    pub cosine: Estimate,
+    /// Factor of its sine (N·m).
+    pub sine: Estimate,
+}
+
+/// The curves at an angle.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
+pub struct CurvePoint {
+    /// The angle (rad).
+    pub phi: f64,
+    /// J (kg·m²).
+    pub inertia: Estimate,
+    /// J′ (kg·m²/rad).
+    pub inertia_slope: f64,
+    /// V′, and a mean load (N·m).
+    pub potential_slope: Estimate,
+}
+
+/// How well the log's motion determines the machine.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
+pub struct Excitation {
+    /// Duration of the log (s).
+    pub duration: f64,
+    /// Turns.
+    pub turns: f64,
+    /// Median over the angles of std ω²/mean ω².
+    pub speed_variation: f64,
+    /// Inertial torque against the torque's noise: std α·mean J/σ_T.
+    pub acceleration: f64,
+    /// Share of the motion in the positive direction.
+    pub forward: f64,
+    /// Largest band of J, as a share of its maximum.
+    pub band: f64,
+}
+
+/// A machine, as its log shows it.
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+pub struct Identified {
+    /// Number of harmonics of J and of V′.
+    pub harmonics: usize,
+    /// Coefficients of J: mean, then cosine and sine of each harmonic (kg·m²).
+    pub inertia: Vec<Estimate>,
+    /// Coefficients of V′: cosine and sine of each harmonic (N·m).
+    pub potential: Vec<Estimate>,
+    /// The curves over a turn.
+    pub curves: Vec<CurvePoint>,
+    /// Mean load (N·m); `None`: in one direction it is a part of Coulomb friction.
+    pub mean_load: Option<Estimate>,
+    /// Viscous friction (N·m·s/rad).
+    pub viscous: Estimate,
+    /// Coulomb friction (N·m).
+    pub coulomb: Estimate,
+    /// Cogging.
+    pub cogging: Vec<Cogging>,
+    /// Delay of the logged torque (s).
+    pub delay: Estimate,
+    /// Standard deviation of the torque's noise (N·m).
+    pub torque_noise: f64,
+    /// Standard deviation of the position's noise (rad).
+    pub position_noise: f64,
+    /// Mean square of the residuals against the noise model: about 1.
+    pub misfit: f64,
+    /// The motion.
+    pub excitation: Excitation,
+    /// Faults that were found.
+    pub faults: Vec<Fault>,
+}
+
+impl Identified {
+    /// The drive torque of a motion (N·m).
+    pub fn torque(&self, phi: f64, omega: f64, alpha: f64) -> f64 {
+        let half_square = 0.5 * omega * omega;
+        let mut sum = self.inertia.first().map_or(0.0, |mean| mean.value) * alpha;
+        let coefficients = self.inertia.get(1..).unwrap_or_default().chunks(2);
+        for ((k, j), v) in (1..).zip(coefficients).zip(self.potential.chunks(2)) {
+            let order = f64::from(k);
+            let (s, c) = (order * phi).sin_cos();
+            let [a, b] = [j[0].value, j[1].value];
+            sum += (a * c + b * s) * alpha + order * (b * c - a * s) * half_square;
+            sum += v[0].value * c + v[1].value * s;
+        }
+        let cogging = self.cogging.iter().map(|cog| {
+            let (s, c) = (f64::from(cog.order) * phi).sin_cos();
+            cog.cosine.value * c + cog.sine.value * s
+        });
+        let sign = if omega == 0.0 { 0.0 } else { omega.signum() };
+        sum + self.mean_load.map_or(0.0, |load| load.value)
+            + self.viscous.value * omega
+            + self.coulomb.value * sign
+            + cogging.sum::<f64>()
+    }
+
+    /// Largest J (kg·m²).
+    pub fn largest_inertia(&self) -> f64 {
+        let sizes = self.curves.iter().map(|point| point.inertia.value.abs());
+        sizes.fold(0.0, f64::max)
+    }
+}
+
+/// The result of a fit.
+pub(super) fn identified(
+    fit: &Fit,
+    samples: &Samples,
+    options: &Options,
+    spikes: &[usize],
+) -> Identified {
+    let basis = &fit.basis;
+    let one = |i: usize| Estimate {
+        value: fit.theta[i],
+        band: BAND * fit.variance(i, &[1.0]).max(0.0).sqrt(),
+    };
+    let sum = |from: usize, row: &[f64]| Estimate {
+        value: dot(row, &fit.theta[from..from + row.len()]),
+        band: BAND * fit.variance(from, row).max(0.0).sqrt(),
+    };
+    let curves: Vec<CurvePoint> = (0..GRID)
+        .map(|k| {
+            let phi = k as f64 * TAU / GRID as f64;
+            let mut waves = Vec::new();
+            basis.harmonics_at(phi, &mut waves);
+            let mut load = basis.potential_row(phi);
+            if basis.mean {
+                load.push(1.0);
+            }
+            CurvePoint {
+                phi,
+                inertia: sum(0, &basis.inertia_row(phi)),
+                inertia_slope: basis.at(&fit.theta, &waves, phi).inertia_slope,
+                potential_slope: sum(basis.potential(), &load),
+            }
+        })
+        .collect();
+    let cogging = basis.cogging.iter().zip(0..).map(|(&order, k)| Cogging {
+        order,
+        cosine: one(basis.cog() + 2 * k),
+        sine: one(basis.cog() + 2 * k + 1),
+    });
+    let delay_band = if fit.delay_free {
+        BAND * fit.variance(basis.unknowns(), &[1.0]).max(0.0).sqrt()
+    } else {
+        0.0
+    };
+    let mut identified = Identified {
+        harmonics: basis.harmonics,
+        inertia: (0..basis.inertias()).map(one).collect(),
+        potential: (basis.potential()..basis.mean_load()).map(one).collect(),
+        mean_load: basis.mean.then(|| one(basis.mean_load())),
+        viscous: one(basis.viscous()),
+        coulomb: one(basis.coulomb()),
+        cogging: cogging.collect(),
+        delay: Estimate {
+            value: options.delay.unwrap_or(fit.delay),
+            band: delay_band,
+        },
+        torque_noise: fit.torque_noise,
+        position_noise: fit.position_noise,
+        misfit: fit.misfit,
+        excitation: excitation(fit, samples, &curves),
+        faults: Vec::new(),
+        curves,
+    };
+    identified.faults = faults(&identified, fit, samples, spikes);
+    identified
+}
+
+fn excitation(fit: &Fit, samples: &Samples, curves: &[CurvePoint]) -> Excitation {
+    let speed = &fit.motion.speed;
+    let count = speed.len() as f64;
+    let alpha = &fit.motion.acceleration;
+    let mean_alpha = alpha.iter().sum::<f64>() / count;
+    let deviation = alpha.iter().map(|a| (a - mean_alpha).powi(2)).sum::<f64>() / count;
+    let inertias = || curves.iter().map(|point| point.inertia.value.abs());
+    let mean = inertias().sum::<f64>() / curves.len() as f64;
+    let largest = inertias().fold(0.0, f64::max);
+    let band = curves.iter().map(|point| point.inertia.band);
+    let moves = samples.position.windows(2).map(|pair| pair[1] - pair[0]);
+    let travel: f64 = moves.map(f64::abs).sum();
+    Excitation {
+        duration: samples.step * samples.position.len() as f64,
+        turns: travel / TAU,
+        speed_variation: visits(samples, speed).variation,
+        acceleration: deviation.sqrt() * mean / fit.torque_noise,
+        forward: speed.iter().filter(|w| **w > 0.0).count() as f64 / count,
+        band: band.fold(0.0, f64::max) / largest,
+    }
+}
+
+fn faults(found: &Identified, fit: &Fit, samples: &Samples, spikes: &[usize]) -> Vec<Fault> {
+    let mut faults = Vec::new();
+    if found.curves.iter().all(|point| point.inertia.value < 0.0) {
+        faults.push(Fault::Reversed);
+    }
+    let slip = slip(fit);
+    // The jump of a slip is an outlier itself.
+    let near =
+        |at: f64| matches!(slip, Some(Fault::Slip { at: slip, .. }) if (at - slip).abs() < 1.0);
+    let spikes = spikes.iter().map(|spike| *spike as f64 * samples.step);
+    let spikes: Vec<f64> = spikes.filter(|at| !near(*at)).collect();
+    if let Some(first) = spikes.iter().copied().reduce(f64::min) {
+        faults.push(Fault::Spikes {
+            count: spikes.len(),
+            first,
+        });
+    }
+    faults.extend(slip);
+    let rms = (dot(&samples.torque, &samples.torque) / samples.torque.len() as f64).sqrt();
+    let share = found.torque_noise / rms;
+    if share > NOISY {
+        faults.push(Fault::Noisy { share });
+    }
+    if fit.delay_step.abs() >= DELAY_STEP {
+        faults.push(Fault::Delay { at: fit.delay });
+    }
+    faults
+}

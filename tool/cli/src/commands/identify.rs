@@ -1,0 +1,125 @@
+//! `jred identify`: the machine's curves from a log of its drive.
+
+use std::f64::consts::TAU;
+use std::path::{Path, PathBuf};
+
+use miette::{Result, miette};
+
+use crate::commands::core_error::core_report;
+use crate::commands::{Completion, documents, print_answer};
+use crate::options::identify::Identify;
+use crate::output::{self, Files};
+use jred::Domain;
+use jred::machine::Reducible as _;
+use jred_analysis::checked;
+use jred_analysis::identify::{self, Options, Repair, Shaft};
+use jred_file::model::machine::MachineFile;
+use jred_file::model::variator;
+use jred_file::plain;
+use jred_file::read::{self, LogLayout};
+use jred_report::list::identify::{Designed, IdentifyView, LogResult, refusal, unreadable};
+use jred_report::page;
+
+/// Runs the command.
+///
+/// # Errors
+/// Bad input, or a log that does not determine the machine.
+pub(super) fn run(options: &Identify) -> Result<Completion> {
+    let file = checked::read(&options.machine)?;
+    variator::refuse(&file, "identify")?;
+    output::check(options.documents.files())?;
+    if file.machine.domain() != Domain::Turn {
+        return Err(miette!(
+            help = "identify a machine whose drive link turns fully",
+            "the drive link of {} does not turn fully: its curves cannot be sums of harmonics over a turn",
+            file.name
+        ));
+    }
+    if options.rotor_inertia.is_some() && options.shaft == Shaft::Link {
+        return Err(miette!(
+            help = "leave out --rotor-inertia, or give --shaft motor",
+            "--rotor-inertia is at the motor, and the log is of the drive link"
+        ));
+    }
+    let logs = options.logs.iter().map(|log| one(options, &file, log));
+    let logs = logs.collect::<Result<Vec<LogResult>>>()?;
+    let shown = IdentifyView {
+        file: &file,
+        designed: designed(&file).map_err(core_report)?,
+        logs,
+    };
+    let mut answer = shown.answer();
+    let page = || Ok(page::identify_page(&shown));
+    let workbook = || Ok(answer.clone());
+    let (lines, printed) = documents::write(&options.documents, Files::default(), page, workbook)?;
+    for line in lines {
+        answer.sentence(line);
+    }
+    print_answer(&answer, options.format)?;
+    printed?;
+    Ok(if shown.has_fault() {
+        Completion::Violated
+    } else {
+        Completion::Holds
+    })
+}
+
+/// The result of one log.
+fn one(options: &Identify, file: &MachineFile, path: &PathBuf) -> Result<LogResult> {
+    let layout = LogLayout {
+        columns: options.columns.clone(),
+        counts_per_turn: options.counts_per_turn,
+        torque_constant: options.torque_constant,
+        skipped: options.skip_rows,
+    };
+    let name = plain::path(path);
+    let log = read::drive_log(&path.to_string_lossy(), Path::new(""), &layout)?;
+    let torque: Vec<f64> = if options.reverse_torque {
+        log.torque.iter().map(|torque| -torque).collect()
+    } else {
+        log.torque
+    };
+    let (mut samples, repairs): (_, Vec<Repair>) =
+        identify::samples(&log.time, &log.position, &torque)
+            .map_err(|fault| unreadable(&name, &fault))?;
+    let geared = options.shaft == Shaft::Motor;
+    if geared {
+        identify::referred(&mut samples, file);
+    }
+    let ratio = if geared {
+        file.drive_train.ratio().abs()
+    } else {
+        1.0
+    };
+    let counts = options.counts_per_turn;
+    let request = Options {
+        cogging: options.cogging.clone(),
+        delay: options.delay,
+        encoder_step: counts.map(|counts| TAU / f64::from(counts) / ratio),
+    };
+    let mut found = identify::identify(&samples, &request).map_err(|why| refusal(&name, &why))?;
+    if geared {
+        identify::without_drive(&mut found, file, options.rotor_inertia.unwrap_or_default());
+    }
+    Ok(LogResult {
+        name,
+        repairs,
+        found,
+        encoder_step: request.encoder_step,
+    })
+}
+
+/// The curves of the design.
+fn designed(file: &MachineFile) -> std::result::Result<Vec<Designed>, jred::error::Error> {
+    let positions = (0..360).map(|k| f64::from(k) * TAU / 360.0);
+    let each = positions.map(|phi| {
+        let reduction = file.bare_reduction(phi)?;
+        Ok(Designed {
+            inertia: reduction.inertia,
+            potential_slope: reduction.potential_slope,
+            viscous: reduction.viscous,
+            coulomb: reduction.coulomb,
+        })
+    });
+    each.collect()
+}

@@ -1,0 +1,363 @@
+//! The identified machine against its design.
+
+mod words;
+
+use std::f64::consts::TAU;
+use std::fmt::Write as _;
+
+use schemars::JsonSchema;
+use serde::Serialize;
+
+use crate::answer::Answer;
+use crate::answer::schema::Data;
+use crate::table::reading::{ColumnKind, Reading};
+use jred_analysis::identify::{Cogging, CurvePoint, Estimate, Fault, Identified, Repair};
+use jred_file::model::machine::MachineFile;
+use jred_file::number::rounding::{percent, short};
+use jred_sizing::cell::Cell;
+
+use words::of_log;
+pub use words::{refusal, unreadable};
+
+/// Rows between those of the table for reading.
+const EVERY: usize = 30;
+
+/// The design at an angle.
+#[derive(Clone, Copy, Debug, Serialize, JsonSchema)]
+pub struct Designed {
+    /// J (kg·m²).
+    pub inertia: f64,
+    /// U′ of weight and springs (N·m).
+    pub potential_slope: f64,
+    /// b (N·m·s/rad).
+    pub viscous: f64,
+    /// c (N·m).
+    pub coulomb: f64,
+}
+
+/// The result of one log.
+#[derive(Clone, Debug)]
+pub struct LogResult {
+    /// Its name.
+    pub name: String,
+    /// Repaired faults of its rows.
+    pub repairs: Vec<Repair>,
+    /// The machine.
+    pub found: Identified,
+    /// A count of the encoder at the drive link (rad), if known.
+    pub encoder_step: Option<f64>,
+}
+
+/// Results of all logs, and the design.
+#[derive(Clone, Debug)]
+pub struct IdentifyView<'a> {
+    /// The machine.
+    pub file: &'a MachineFile,
+    /// The design at the angles of the identified curves.
+    pub designed: Vec<Designed>,
+    /// The logs.
+    pub logs: Vec<LogResult>,
+}
+
+/// The JSON of `jred identify`.
+#[derive(Serialize, JsonSchema)]
+pub(crate) struct IdentifyData<'a> {
+    /// The mean of the logs, with the bands of that mean: curves over the angle.
+    curves: Vec<CurvePoint>,
+    /// The design at the same angles.
+    designed: &'a [Designed],
+    /// Largest deviation of J from the design, as a share of the designed maximum.
+    deviation: f64,
+    /// Where it is (rad).
+    deviation_at: f64,
+    /// Largest difference of J between the logs, as a share of the maximum; null for one log.
+    repeatability: Option<f64>,
+    /// Each log.
+    logs: Vec<&'a Identified>,
+}
+
+impl Data for IdentifyData<'_> {
+    const FORM: &'static str = "jred-identify/1";
+}
+
+/// A deviation of a curve from the design.
+struct Deviation {
+    at: usize,
+    share: f64,
+}
+
+impl IdentifyView<'_> {
+    /// Whether a fault spoils a result.
+    pub fn has_fault(&self) -> bool {
+        let all = self.logs.iter().flat_map(|log| &log.found.faults);
+        all.into_iter()
+            .any(|fault| !matches!(fault, Fault::Spikes { .. }))
+    }
+
+    /// The mean of an estimate over the logs.
+    fn mean(&self, of: impl Fn(&Identified) -> Estimate) -> Estimate {
+        let count = self.logs.len().max(1) as f64;
+        let all = || self.logs.iter().map(|log| of(&log.found));
+        Estimate {
+            value: all().map(|one| one.value).sum::<f64>() / count,
+            band: all().map(|one| one.band * one.band).sum::<f64>().sqrt() / count,
+        }
+    }
+
+    /// The mean curves.
+    pub(crate) fn curves(&self) -> Vec<CurvePoint> {
+        let at = |k: usize, of: fn(&CurvePoint) -> Estimate| {
+            self.mean(|found| found.curves.get(k).map(of).unwrap_or_default())
+        };
+        let count = self.designed.len();
+        let curve = |k: usize| CurvePoint {
+            phi: k as f64 * TAU / count as f64,
+            inertia: at(k, |point| point.inertia),
+            inertia_slope: at(k, |point| Estimate {
+                value: point.inertia_slope,
+                band: 0.0,
+            })
+            .value,
+            potential_slope: at(k, |point| point.potential_slope),
+        };
+        (0..count).map(curve).collect()
+    }
+
+    /// The largest difference of J between two logs, as a share of the maximum.
+    fn repeatability(&self) -> Option<f64> {
+        if self.logs.len() < 2 {
+            return None;
+        }
+        let most = self
+            .designed
+            .iter()
+            .map(|design| design.inertia)
+            .fold(0.0, f64::max);
+        let spread = (0..self.designed.len()).map(|k| {
+            let all = self.logs.iter().filter_map(|log| log.found.curves.get(k));
+            let [least, most] = all.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], point| {
+                [a.min(point.inertia.value), b.max(point.inertia.value)]
+            });
+            most - least
+        });
+        Some(spread.fold(0.0, f64::max) / most)
+    }
+
+    fn deviation(
+        &self,
+        curves: &[CurvePoint],
+        found: fn(&CurvePoint) -> f64,
+        designed: fn(&Designed) -> f64,
+    ) -> Deviation {
+        let most = self
+            .designed
+            .iter()
+            .map(|d| designed(d).abs())
+            .fold(0.0, f64::max);
+        let each = curves.iter().zip(&self.designed).enumerate();
+        let each = each.map(|(at, (point, design))| Deviation {
+            at,
+            share: (found(point) - designed(design)) / most.max(1e-300),
+        });
+        each.max_by(|a, b| a.share.abs().total_cmp(&b.share.abs()))
+            .unwrap_or(Deviation { at: 0, share: 0.0 })
+    }
+
+    /// The answer.
+    pub fn answer(&self) -> Answer<'static> {
+        let curves = self.curves();
+        let inertia = self.deviation(&curves, |p| p.inertia.value, |d| d.inertia);
+        let potential = self.deviation(&curves, |p| p.potential_slope.value, |d| d.potential_slope);
+        let data = IdentifyData {
+            deviation: inertia.share,
+            deviation_at: curves.get(inertia.at).map_or(0.0, |point| point.phi),
+            repeatability: self.repeatability(),
+            designed: &self.designed,
+            logs: self.logs.iter().map(|log| &log.found).collect(),
+            curves: curves.clone(),
+        };
+        let mut answer = Answer::new(format!("{}: identified from its log", self.title()), &data);
+        answer.fact("J against the design", self.of_inertia(&curves, &inertia));
+        if self
+            .designed
+            .iter()
+            .any(|design| design.potential_slope != 0.0)
+        {
+            let share = percent(potential.share.abs());
+            let side = side(potential.share);
+            let text = format!(
+                "up to {share} of its largest value {side} at {} deg",
+                potential.at * 360 / curves.len().max(1)
+            );
+            answer.fact("V' against the design", text);
+        }
+        if let Some(spread) = data.repeatability {
+            let text = format!(
+                "J differs by up to {} of its maximum between {} logs",
+                percent(spread),
+                self.logs.len()
+            );
+            answer.fact("repeatability", text);
+        }
+        self.friction(&mut answer);
+        for log in &self.logs {
+            if self.logs.len() > 1 {
+                answer.heading(log.name.clone());
+            }
+            of_log(&mut answer, log);
+        }
+        answer.table(self.table(&curves));
+        answer.csv(self.reduced_curves(&curves));
+        answer
+    }
+
+    fn title(&self) -> &str {
+        &self.file.name
+    }
+
+    fn of_inertia(&self, curves: &[CurvePoint], deviation: &Deviation) -> String {
+        let band = curves
+            .iter()
+            .map(|point| point.inertia.band)
+            .fold(0.0, f64::max);
+        let most = self
+            .designed
+            .iter()
+            .map(|design| design.inertia)
+            .fold(0.0, f64::max);
+        let [found, designed] = [
+            curves
+                .get(deviation.at)
+                .map_or(0.0, |point| point.inertia.value),
+            self.designed
+                .get(deviation.at)
+                .map_or(0.0, |design| design.inertia),
+        ];
+        format!(
+            "up to {} of its maximum {} at {} deg ({} instead of {} kg m^2); the 95 % band is up to ±{} wide",
+            percent(deviation.share.abs()),
+            side(deviation.share),
+            deviation.at * 360 / curves.len().max(1),
+            short(found),
+            short(designed),
+            percent(band / most.max(1e-300))
+        )
+    }
+
+    fn friction(&self, answer: &mut Answer) {
+        let count = self.designed.len().max(1) as f64;
+        let mean = |of: fn(&Designed) -> f64| self.designed.iter().map(of).sum::<f64>() / count;
+        let row = |name: &str, found: Estimate, designed: Option<f64>| {
+            let designed = designed.map_or(Cell::Empty, Cell::Number);
+            let [value, band] = [found.value, found.band].map(Cell::Number);
+            vec![Cell::Text(name.to_owned()), value, band, designed]
+        };
+        let mut rows = vec![
+            row(
+                "viscous friction b [N m s/rad]",
+                self.mean(|f| f.viscous),
+                Some(mean(|d| d.viscous)),
+            ),
+            row(
+                "Coulomb friction c [N m]",
+                self.mean(|f| f.coulomb),
+                Some(mean(|d| d.coulomb)),
+            ),
+        ];
+        if self.logs.iter().all(|log| log.found.mean_load.is_some()) {
+            let load = self.mean(|f| f.mean_load.unwrap_or_default());
+            rows.push(row("mean load [N m]", load, None));
+        }
+        let orders = self.logs.first().map_or(&[][..], |log| &log.found.cogging);
+        for (k, cogging) in orders.iter().enumerate() {
+            let part = |of: fn(&Cogging) -> Estimate| {
+                self.mean(|found| found.cogging.get(k).map(of).unwrap_or_default())
+            };
+            let order = cogging.order;
+            rows.push(row(
+                &format!("cogging, cos {order}φ [N m]"),
+                part(|c| c.cosine),
+                None,
+            ));
+            rows.push(row(
+                &format!("cogging, sin {order}φ [N m]"),
+                part(|c| c.sine),
+                None,
+            ));
+        }
+        answer.table(Reading {
+            columns: ["", "identified", "95 % band ±", "designed, mean"]
+                .map(str::to_owned)
+                .into(),
+            kinds: vec![
+                ColumnKind::Words,
+                ColumnKind::Quantity,
+                ColumnKind::Quantity,
+                ColumnKind::Quantity,
+            ],
+            rows,
+            ..Reading::default()
+        });
+    }
+
+    fn table(&self, curves: &[CurvePoint]) -> Reading {
+        let rows = curves.iter().zip(&self.designed).step_by(EVERY);
+        let rows = rows.map(|(point, design)| {
+            [
+                point.phi.to_degrees().round(),
+                point.inertia.value,
+                point.inertia.band,
+                design.inertia,
+                point.potential_slope.value,
+                point.potential_slope.band,
+                design.potential_slope,
+            ]
+            .map(Cell::Number)
+            .into()
+        });
+        Reading {
+            columns: [
+                "phi [deg]",
+                "J [kg m^2]",
+                "band ±",
+                "designed",
+                "V' [N m]",
+                "band ±",
+                "designed",
+            ]
+            .map(str::to_owned)
+            .into(),
+            rows: rows.collect(),
+            ..Reading::default()
+        }
+    }
+
+    /// The curves as the file of a machine of the type reduced-curves.
+    fn reduced_curves(&self, curves: &[CurvePoint]) -> String {
+        let mean_load = self.mean(|found| found.mean_load.unwrap_or_default()).value;
+        let (b, c) = (
+            self.mean(|f| f.viscous).value,
+            self.mean(|f| f.coulomb).value,
+        );
+        let mut csv =
+            "phi [deg],J [kg m^2],T [N m],T_potential [N m],b [N m s/rad],c [N m]\n".to_owned();
+        for point in curves {
+            // Writing to a text cannot fail.
+            let _ = writeln!(
+                csv,
+                "{},{:.9e},{:.9e},{:.9e},{:.9e},{:.9e}",
+                short(point.phi.to_degrees()),
+                point.inertia.value,
+                -mean_load,
+                mean_load - point.potential_slope.value,
+                b.max(0.0),
+                c.max(0.0)
+            );
+        }
+        csv
+    }
+}
+
+const fn side(share: f64) -> &'static str {
+    if share < 0.0 { "below" } else { "above" }
+}

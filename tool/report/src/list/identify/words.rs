@@ -1,0 +1,170 @@
+//! A log and its faults in words.
+
+use miette::{Report, miette};
+
+use jred_analysis::identify::{Fault, Obstacle, RecordFault, Repair};
+use jred_file::number::rounding::{percent, short};
+
+use super::LogResult;
+use crate::answer::Answer;
+
+/// Limits of the warnings: variation of ω² at an angle, inertial torque against the noise, band of J.
+const EVEN: f64 = 0.10;
+const HARDLY: f64 = 2.0;
+const WIDE: f64 = 0.01;
+
+pub(super) fn of_log(answer: &mut Answer, log: &LogResult) {
+    let found = &log.found;
+    let motion = &found.excitation;
+    answer.fact(
+        "motion",
+        format!(
+            "{} turns in {} s; at an angle ω² varies by {}; {} of the time forwards",
+            short(motion.turns),
+            short(motion.duration),
+            percent(motion.speed_variation),
+            percent(motion.forward)
+        ),
+    );
+    answer.fact("harmonics", found.harmonics.to_string());
+    answer.fact(
+        "delay of the torque",
+        format!(
+            "{} ± {} ms",
+            short(found.delay.value * 1e3),
+            short(found.delay.band * 1e3)
+        ),
+    );
+    answer.fact(
+        "noise",
+        format!(
+            "torque {} N m, position {} deg",
+            short(found.torque_noise),
+            short(found.position_noise.to_degrees())
+        ),
+    );
+    for repair in &log.repairs {
+        answer.warning(repaired(repair));
+    }
+    for fault in &found.faults {
+        answer.warning(fault_words(fault, log.encoder_step));
+    }
+    if motion.speed_variation < EVEN {
+        answer.warning(format!(
+            "at an angle ω² varies by {} only: vary the speed more from turn to turn",
+            percent(motion.speed_variation)
+        ));
+    }
+    if motion.acceleration < HARDLY {
+        answer.warning(format!(
+            "the inertial torque is only {} times the torque's noise: accelerate harder",
+            short(motion.acceleration)
+        ));
+    }
+    if motion.band > WIDE {
+        answer.warning(format!(
+            "the band of J is ±{} of its maximum: for 1 % record {} s",
+            percent(motion.band),
+            short((motion.duration * (motion.band / WIDE).powi(2)).ceil())
+        ));
+    }
+    if found.mean_load.is_none() {
+        answer.warning(
+            "the log has one direction only: a mean load cannot be separated from Coulomb friction; record both directions",
+        );
+    }
+}
+
+fn repaired(repair: &Repair) -> String {
+    match *repair {
+        Repair::Duplicates { count, row } => format!(
+            "{count} rows have the time of the row before (first: row {row}) and are left out: record the time with more digits"
+        ),
+        Repair::Gaps {
+            count,
+            row,
+            longest,
+        } => format!(
+            "samples are missing in {count} places, the first before row {row}, the longest for {} ms; they are left out: check the bus or the recorder",
+            short(longest * 1e3)
+        ),
+        Repair::Jitter { share } => format!(
+            "the times scatter by up to {} of a step; position and torque are interpolated: record with the clock of the drive",
+            percent(share)
+        ),
+        Repair::Saturated { count, row, torque } => format!(
+            "{count} torques are at the limit {} N m (first: row {row}) and are left out: accelerate less, or raise the limit",
+            short(torque)
+        ),
+    }
+}
+
+fn fault_words(fault: &Fault, step: Option<f64>) -> String {
+    match *fault {
+        Fault::Slip { at, by, .. } => {
+            let size = step.map_or_else(
+                || format!("{} deg", short(by.to_degrees())),
+                |step| format!("{} counts", short((by / step).round())),
+            );
+            format!("the encoder slips by about {size} at about {} s: check its coupling and its cable, and record again", short(at))
+        }
+        Fault::Spikes { count, first } => format!(
+            "{count} torques or positions do not fit the motion (first at {} s) and are left out: check shield and filter",
+            short(first)
+        ),
+        Fault::Reversed => "J is negative at every angle: torque or position has the wrong sign; give --reverse-torque".to_owned(),
+        Fault::Noisy { share } => format!(
+            "{} of the torque is not explained: the torque is limited, samples are missing, or the machine has more than one degree of freedom",
+            percent(share)
+        ),
+        Fault::Delay { at } => format!(
+            "the delay of the torque does not settle ({} ms): give --delay",
+            short(at * 1e3)
+        ),
+    }
+}
+
+/// Why a log does not determine a machine.
+pub fn refusal(name: &str, why: &Obstacle) -> Report {
+    match *why {
+        Obstacle::Short { rows, needed } => miette!(
+            help = "record 30 s with the speed varied from turn to turn",
+            "{name} is too short: {rows} independent rows are left, {needed} are needed"
+        ),
+        Obstacle::NotVisited { from, to } => miette!(
+            help = "let the drive link turn fully in the log",
+            "{name}: the angles from {} to {} deg are not visited",
+            short(from.to_degrees()),
+            short(to.to_degrees())
+        ),
+        Obstacle::SameSpeed { variation } => miette!(
+            help = "vary the speed from turn to turn, for example 60 to 120 rpm in waves of 0.4 to 3 Hz; a cycle repeated identically determines nothing",
+            "{name}: at each angle the speed is always the same (ω² varies by {}, at least 5 % is needed): J' and V' cannot be separated",
+            percent(variation)
+        ),
+        Obstacle::NotDetermined => miette!(
+            help = "vary speed and acceleration more, in both directions",
+            "{name}: the motion does not determine the machine"
+        ),
+    }
+}
+
+/// Why the rows of a log cannot be used.
+pub fn unreadable(name: &str, fault: &RecordFault) -> Report {
+    match *fault {
+        RecordFault::Backwards { row, time, before } => miette!(
+            help = "sort the rows by time, or give one file for each run",
+            "{name}: the time does not increase: row {row} has {} s after {} s",
+            short(time),
+            short(before)
+        ),
+        RecordFault::Scattered => miette!(
+            help = "give one file for each run without pauses in the recording",
+            "{name}: most samples are missing between the first and the last"
+        ),
+        RecordFault::Empty => miette!(
+            help = "record 30 s",
+            "{name} has fewer than two different times"
+        ),
+    }
+}
