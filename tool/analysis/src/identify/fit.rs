@@ -144,6 +144,86 @@ impl Instruments {
     }
 }
 
+/// Data that the rounds of a fit share.
+struct Prepared {
+    weak: Weak,
+    /// From the measured position.
+    rows: Matrix,
+    position_noise: f64,
+    kept: Vec<bool>,
+    used: usize,
+    /// Turns per second.
+    turns: f64,
+    /// Those of the first round.
+    instruments: Instruments,
+}
+
+impl Prepared {
+    fn new(samples: &Samples, basis: &Basis, options: &Options) -> Result<Self, Unfit> {
+        let (step, position) = (samples.step, &samples.position);
+        let count = position.len();
+        let spacing = ((KNOTS / step).round() as usize).max(2);
+        let weak = Weak::new(count, spacing, step);
+        let position_noise = noise(position, &samples.faulty)
+            .max(options.encoder_step.unwrap_or_default() / 12.0f64.sqrt())
+            .max(1e-9);
+        let half = ((SPEED_WINDOW / step).round() as usize).max(4);
+        let raw = smooth(position, step, half).speed;
+        let excess = position_noise.powi(2) * speed_noise(half, step);
+        let mean_square = dot(&raw, &raw) / count as f64;
+        let travel = position.first().zip(position.last());
+        let travel = travel.map_or(0.0, |(a, b)| (b - a).abs());
+        let turns = (travel / (count as f64 * step)).max(mean_square.sqrt()) / TAU;
+        let speed: Vec<f64> = raw
+            .iter()
+            .map(|w| w.signum() * (w * w - excess).max(0.0).sqrt())
+            .collect();
+        let rows = weak.rows(basis, position, &speed);
+        let first_cutoff = (5.0 * turns).max(10.0);
+        let instruments = Instruments::new(&weak, basis, samples, first_cutoff);
+        let margin = 2.0 * half_window(first_cutoff, step) as f64 + 5e-3 / step;
+        let edge = (margin / spacing as f64).ceil() as usize + 1;
+        let near = (NEAR / step + 1e-9) as usize;
+        let faulty = weak.touched(samples.faulty.iter().copied(), near);
+        let rest = REST.min(mean_square.sqrt() / 20.0);
+        let resting = instruments.motion.speed.iter().map(|w| w.abs() < rest);
+        let resting = weak.touched(resting, near);
+        let kept: Vec<bool> = (0..weak.count)
+            .map(|i| i >= edge && i + edge < weak.count && !faulty[i] && !resting[i])
+            .collect();
+        let used = kept.iter().filter(|kept| **kept).count();
+        let needed = ROWS * (basis.unknowns() + 1);
+        if used < needed {
+            return Err(Unfit::Few { rows: used, needed });
+        }
+        Ok(Self {
+            weak,
+            rows,
+            position_noise,
+            kept,
+            used,
+            turns,
+            instruments,
+        })
+    }
+}
+
+/// The rows, with zeros where they do not count.
+fn masked(rows: &Matrix, kept: &[bool]) -> Matrix {
+    let mut masked = rows.clone();
+    for (row, kept) in masked.rows_mut().zip(kept) {
+        if !kept {
+            row.fill(0.0);
+        }
+    }
+    masked
+}
+
+fn zeroed(values: &[f64], kept: &[bool]) -> Vec<f64> {
+    let each = values.iter().zip(kept);
+    each.map(|(v, kept)| if *kept { *v } else { 0.0 }).collect()
+}
+
 /// The fit with this basis, beginning at the delay `start`, if that is not known.
 pub(super) fn fit(
     samples: &Samples,
@@ -152,62 +232,22 @@ pub(super) fn fit(
     start: Option<f64>,
     rounds: Option<usize>,
 ) -> Result<Fit, Unfit> {
-    let (step, position) = (samples.step, &samples.position);
-    let count = position.len();
-    let spacing = ((KNOTS / step).round() as usize).max(2);
-    let weak = Weak::new(count, spacing, step);
-    let position_noise = noise(position, &samples.faulty)
-        .max(options.encoder_step.unwrap_or_default() / 12.0f64.sqrt())
-        .max(1e-9);
+    let Prepared {
+        weak,
+        rows,
+        position_noise,
+        kept,
+        used,
+        turns,
+        mut instruments,
+    } = Prepared::new(samples, basis, options)?;
     let delay_free = options.delay.is_none();
     let mut delay = options.delay.or(start).unwrap_or(DELAY);
-    let half = ((SPEED_WINDOW / step).round() as usize).max(4);
-    let raw = smooth(position, step, half).speed;
-    let excess = position_noise.powi(2) * speed_noise(half, step);
-    let mean_square = dot(&raw, &raw) / count as f64;
-    let travel = position.first().zip(position.last());
-    let travel = travel.map_or(0.0, |(a, b)| (b - a).abs());
-    let turns = (travel / (count as f64 * step)).max(mean_square.sqrt()) / TAU;
-    let speed: Vec<f64> = raw
-        .iter()
-        .map(|w| w.signum() * (w * w - excess).max(0.0).sqrt())
-        .collect();
-    let rows = weak.rows(basis, position, &speed);
-    let highest = 0.05 / step;
-    let first_cutoff = (5.0 * turns).max(10.0);
-    let mut instruments = Instruments::new(&weak, basis, samples, first_cutoff);
-    let margin = 2.0 * half_window(first_cutoff, step) as f64 + 5e-3 / step;
-    let edge = (margin / spacing as f64).ceil() as usize + 1;
-    let near = (NEAR / step + 1e-9) as usize;
-    let faulty = weak.touched(samples.faulty.iter().copied(), near);
-    let rest = REST.min(mean_square.sqrt() / 20.0);
-    let resting = instruments.motion.speed.iter().map(|w| w.abs() < rest);
-    let resting = weak.touched(resting, near);
-    let kept: Vec<bool> = (0..weak.count)
-        .map(|i| i >= edge && i + edge < weak.count && !faulty[i] && !resting[i])
-        .collect();
-    let used = kept.iter().filter(|kept| **kept).count();
-    let needed = ROWS * (basis.unknowns() + 1);
-    if used < needed {
-        return Err(Unfit::Few { rows: used, needed });
-    }
-    let masked = |rows: &Matrix| {
-        let mut masked = rows.clone();
-        for (row, kept) in masked.rows_mut().zip(&kept) {
-            if !kept {
-                row.fill(0.0);
-            }
-        }
-        masked
-    };
     let torque_band = weak.torque_band();
     // Without weights, to begin with.
     let right = weak.torque(&samples.torque, delay)[0].clone();
-    let (x, z) = (masked(&rows), masked(&instruments.rows));
-    let zero = |values: &[f64]| -> Vec<f64> {
-        let each = values.iter().zip(&kept);
-        each.map(|(v, kept)| if *kept { *v } else { 0.0 }).collect()
-    };
+    let [x, z] = [&rows, &instruments.rows].map(|rows| masked(rows, &kept));
+    let zero = |values: &[f64]| zeroed(values, &kept);
     let first = solve(&x, &z, &zero(&right), used)?;
     let mut theta = first.theta;
     let mut variance = 0.3 * dot(&first.residuals, &first.residuals) / used as f64 / torque_band[0];
@@ -240,11 +280,11 @@ pub(super) fn fit(
                 .sum();
             let mean = (size / GRID as f64).max(1e-300);
             let crossing = (variance.sqrt() / (mean * position_noise)).sqrt() / TAU;
-            let cutoff = (0.7 * crossing).max(5.0 * turns).min(highest);
+            let cutoff = (0.7 * crossing).max(5.0 * turns).min(0.05 / samples.step);
             instruments = Instruments::new(&weak, basis, samples, cutoff);
         }
         let modelled = gradient(&instruments.rows.times(&theta), weak.knots());
-        let [mut x, mut z] = [&rows, &instruments.rows].map(masked);
+        let [mut x, mut z] = [&rows, &instruments.rows].map(|rows| masked(rows, &kept));
         if delay_free {
             let negative = |v: &[f64]| -> Vec<f64> { zero(v).iter().map(|v| -v).collect() };
             x = x.beside(&negative(&slope));

@@ -125,7 +125,7 @@ impl Matrix {
             let size = |i: &usize| wide.at(*i, k).abs();
             let best = (k..n).max_by(|a, b| size(a).total_cmp(&size(b)))?;
             let pivot = wide.at(best, k);
-            if !(pivot.abs() > 1e-14) {
+            if pivot.is_nan() || pivot.abs() <= 1e-14 {
                 return None;
             }
             let chosen: Vec<f64> = wide.row(best).iter().map(|x| x / pivot).collect();

@@ -85,32 +85,7 @@ pub fn samples(
     torque: &[f64],
 ) -> Result<(Samples, Vec<Repair>), RecordFault> {
     let mut repairs = Vec::new();
-    let mut kept: Vec<usize> = Vec::with_capacity(time.len());
-    let (mut duplicates, mut first_duplicate) = (0, 0);
-    for (k, &t) in time.iter().enumerate() {
-        match kept.last().map(|&last| time[last]) {
-            Some(before) if t < before => {
-                return Err(RecordFault::Backwards {
-                    row: k + 1,
-                    time: t,
-                    before,
-                });
-            }
-            Some(before) if t - before <= 1e-12 * before.abs() => {
-                if duplicates == 0 {
-                    first_duplicate = k + 1;
-                }
-                duplicates += 1;
-            }
-            _ => kept.push(k),
-        }
-    }
-    if duplicates > 0 {
-        repairs.push(Repair::Duplicates {
-            count: duplicates,
-            row: first_duplicate,
-        });
-    }
+    let kept = rising(time, &mut repairs)?;
     let mut steps: Vec<f64> = kept.windows(2).map(|k| time[k[1]] - time[k[0]]).collect();
     steps.sort_by(f64::total_cmp);
     let Some(&median) = steps.get(steps.len() / 2) else {
@@ -195,16 +170,46 @@ pub fn samples(
     Ok((samples, repairs))
 }
 
+/// The rows whose times increase.
+fn rising(time: &[f64], repairs: &mut Vec<Repair>) -> Result<Vec<usize>, RecordFault> {
+    let mut kept: Vec<usize> = Vec::with_capacity(time.len());
+    let (mut duplicates, mut first_duplicate) = (0, 0);
+    for (k, &t) in time.iter().enumerate() {
+        match kept.last().map(|&last| time[last]) {
+            Some(before) if t < before => {
+                return Err(RecordFault::Backwards {
+                    row: k + 1,
+                    time: t,
+                    before,
+                });
+            }
+            Some(before) if t - before <= 1e-12 * before.abs() => {
+                if duplicates == 0 {
+                    first_duplicate = k + 1;
+                }
+                duplicates += 1;
+            }
+            _ => kept.push(k),
+        }
+    }
+    if duplicates > 0 {
+        repairs.push(Repair::Duplicates {
+            count: duplicates,
+            row: first_duplicate,
+        });
+    }
+    Ok(kept)
+}
+
 /// Positions without the jump of an encoder that counts within one turn.
 fn unwrapped(kept: &[usize], position: &[f64]) -> Vec<f64> {
     let mut turns = 0.0;
     let mut before: Option<f64> = None;
     let each = kept.iter().map(|&row| {
         let here = position[row];
-        if let Some(jump) = before.map(|before| here - before) {
-            if jump.abs() > PI {
-                turns -= (jump / TAU).round() * TAU;
-            }
+        let jump = before.map_or(0.0, |before| here - before);
+        if jump.abs() > PI {
+            turns -= (jump / TAU).round() * TAU;
         }
         before = Some(here);
         here + turns

@@ -22,6 +22,9 @@ pub use words::{refusal, unreadable};
 /// Rows between those of the table for reading.
 const EVERY: usize = 30;
 
+/// A deviation of J from the design by more than this share is no tolerance.
+const OTHER: f64 = 0.5;
+
 /// The design at an angle.
 #[derive(Clone, Copy, Debug, Serialize, JsonSchema)]
 pub struct Designed {
@@ -178,6 +181,11 @@ impl IdentifyView<'_> {
         };
         let mut answer = Answer::new(format!("{}: identified from its log", self.title()), &data);
         answer.fact("J against the design", self.of_inertia(&curves, &inertia));
+        if inertia.share.abs() > OTHER {
+            answer.warning(
+                "this is not the machine of the design, or the log is of another shaft, in another unit or with another torque constant",
+            );
+        }
         if self
             .designed
             .iter()
