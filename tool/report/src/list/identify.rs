@@ -179,7 +179,10 @@ impl IdentifyView<'_> {
             logs: self.logs.iter().map(|log| &log.found).collect(),
             curves: curves.clone(),
         };
-        let mut answer = Answer::new(format!("{}: identified from its log", self.title()), &data);
+        let mut answer = Answer::new(
+            format!("{}: identified from its log", self.file.title),
+            &data,
+        );
         answer.fact("J against the design", self.of_inertia(&curves, &inertia));
         if inertia.share.abs() > OTHER {
             answer.warning(
@@ -217,10 +220,6 @@ impl IdentifyView<'_> {
         answer.table(self.table(&curves));
         answer.csv(self.reduced_curves(&curves));
         answer
-    }
-
-    fn title(&self) -> &str {
-        &self.file.name
     }
 
     fn of_inertia(&self, curves: &[CurvePoint], deviation: &Deviation) -> String {
