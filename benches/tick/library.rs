@@ -139,7 +139,10 @@ impl<'a, F: Format> Axis<'a, F> {
         })
     }
 
-    #[expect(clippy::inline_always, reason = "as the program of a drive, of one interrupt")]
+    #[expect(
+        clippy::inline_always,
+        reason = "as the program of a drive, of one interrupt"
+    )]
     #[inline(always)]
     fn interrupt(
         &mut self,
@@ -167,15 +170,10 @@ impl<'a, F: Format> Axis<'a, F> {
 }
 
 /// An interrupt of an axis: count, speed and acceleration.
-type Interrupt<F> =
-    fn(&mut Axis<'_, F>, u32, SpeedOf<F>, AccelerationOf<F>) -> MotorTorqueOf<F>;
+type Interrupt<F> = fn(&mut Axis<'_, F>, u32, SpeedOf<F>, AccelerationOf<F>) -> MotorTorqueOf<F>;
 
 /// Calls a kernel along the axis of an image; the speed and what was cut off replace the second and the third number of a point.
-fn along<F: Format<Number: Word>>(
-    image: &[u32],
-    points: &mut [Point],
-    kernel: Interrupt<F>,
-) {
+fn along<F: Format<Number: Word>>(image: &[u32], points: &mut [Point], kernel: Interrupt<F>) {
     let kernel = black_box(kernel);
     let mut axis = Axis::new(image).expect("an axis");
     for [count, omega, alpha] in points {
