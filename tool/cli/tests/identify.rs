@@ -1,5 +1,6 @@
 //! `jred identify`: logs that are refused, and the way of a log to a firmware table.
 
+use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
 
@@ -25,7 +26,8 @@ fn rows(row: usize, change: impl Fn(f64) -> String, omega: impl Fn(f64) -> f64) 
         } else {
             t.to_string()
         };
-        text += &format!("{time},{phi:.5},{:.4}\n", (3.0 * phi).sin());
+        let torque = (3.0 * phi).sin();
+        writeln!(text, "{time},{phi:.5},{torque:.4}").unwrap();
     }
     text
 }

@@ -43,74 +43,77 @@ fn the_schemas_are_those_of_the_types() {
     }
 }
 
+/// Machines, and the commands that each of them passes.
+const RUNS: [(&[&str], &[&str]); 7] = [
+    (
+        &[""],
+        &[
+            "rules",
+            "rules fanuc",
+            "split --ratio 50 --stages 2 --pinion 0.2kgcm^2",
+        ],
+    ),
+    (
+        &[
+            "press",
+            "hoist",
+            "linear-gripper",
+            "linkage-cam-lever",
+            "pick-and-place",
+        ],
+        &[
+            "check",
+            "reduce",
+            "reduce --points",
+            "simulate",
+            "size",
+            "fastest",
+            "gentlest",
+        ],
+    ),
+    (
+        &["press", "ball-screw"],
+        &[
+            "reduce --reactions --positions 24",
+            "size --explain --top 3",
+            "require",
+            "drive",
+            "size --pareto power,mass",
+            "bus",
+            "steady --delta 0.05",
+            "steady --mean-speed 60rpm",
+            "balance --counterweight crank,20kg,200mm",
+            "tolerance --samples 8 --tolerance motion.segment.1.duration=5%",
+            "export --torque-error 1Nm",
+            "export --torque-error 1Nm --type i32 --layout spline --prove",
+        ],
+    ),
+    (
+        &["press"],
+        &[
+            "ratio",
+            "size --motion best",
+            "fastest --drive sgm7a-25a+tp004mf-4 --reserve rules",
+        ],
+    ),
+    (&["belt-axis"], &["sensitivity --change 5"]),
+    (&["packing-line/project"], &["project"]),
+    (
+        &[""],
+        &[
+            "catalogue list",
+            "catalogue list amplifiers",
+            "catalogue check built-in",
+            "catalogue show sgm7a-30a",
+        ],
+    ),
+];
+
 #[test]
 fn every_answer_follows_its_schema() {
     let folder = shipped("");
     let mut runs: Vec<Vec<String>> = Vec::new();
-    for (machines, commands) in [
-        (
-            &[""][..],
-            &[
-                "rules",
-                "rules fanuc",
-                "split --ratio 50 --stages 2 --pinion 0.2kgcm^2",
-            ][..],
-        ),
-        (
-            &[
-                "press",
-                "hoist",
-                "linear-gripper",
-                "linkage-cam-lever",
-                "pick-and-place",
-            ],
-            &[
-                "check",
-                "reduce",
-                "reduce --points",
-                "simulate",
-                "size",
-                "fastest",
-                "gentlest",
-            ],
-        ),
-        (
-            &["press", "ball-screw"],
-            &[
-                "reduce --reactions --positions 24",
-                "size --explain --top 3",
-                "require",
-                "drive",
-                "size --pareto power,mass",
-                "bus",
-                "steady --delta 0.05",
-                "steady --mean-speed 60rpm",
-                "balance --counterweight crank,20kg,200mm",
-                "tolerance --samples 8 --tolerance motion.segment.1.duration=5%",
-                "export --torque-error 1Nm",
-                "export --torque-error 1Nm --type i32 --layout spline --prove",
-            ],
-        ),
-        (
-            &["press"],
-            &[
-                "ratio",
-                "size --motion best",
-                "fastest --drive sgm7a-25a+tp004mf-4 --reserve rules",
-            ],
-        ),
-        (&["belt-axis"], &["sensitivity --change 5"]),
-        (&["packing-line/project"], &["project"]),
-        (
-            &[""],
-            &[
-                "catalogue list",
-                "catalogue list amplifiers",
-                "catalogue check built-in",
-                "catalogue show sgm7a-30a",
-            ],
-        ),
-    ] {
+    for (machines, commands) in RUNS {
         for machine in machines {
             for command in commands {
                 let mut words: Vec<String> = command.split(' ').map(str::to_owned).collect();

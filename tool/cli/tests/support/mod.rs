@@ -15,7 +15,7 @@ use serde_json::Value;
 pub(crate) use shared::*;
 
 /// All commands.
-pub(crate) const COMMANDS: [&str; 23] = [
+pub(crate) const COMMANDS: [&str; 24] = [
     "new",
     "completion",
     "man",
