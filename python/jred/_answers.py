@@ -421,6 +421,57 @@ class Check(Result):
     violations: tuple[str, ...]
     """Violated checks; empty: every check is satisfied."""
 
+class DriveFigureData(Item):
+    setting: DriveSetting
+    """The figure."""
+    name: str
+    """Its name."""
+    value: float | None
+    """Its value in SI; null if it is not given."""
+    missing: str
+    """Where to read a value that is not given."""
+
+DriveSetting: TypeAlias = "Literal['bandwidth'] | Literal['brake-closing'] | Literal['brake-opening'] | Literal['coulomb-friction'] | Literal['counts-per-turn'] | Literal['cycle-peak-speed'] | Literal['cycle-peak-torque'] | Literal['cycle-rms-torque'] | Literal['inertia-ratio'] | Literal['largest-load-inertia'] | Literal['largest-position'] | Literal['least-load-inertia'] | Literal['least-position'] | Literal['load-inertia'] | Literal['motor-time'] | Literal['motor-turns'] | Literal['peak-current'] | Literal['rated-current'] | Literal['rated-torque'] | Literal['resistance'] | Literal['resistor-power'] | Literal['rotor-inertia'] | Literal['shaft-turns'] | Literal['speed-gain'] | Literal['speed-limit'] | Literal['standstill-current'] | Literal['standstill-torque'] | Literal['torque-constant'] | Literal['torque-limit'] | Literal['total-inertia'] | Literal['viscous-friction'] | Literal['weight-torque'] | Literal['winding-time']"
+
+class DriveMakerData(Item):
+    key: str
+    """Word of the maker on the command line."""
+    name: str
+    """Name of the maker or profile."""
+    source: str
+    """Source of names, units and ranges."""
+    parameters: tuple[DriveParameterData, ...]
+    """The parameters."""
+
+class DriveParameterData(Item):
+    number: str
+    """Number, as the maker writes it."""
+    name: str
+    """Name."""
+    value: float | None
+    """Value as typed; null if it is not given or beyond the range."""
+    unit: str
+    """Unit of the value."""
+    range: str
+    """Range of the parameter as text, empty if it is not known."""
+    remark: str
+    """Where to read a value that is not given, or the fault of one beyond the range."""
+
+class Drive(Result):
+    """The JSON of `jred drive`."""
+    schema: Literal['jred-drive/1']
+    """Name and version of this form."""
+    title: str
+    """The machine, and what was computed."""
+    drive: str
+    """Name of the drive."""
+    figures: tuple[DriveFigureData, ...]
+    """The figures at the motor shaft."""
+    makers: tuple[DriveMakerData, ...]
+    """The parameters of each maker."""
+    warnings: tuple[str, ...]
+    """Warnings."""
+
 class FastestReserveData(Item):
     torque: float
     """Of the motor torque."""

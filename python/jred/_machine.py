@@ -19,11 +19,12 @@ from ._result import Result, run, whole, words_of
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
-    from ._answers import Balance, Check, Fastest, Gentlest, Require, Sensitivity, Simulate, Size, Steady
+    from ._answers import Balance, Check, Drive, Fastest, Gentlest, Require, Sensitivity, Simulate, Size, Steady
     from ._options import (
         BalanceOptions,
         CatalogueListOptions,
         CheckOptions,
+        DriveOptions,
         ExportOptions,
         FastestOptions,
         GentlestOptions,
@@ -220,6 +221,10 @@ class Machine:
     def require(self, **options: Unpack[RequireOptions]) -> Require:
         """``jred require``: what any maker needs to quote a drive."""
         return cast("Require", self.run("require", **options))
+
+    def drive(self, **options: Unpack[DriveOptions]) -> Drive:
+        """``jred drive``: the parameters to type into the drive."""
+        return cast("Drive", self.run("drive", **options))
 
     def fastest(self, **options: Unpack[FastestOptions]) -> Fastest:
         """``jred fastest``: the time-optimal motion along the same way."""

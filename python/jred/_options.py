@@ -42,8 +42,40 @@ class CheckOptions(TypedDict, total=False):
     units: Literal['si', 'imperial'] | None
     """Units in which quantities are printed: SI if not given. Files and options may have either."""
 
+class DriveOptions(TypedDict, total=False):
+    units: Literal['si', 'imperial'] | None
+    """Units in which quantities are printed: SI if not given. Files and options may have either."""
+    catalogue: Option
+    """Folder or file of motors, gearboxes, servo amplifiers and brake resistors to use instead of the built-in catalogue, in jred's own format or that of the Motor-Gearbox Database; may be repeated; "built-in" adds the built-in catalogue."""
+    motors: Option
+    """Motors from this CSV file instead of the built-in ones."""
+    gearboxes: Option
+    """Gearboxes from this CSV file instead of the built-in ones."""
+    skip_broken_rows: bool
+    """Skip rows of the catalogue that cannot be used, and report their number."""
+    drive: Option
+    """Drive instead of the best suitable one: MOTOR+GEARBOX (or MOTOR), or the name as printed."""
+    maker: Option
+    """Only the parameters of this maker: cia402, ax8000, sigma-7, akd or ax5000."""
+    counts_per_turn: Option
+    """Encoder counts in a turn of the motor."""
+    bandwidth: Option
+    """Bandwidth of the speed loop for its gain, e.g. "40 Hz"."""
+    tolerance: Option
+    """Relative error of the integrals over the cycle (RMS, mean, energy, losses), 1e-12 to 0.01."""
+    steps: Option
+    """Approximate least number of instants in a cycle; there are more where the torque bends."""
+    report: Option
+    """Write a report as one self-contained HTML page."""
+    pdf: Option
+    """Write the report as PDF. A browser prints it: the one named by the environment variable JRED_BROWSER, else Chromium, Chrome, Edge or Brave."""
+    paper: Literal['a4', 'letter'] | None
+    """Paper of the report: a4 if not given."""
+    xlsx: Option
+    """Write every table of the answer as a sheet of a workbook for spreadsheet programs."""
+
 class ExportOptions(TypedDict, total=False):
-    format: Literal['image', 'rust', 'c', 'json'] | None
+    format: Literal['image', 'rust', 'c', 'st', 'plcopen', 'cia402', 'json'] | None
     """Form of the output."""
     type: Literal['f32', 'i32', 'i16'] | None
     """Number type of the table."""
@@ -72,7 +104,13 @@ class ExportOptions(TypedDict, total=False):
     machine_id: Option
     """Identifier of the machine in the image, by which firmware refuses the image of another machine, e.g. 7 or 0x1a2b; if not given, the CRC-32 of the title."""
     name: Option
-    """Name of the table in the program, for --format c and rust: a prefix of the names in C, a module in Rust; if not given, C uses the name of the file to write."""
+    """Name of the table in the program, for --format c, rust, st and plcopen: a prefix of the names in C, a module in Rust, the function block in a PLC; if not given, C and PLC use the name of the file to write."""
+    rated_torque: Option
+    """For --format cia402: the motor's rated torque as set in object 0x6076 of the drive, e.g. "4.2 N m"; torques are thousandths of it."""
+    counts_per_turn: Option
+    """For --format cia402: increments of object 0x6064 in a turn of the motor, for a column of positions."""
+    rows: Option
+    """For --format cia402: number of rows, at equal times over the motion; 1001 if not given."""
     prove: bool
     """Prove the torque error over every position, by interval arithmetic, with all roundings of the ticks; takes some seconds. The image then contains the proven error. Exit code 1 if that is larger than --torque-error, or if it cannot be proven."""
     units: Literal['si', 'imperial'] | None
@@ -118,17 +156,19 @@ class FastestOptions(TypedDict, total=False):
     max_winding_temperature: Option
     """Highest temperature of the motor's winding when the motion with its pauses repeats endlessly, e.g. "120 degC": its mean and its ripple, from the thermal figures of the motor."""
     profile: Option
-    """Write the motion as a profile over the time, which `[motion]` type = "profile" reads."""
+    """Write the motion to this file as a profile, times and positions, which `[motion]` of a machine file reads with type = "profile"."""
     cam: Option
     """Write the motion as the table of an electronic cam, over a master that makes one turn during the motion."""
+    cam_form: Literal['csv', 'codesys', 'twincat', 'rockwell', 'siemens', 'sew', 'kollmorgen', 'lenze'] | None
+    """Form of the cam table; names in it are that of the file."""
     rows: Option
     """Number of rows of the cam table."""
     master: Literal['deg', 'rad', 'turn'] | None
     """Unit of the cam table's master, which makes one turn during the motion; the derivatives are with respect to it."""
-    units: Literal['si', 'imperial'] | None
-    """Units in which quantities are printed: SI if not given. Files and options may have either."""
     report: Option
     """Write a report as one self-contained HTML page."""
+    units: Literal['si', 'imperial'] | None
+    """Units in which quantities are printed: SI if not given. Files and options may have either."""
     pdf: Option
     """Write the report as PDF. A browser prints it: the one named by the environment variable JRED_BROWSER, else Chromium, Chrome, Edge or Brave."""
     paper: Literal['a4', 'letter'] | None
@@ -162,11 +202,13 @@ class GentlestOptions(TypedDict, total=False):
     ramp: Option
     """With --ends zero: share of a move's time in which the acceleration rises to its first peak, e.g. "5 %"; 10 % if not given."""
     profile: Option
-    """Write the motion to this file, times and positions, which `[motion]` of a machine file reads with type = "profile"."""
+    """Write the motion to this file as a profile, times and positions, which `[motion]` of a machine file reads with type = "profile"."""
     cam: Option
-    """Write the motion to this file as a table for an electronic cam."""
+    """Write the motion as the table of an electronic cam, over a master that makes one turn during the motion."""
+    cam_form: Literal['csv', 'codesys', 'twincat', 'rockwell', 'siemens', 'sew', 'kollmorgen', 'lenze'] | None
+    """Form of the cam table; names in it are that of the file."""
     rows: Option
-    """Rows of the cam table."""
+    """Number of rows of the cam table."""
     master: Literal['deg', 'rad', 'turn'] | None
     """Unit of the cam table's master, which makes one turn during the motion; the derivatives are with respect to it."""
     report: Option

@@ -20,7 +20,7 @@ from jred._result import _attribute
 
 HERE = Path(__file__).parents[1]
 #: Answers of the methods of a machine.
-ANSWERS = ("balance", "bus", "check", "fastest", "gentlest", "project", "ratio", "reduce", "require",
+ANSWERS = ("balance", "bus", "check", "drive", "fastest", "gentlest", "project", "ratio", "reduce", "require",
            "sensitivity", "simulate", "size", "split", "steady", "tolerance")  # fmt: skip
 PLAIN = {"number": "float", "integer": "int", "string": "str", "boolean": "bool", "null": "None"}
 
@@ -108,7 +108,7 @@ def text() -> str:
 
 
 #: Commands with options as keywords.
-COMMANDS = ("balance", "catalogue list", "check", "export", "fastest", "gentlest", "require", "sensitivity", "simulate",
+COMMANDS = ("balance", "catalogue list", "check", "drive", "export", "fastest", "gentlest", "require", "sensitivity", "simulate",
             "size", "steady")  # fmt: skip
 
 

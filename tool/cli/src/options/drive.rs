@@ -22,7 +22,7 @@ pub struct Drive {
     /// Drive instead of the best suitable one: MOTOR+GEARBOX (or MOTOR), or the name as printed.
     #[arg(long, value_name = "DRIVE")]
     pub drive: Option<String>,
-    /// Only the parameters of this maker: cia402, ax8000, sigma-7 or ax5000.
+    /// Only the parameters of this maker: cia402, ax8000, sigma-7, akd or ax5000.
     #[arg(long, value_name = "MAKER")]
     pub maker: Option<String>,
     /// Encoder counts in a turn of the motor.
