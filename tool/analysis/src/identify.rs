@@ -4,7 +4,7 @@
 //! J(φ)·α + ½·J′(φ)·ω² + V′(φ) + b·ω + c·sgn ω + cogging(φ) = T(t)          logged as T(t − d)
 //! ```
 //!
-//! The method: [`weak`], [`fit`]; its checks: [`excitation`](Excitation), [`faults`](Fault).
+//! The method is that of `docs/commands/identify.md`: rows in `weak.rs`, the solution in `fit.rs`; its checks are [`Excitation`] and [`Fault`].
 
 use std::f64::consts::TAU;
 
