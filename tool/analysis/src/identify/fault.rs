@@ -70,6 +70,13 @@ pub enum Fault {
     },
     /// J is negative at every angle: torque or position is reversed.
     Reversed,
+    /// J is not positive at an angle: what was taken out is more than the log has.
+    NotPositive {
+        /// The angle of the smallest J (rad).
+        at: f64,
+        /// J there (kg·m²).
+        inertia: f64,
+    },
     /// The torque's noise is above this share of its RMS value.
     Noisy {
         /// The share.

@@ -113,6 +113,11 @@ fn fault_words(fault: &Fault, step: Option<f64>) -> String {
             short(first)
         ),
         Fault::Reversed => "J is negative at every angle: torque or position has the wrong sign; give --reverse-torque".to_owned(),
+        Fault::NotPositive { at, inertia } => format!(
+            "J at {} deg is {} kg m^2, not positive: take less out of the log (--rotor-inertia, the drive train of the machine file, --shaft), or accelerate harder",
+            short(at.to_degrees()),
+            short(inertia)
+        ),
         Fault::Noisy { share } => format!(
             "{} of the torque is not explained: the torque is limited, samples are missing, or the machine has more than one degree of freedom",
             percent(share)
