@@ -12,6 +12,7 @@ mod basis;
 mod fault;
 mod fit;
 mod matrix;
+mod place;
 mod record;
 mod result;
 mod shaft;
@@ -24,6 +25,7 @@ use fit::{DELAY_STEP, Fit, fit};
 use solution::Unfit;
 
 pub use fault::{Fault, Obstacle};
+pub use place::{against_design, shift};
 pub use record::{RecordFault, Repair, samples};
 pub use result::{Cogging, CurvePoint, Estimate, Excitation, Identified};
 pub use shaft::{Shaft, referred, without_drive};

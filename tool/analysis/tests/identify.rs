@@ -496,7 +496,7 @@ fn faults_are_found() {
             *torque = -*torque;
         }
     });
-    assert_eq!(reversed.faults, [Fault::Reversed]);
+    assert_eq!(reversed.faults, [Fault::Reversed { position: false }]);
     let spiked = found(&|samples| {
         for k in 1..30 {
             samples.torque[997 * k] += if k % 2 == 0 { 20.0 } else { -20.0 };

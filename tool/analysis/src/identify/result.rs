@@ -131,8 +131,10 @@ impl Identified {
         self.faults.retain(|fault| !is_own(fault));
         let each = self.curves.iter();
         let least = each.min_by(|a, b| a.inertia.value.total_cmp(&b.inertia.value));
+        let is_reversed = |fault: &Fault| matches!(fault, Fault::Reversed { .. });
+        let reversed = self.faults.iter().any(is_reversed);
         if let Some(least) = least.filter(|point| point.inertia.value <= 0.0) {
-            if !self.faults.contains(&Fault::Reversed) {
+            if !reversed {
                 self.faults.push(Fault::NotPositive {
                     at: least.phi,
                     inertia: least.inertia.value,
@@ -238,7 +240,7 @@ fn excitation(fit: &Fit, samples: &Samples, curves: &[CurvePoint]) -> Excitation
 fn faults(found: &Identified, fit: &Fit, samples: &Samples, spikes: &[usize]) -> Vec<Fault> {
     let mut faults = Vec::new();
     if found.curves.iter().all(|point| point.inertia.value < 0.0) {
-        faults.push(Fault::Reversed);
+        faults.push(Fault::Reversed { position: false });
     }
     let slip = slip(fit);
     // The jump of a slip is an outlier itself.
