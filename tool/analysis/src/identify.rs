@@ -12,6 +12,7 @@ mod basis;
 mod fault;
 mod fit;
 mod matrix;
+mod place;
 mod record;
 mod result;
 mod shaft;
@@ -24,6 +25,7 @@ use fit::{DELAY_STEP, Fit, fit};
 use solution::Unfit;
 
 pub use fault::{Fault, Obstacle};
+pub use place::{against_design, shift};
 pub use record::{RecordFault, Repair, samples};
 pub use result::{Cogging, CurvePoint, Estimate, Excitation, Identified};
 pub use shaft::{Shaft, referred, without_drive};
@@ -77,7 +79,7 @@ pub struct Options {
 pub fn identify(samples: &Samples, options: &Options) -> Result<Identified, Obstacle> {
     let basis = basis_of(samples, options)?;
     let first = fitted(samples, &basis, options)?;
-    let (cleaned, spikes) = cleaned(samples, &first, options)?;
+    let (cleaned, spikes) = cleaned(samples, &first, options);
     let (found, spikes) = match cleaned {
         Some(cleaned) if cleaned.torque_noise < FEWER * first.torque_noise => (cleaned, spikes),
         _ => (first, Vec::new()),
@@ -88,11 +90,7 @@ pub fn identify(samples: &Samples, options: &Options) -> Result<Identified, Obst
 }
 
 /// The fit without the samples of outliers, and those samples; `None` without outliers.
-fn cleaned(
-    samples: &Samples,
-    first: &Fit,
-    options: &Options,
-) -> Result<(Option<Fit>, Vec<usize>), Obstacle> {
+fn cleaned(samples: &Samples, first: &Fit, options: &Options) -> (Option<Fit>, Vec<usize>) {
     let mut used = samples.clone();
     let mut spikes = Vec::new();
     let mut cleaned: Option<Fit> = None;
@@ -103,14 +101,18 @@ fn cleaned(
             break;
         }
         let (spacing, delay) = (now.weak.spacing, now.delay);
-        for row in outliers {
+        for row in &outliers {
             let from = row * spacing;
-            spikes.push(from + 3 * spacing);
             used.faulty[from + 2 * spacing..from + 5 * spacing].fill(true);
         }
-        cleaned = Some(fit(&used, &first.basis, options, Some(delay), None).map_err(obstacle)?);
+        // With too few rows left, the last fit stays.
+        let Ok(next) = fit(&used, &first.basis, options, Some(delay), None) else {
+            break;
+        };
+        spikes.extend(outliers.iter().map(|row| (row + 3) * spacing));
+        cleaned = Some(next);
     }
-    Ok((cleaned, spikes))
+    (cleaned, spikes)
 }
 
 /// The unknowns that this log may determine.

@@ -305,6 +305,17 @@ fn a_log_of_the_motor_gives_the_machine_alone() {
     referred(&mut log.samples, &plant.file);
     let mut found = identify(&log.samples, &log.options).unwrap();
     let [with, ..] = errors(&plant, &found);
+    let (mut heavy, least) = (found.clone(), plant.inertias());
+    // A rotor as heavy as the whole log, and a little more than the smallest J.
+    let taken = least.iter().copied().fold(f64::MAX, f64::min) + inertia;
+    without_drive(&mut heavy, &plant.file, 1.02 * taken / (ratio * ratio));
+    let [Fault::NotPositive { at, inertia: below }] = heavy.faults[..] else {
+        panic!("{:?}", heavy.faults);
+    };
+    let exact = plant.at(at, 0.0)[0];
+    let removed = plant.file.train_inertia() + 1.02 * taken;
+    assert!(below < 0.0 && (below - (exact + inertia - removed)).abs() < 0.01 * taken);
+    assert!(heavy.excitation.band > found.excitation.band);
     assert!(with > 0.03, "{with}");
     without_drive(&mut found, &plant.file, rotor);
     let [inertia, inside, torque] = errors(&plant, &found);
@@ -485,7 +496,7 @@ fn faults_are_found() {
             *torque = -*torque;
         }
     });
-    assert_eq!(reversed.faults, [Fault::Reversed]);
+    assert_eq!(reversed.faults, [Fault::Reversed { position: false }]);
     let spiked = found(&|samples| {
         for k in 1..30 {
             samples.torque[997 * k] += if k % 2 == 0 { 20.0 } else { -20.0 };

@@ -137,3 +137,78 @@ fn from_the_example_log_to_a_firmware_table() {
             .contains("Designed and identified curves")
     );
 }
+
+/// The example log with its columns changed.
+fn example(change: impl Fn(f64, f64) -> [f64; 2]) -> String {
+    let text = fs::read_to_string(shipped("four-bar-log.csv")).unwrap();
+    let mut changed = "time [s],position [counts],torque [N m]\n".to_owned();
+    for line in text.lines().skip(1) {
+        let cells: Vec<f64> = line.split(',').map(|cell| cell.parse().unwrap()).collect();
+        let [position, torque] = change(cells[1], cells[2]);
+        writeln!(changed, "{},{position},{torque}", cells[0]).unwrap();
+    }
+    changed
+}
+
+const COUNTED: &str = "--counts-per-turn 4096 --cogging 36";
+
+#[test]
+fn reversed_columns_and_another_zero_are_named_with_their_option() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = |text: &str, options: &str| {
+        let run = of_text(folder.path(), text, &format!("{COUNTED} {options}"));
+        (
+            run.code,
+            run.out.split_whitespace().collect::<Vec<_>>().join(" "),
+        )
+    };
+    let back = example(|phi, torque| [-phi, torque]);
+    let (code, out) = run(&back, "");
+    assert_eq!(code, 1);
+    assert!(
+        out.contains("the position has the wrong sign") && out.contains("with --reverse-position"),
+        "{out}"
+    );
+    let (code, out) = run(&back, "--reverse-torque");
+    assert_eq!(code, 1);
+    assert!(
+        out.contains("without --reverse-torque and with --reverse-position"),
+        "{out}"
+    );
+    let right = run(&back, "--reverse-position");
+    assert_eq!(right.0, 0, "{}", right.1);
+    let negative = example(|phi, torque| [phi, -torque]);
+    let (code, out) = run(&negative, "");
+    assert!(
+        code == 1 && out.contains("the torque has the wrong sign"),
+        "{out}"
+    );
+    // 512 counts are 45 degrees.
+    let other = example(|phi, torque| [phi + 512.0, torque]);
+    let (code, out) = run(&other, "");
+    let shown = out
+        .split("--zero \"")
+        .nth(1)
+        .and_then(|rest| rest.split(' ').next());
+    let zero: f64 = shown.unwrap_or_else(|| panic!("{out}")).parse().unwrap();
+    assert!(code == 1 && (zero - 45.0).abs() < 1.0, "{zero}");
+    assert_eq!(run(&other, "--zero 45deg").0, 0);
+    let mirrored = example(|phi, torque| [512.0 - phi, torque]);
+    assert_eq!(run(&mirrored, "--reverse-position --zero 45deg").1, right.1);
+    let two = folder.path().join("two.csv");
+    fs::write(&two, &other).unwrap();
+    let line = format!("identify {{}} {{}} --machine {{}} {COUNTED}");
+    let both = jred_of(
+        &line,
+        [
+            &shipped("four-bar-log.csv"),
+            &two,
+            &shipped("four-bar.toml"),
+        ],
+    );
+    assert!(
+        both.code == 2 && both.err.contains("different zeros"),
+        "{}",
+        both.err
+    );
+}

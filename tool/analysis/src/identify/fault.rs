@@ -69,7 +69,24 @@ pub enum Fault {
         first: f64,
     },
     /// J is negative at every angle: torque or position is reversed.
-    Reversed,
+    Reversed {
+        /// Whether the design fits a reversed position better.
+        position: bool,
+    },
+    /// The curves are those of the design over −φ: torque and position are both reversed.
+    Mirrored,
+    /// The curves are those of the design with another zero.
+    Zero {
+        /// The angle at which they have what the design has at φ = 0 (rad).
+        by: f64,
+    },
+    /// J is not positive at an angle: what was taken out is more than the log has.
+    NotPositive {
+        /// The angle of the smallest J (rad).
+        at: f64,
+        /// J there (kg·m²).
+        inertia: f64,
+    },
     /// The torque's noise is above this share of its RMS value.
     Noisy {
         /// The share.

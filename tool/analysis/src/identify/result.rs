@@ -123,6 +123,26 @@ impl Identified {
             + cogging.sum::<f64>()
     }
 
+    /// The band of J, and whether J is positive, of the curves as they are.
+    pub(super) fn judge_inertia(&mut self) {
+        let band = self.curves.iter().map(|point| point.inertia.band);
+        self.excitation.band = band.fold(0.0, f64::max) / self.largest_inertia().max(1e-300);
+        let is_own = |fault: &Fault| matches!(fault, Fault::NotPositive { .. });
+        self.faults.retain(|fault| !is_own(fault));
+        let each = self.curves.iter();
+        let least = each.min_by(|a, b| a.inertia.value.total_cmp(&b.inertia.value));
+        let is_reversed = |fault: &Fault| matches!(fault, Fault::Reversed { .. });
+        let reversed = self.faults.iter().any(is_reversed);
+        if let Some(least) = least.filter(|point| point.inertia.value <= 0.0) {
+            if !reversed {
+                self.faults.push(Fault::NotPositive {
+                    at: least.phi,
+                    inertia: least.inertia.value,
+                });
+            }
+        }
+    }
+
     /// Largest J (kg·m²).
     pub fn largest_inertia(&self) -> f64 {
         let sizes = self.curves.iter().map(|point| point.inertia.value.abs());
@@ -193,6 +213,7 @@ pub(super) fn identified(
         curves,
     };
     identified.faults = faults(&identified, fit, samples, spikes);
+    identified.judge_inertia();
     identified
 }
 
@@ -202,10 +223,8 @@ fn excitation(fit: &Fit, samples: &Samples, curves: &[CurvePoint]) -> Excitation
     let alpha = &fit.motion.acceleration;
     let mean_alpha = alpha.iter().sum::<f64>() / count;
     let deviation = alpha.iter().map(|a| (a - mean_alpha).powi(2)).sum::<f64>() / count;
-    let inertias = || curves.iter().map(|point| point.inertia.value.abs());
-    let mean = inertias().sum::<f64>() / curves.len() as f64;
-    let largest = inertias().fold(0.0, f64::max);
-    let band = curves.iter().map(|point| point.inertia.band);
+    let inertias = curves.iter().map(|point| point.inertia.value.abs());
+    let mean = inertias.sum::<f64>() / curves.len() as f64;
     let moves = samples.position.windows(2).map(|pair| pair[1] - pair[0]);
     let travel: f64 = moves.map(f64::abs).sum();
     Excitation {
@@ -214,14 +233,14 @@ fn excitation(fit: &Fit, samples: &Samples, curves: &[CurvePoint]) -> Excitation
         speed_variation: visits(samples, speed).variation,
         acceleration: deviation.sqrt() * mean / fit.torque_noise,
         forward: speed.iter().filter(|w| **w > 0.0).count() as f64 / count,
-        band: band.fold(0.0, f64::max) / largest,
+        band: 0.0,
     }
 }
 
 fn faults(found: &Identified, fit: &Fit, samples: &Samples, spikes: &[usize]) -> Vec<Fault> {
     let mut faults = Vec::new();
     if found.curves.iter().all(|point| point.inertia.value < 0.0) {
-        faults.push(Fault::Reversed);
+        faults.push(Fault::Reversed { position: false });
     }
     let slip = slip(fit);
     // The jump of a slip is an outlier itself.

@@ -48,4 +48,5 @@ pub fn without_drive(found: &mut Identified, file: &MachineFile, rotor: f64) {
     for point in &mut found.curves {
         point.inertia.value -= inertia;
     }
+    found.judge_inertia();
 }

@@ -17,7 +17,7 @@ use jred_file::model::machine::MachineFile;
 use jred_file::model::variator;
 use jred_file::plain;
 use jred_file::read::{self, LogLayout};
-use jred_report::list::identify::{Designed, IdentifyView, LogResult, refusal, unreadable};
+use jred_report::list::identify::{Designed, IdentifyView, LogResult, Signs, refusal, unreadable};
 use jred_report::page;
 
 /// Runs the command.
@@ -41,13 +41,16 @@ pub(super) fn run(options: &Identify) -> Result<Completion> {
             "--rotor-inertia is at the motor, and the log is of the drive link"
         ));
     }
-    let logs = options.logs.iter().map(|log| one(options, &file, log));
+    let designed = designed(&file).map_err(core_report)?;
+    let each = options.logs.iter();
+    let logs = each.map(|log| one(options, &file, &designed, log));
     let logs = logs.collect::<Result<Vec<LogResult>>>()?;
     let shown = IdentifyView {
         file: &file,
-        designed: designed(&file).map_err(core_report)?,
+        designed,
         logs,
     };
+    shown.refuse_unlike()?;
     let mut answer = shown.answer();
     let page = || Ok(page::identify_page(&shown));
     let workbook = || Ok(answer.clone());
@@ -65,7 +68,12 @@ pub(super) fn run(options: &Identify) -> Result<Completion> {
 }
 
 /// The result of one log.
-fn one(options: &Identify, file: &MachineFile, path: &PathBuf) -> Result<LogResult> {
+fn one(
+    options: &Identify,
+    file: &MachineFile,
+    designed: &[Designed],
+    path: &PathBuf,
+) -> Result<LogResult> {
     let layout = LogLayout {
         columns: options.columns.clone(),
         counts_per_turn: options.counts_per_turn,
@@ -79,15 +87,20 @@ fn one(options: &Identify, file: &MachineFile, path: &PathBuf) -> Result<LogResu
     } else {
         log.torque
     };
+    let zero = options.zero.unwrap_or_default();
+    let sign = if options.reverse_position { -1.0 } else { 1.0 };
     let (mut samples, repairs): (_, Vec<Repair>) =
         identify::samples(&log.time, &log.position, &torque)
             .map_err(|fault| unreadable(&name, &fault))?;
+    for position in &mut samples.position {
+        *position = sign * (*position - zero);
+    }
     let geared = options.shaft == Shaft::Motor;
     if geared {
         identify::referred(&mut samples, file);
     }
     let ratio = if geared {
-        file.drive_train.ratio().abs()
+        file.drive_train.ratio()
     } else {
         1.0
     };
@@ -95,17 +108,25 @@ fn one(options: &Identify, file: &MachineFile, path: &PathBuf) -> Result<LogResu
     let request = Options {
         cogging: options.cogging.clone(),
         delay: options.delay,
-        encoder_step: counts.map(|counts| TAU / f64::from(counts) / ratio),
+        encoder_step: counts.map(|counts| TAU / f64::from(counts) / ratio.abs()),
     };
     let mut found = identify::identify(&samples, &request).map_err(|why| refusal(&name, &why))?;
     if geared {
         identify::without_drive(&mut found, file, options.rotor_inertia.unwrap_or_default());
     }
+    let curves = designed.iter().map(|at| [at.inertia, at.potential_slope]);
+    identify::against_design(&mut found, &curves.collect::<Vec<_>>());
     Ok(LogResult {
         name,
         repairs,
         found,
         encoder_step: request.encoder_step,
+        signs: Signs {
+            torque: options.reverse_torque,
+            position: options.reverse_position,
+        },
+        zero,
+        ratio,
     })
 }
 

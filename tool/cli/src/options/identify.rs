@@ -37,9 +37,15 @@ pub struct Identify {
     /// Shaft of the log.
     #[arg(long, value_parser = word::<Shaft>(), default_value_t)]
     pub shaft: Shaft,
-    /// The torque of the log is positive against the position.
+    /// The torque of the log counts against that of the machine file.
     #[arg(long)]
     pub reverse_torque: bool,
+    /// The position of the log counts against that of the machine file.
+    #[arg(long)]
+    pub reverse_position: bool,
+    /// Position of the log where the drive link is at φ = 0 of the machine file, e.g. "37.5 deg", at the shaft of the log.
+    #[arg(long, value_name = "ANGLE", allow_hyphen_values = true, value_parser = jred_file::argument::any(&jred_file::units::kind::ANGLE))]
+    pub zero: Option<f64>,
     /// Inertia of the rotor and its gearbox at the motor, which is taken out of J, e.g. "12 kg cm^2".
     #[arg(long, value_name = "INERTIA", value_parser = jred_file::argument::not_negative(&jred_file::units::kind::INERTIA))]
     pub rotor_inertia: Option<f64>,

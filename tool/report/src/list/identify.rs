@@ -5,13 +5,14 @@ mod words;
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
 
+use miette::{Report, miette};
 use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::answer::Answer;
 use crate::answer::schema::Data;
 use crate::table::reading::{ColumnKind, Reading};
-use jred_analysis::identify::{Cogging, CurvePoint, Estimate, Fault, Identified, Repair};
+use jred_analysis::identify::{Cogging, CurvePoint, Estimate, Fault, Identified, Repair, shift};
 use jred_file::model::machine::MachineFile;
 use jred_file::number::rounding::{percent, short};
 use jred_sizing::cell::Cell;
@@ -49,6 +50,21 @@ pub struct LogResult {
     pub found: Identified,
     /// A count of the encoder at the drive link (rad), if known.
     pub encoder_step: Option<f64>,
+    /// The signs that were turned.
+    pub signs: Signs,
+    /// Position of the log at φ = 0 (rad), at the shaft of the log.
+    pub zero: f64,
+    /// Signed ratio of that shaft to the drive link.
+    pub ratio: f64,
+}
+
+/// Which signs of a log were turned.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Signs {
+    /// Its torque.
+    pub torque: bool,
+    /// Its position.
+    pub position: bool,
 }
 
 /// Results of all logs, and the design.
@@ -95,6 +111,28 @@ impl IdentifyView<'_> {
         let all = self.logs.iter().flat_map(|log| &log.found.faults);
         all.into_iter()
             .any(|fault| !matches!(fault, Fault::Spikes { .. }))
+    }
+
+    /// Refuses logs whose mean says nothing.
+    ///
+    /// # Errors
+    /// Two logs have different zeros.
+    pub fn refuse_unlike(&self) -> Result<(), Report> {
+        let Some((first, others)) = self.logs.split_first() else {
+            return Ok(());
+        };
+        for other in others {
+            if let Some(by) = shift(&other.found.curves, &first.found.curves) {
+                return Err(miette!(
+                    help = "identify each log alone, with its own --zero, or home the drive before each log",
+                    "{} and {} have different zeros: their curves agree when those of the second are shifted by {} deg",
+                    first.name,
+                    other.name,
+                    short(by.to_degrees())
+                ));
+            }
+        }
+        Ok(())
     }
 
     /// The mean of an estimate over the logs.

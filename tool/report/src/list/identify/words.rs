@@ -5,7 +5,7 @@ use miette::{Report, miette};
 use jred_analysis::identify::{Fault, Obstacle, RecordFault, Repair};
 use jred_file::number::rounding::{percent, short};
 
-use super::LogResult;
+use super::{LogResult, Signs};
 use crate::answer::Answer;
 
 /// Limits of the warnings: variation of ω² at an angle, inertial torque against the noise, band of J.
@@ -47,7 +47,7 @@ pub(super) fn of_log(answer: &mut Answer, log: &LogResult) {
         answer.warning(repaired(repair));
     }
     for fault in &found.faults {
-        answer.warning(fault_words(fault, log.encoder_step));
+        answer.warning(fault_words(fault, log));
     }
     if motion.speed_variation < EVEN {
         answer.warning(format!(
@@ -99,20 +99,45 @@ fn repaired(repair: &Repair) -> String {
     }
 }
 
-fn fault_words(fault: &Fault, step: Option<f64>) -> String {
+fn fault_words(fault: &Fault, log: &LogResult) -> String {
     match *fault {
         Fault::Slip { at, by, .. } => {
-            let size = step.map_or_else(
+            let size = log.encoder_step.map_or_else(
                 || format!("{} deg", short(by.to_degrees())),
                 |step| format!("{} counts", short((by / step).round())),
             );
-            format!("the encoder slips by about {size} at about {} s: check its coupling and its cable, and record again", short(at))
+            format!(
+                "the encoder slips by about {size} at about {} s: check its coupling and its cable, and record again",
+                short(at)
+            )
         }
         Fault::Spikes { count, first } => format!(
             "{count} torques or positions do not fit the motion (first at {} s) and are left out: check shield and filter",
             short(first)
         ),
-        Fault::Reversed => "J is negative at every angle: torque or position has the wrong sign; give --reverse-torque".to_owned(),
+        Fault::Reversed { position } => format!(
+            "J is negative at every angle: the {} has the wrong sign, by the design: run again {}",
+            if position { "position" } else { "torque" },
+            log.signs.toggled(!position, position)
+        ),
+        Fault::Mirrored => format!(
+            "the curves are those of the design over -φ: torque and position both have the wrong sign: run again {}",
+            log.signs.toggled(true, true)
+        ),
+        Fault::Zero { by } => {
+            let sign = if log.signs.position { -1.0 } else { 1.0 };
+            let zero = log.zero + sign * log.ratio * by;
+            format!(
+                "the curves fit the design best when they are shifted by {} deg: is the position of the log at φ = 0 of the machine file {1} deg? Then give --zero \"{1} deg\"",
+                short(by.to_degrees()),
+                short(zero.to_degrees())
+            )
+        }
+        Fault::NotPositive { at, inertia } => format!(
+            "J at {} deg is {} kg m^2, not positive: take less out of the log (--rotor-inertia, the drive train of the machine file, --shaft), or accelerate harder",
+            short(at.to_degrees()),
+            short(inertia)
+        ),
         Fault::Noisy { share } => format!(
             "{} of the torque is not explained: the torque is limited, samples are missing, or the machine has more than one degree of freedom",
             percent(share)
@@ -121,6 +146,25 @@ fn fault_words(fault: &Fault, step: Option<f64>) -> String {
             "the delay of the torque does not settle ({} ms): give --delay",
             short(at * 1e3)
         ),
+    }
+}
+
+impl Signs {
+    /// The options that change these signs.
+    fn toggled(self, torque: bool, position: bool) -> String {
+        let both = [
+            ("--reverse-torque", self.torque, torque),
+            ("--reverse-position", self.position, position),
+        ];
+        let words = both.iter().filter_map(|(option, now, toggle)| {
+            let word = match (now, toggle) {
+                (true, true) => "without",
+                (true, false) | (false, true) => "with",
+                (false, false) => return None,
+            };
+            Some(format!("{word} {option}"))
+        });
+        words.collect::<Vec<_>>().join(" and ")
     }
 }
 
