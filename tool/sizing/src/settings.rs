@@ -5,6 +5,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::judge::Context;
 use jred_analysis::duty::{Duty, Instant};
+use jred_file::model::coordinate::Coordinate;
+use jred_file::model::machine::MachineFile;
 
 /// A figure that a drive asks for, in SI.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -46,10 +48,12 @@ pub enum Setting {
     CyclePeakSpeed,
     /// Encoder counts in a turn of the motor.
     CountsPerTurn,
-    /// Turns of the motor in [`Setting::ShaftTurns`] of the drive link.
+    /// Turns of the motor in [`Setting::ShaftTurns`] of a drive link that turns.
     MotorTurns,
-    /// Turns of the drive link.
+    /// Turns of a drive link that turns.
     ShaftTurns,
+    /// 1 if a positive speed of the motor is one of the drive link; -1 if the drive train reverses.
+    Direction,
     /// Least position of the motor over the motion, from φ = 0 (counts).
     LeastPosition,
     /// Largest position of the motor over the motion, from φ = 0 (counts).
@@ -92,12 +96,13 @@ pub struct Choices {
 pub struct Settings(Vec<(Setting, f64)>);
 
 impl Settings {
-    /// The figures of a drive with a rotary motor. `train` is the ratio of the drive train, negative if it reverses.
-    pub fn new(context: &Context, duty: &Duty, train: f64, choices: Choices) -> Self {
+    /// The figures of a drive with a rotary motor for this machine. Positions and torques have the sign of the motor.
+    pub fn new(context: &Context, duty: &Duty, file: &MachineFile, choices: Choices) -> Self {
         let (drive, ratio) = (context.drive, context.ratio);
         let (motor, gearbox) = (drive.motor, drive.gearbox);
         let (winding, brake) = (&motor.winding, motor.brake.as_ref());
-        let total = ratio * train;
+        // Negative if the train reverses; rad/m for a link that slides.
+        let total = ratio * file.drive_train.ratio();
         let at_motor = |inertia: f64| {
             inertia / (ratio * ratio) + gearbox.map_or(0.0, |gearbox| gearbox.inertia)
         };
@@ -115,7 +120,9 @@ impl Settings {
         let speeds = [motor.max_speed, gearbox.and_then(|g| g.max_speed)];
         let positions = duty.figures(|i| i.phi * total);
         let counts = choices.counts_per_turn;
-        let turns = fraction(total.abs());
+        let turns = (file.machine.mechanism().coordinate() == Coordinate::Angle)
+            .then(|| fraction(total.abs()))
+            .flatten();
         let given = context.site.supply.brake_resistor;
         let chosen = context.resistor();
         let resistor = (given.map(|r| [r.resistance, r.power]))
@@ -148,6 +155,7 @@ impl Settings {
             (Setting::CountsPerTurn, counts),
             (Setting::MotorTurns, turns.map(|[motor, _]| motor)),
             (Setting::ShaftTurns, turns.map(|[_, shaft]| shaft)),
+            (Setting::Direction, Some(total.signum())),
             (Setting::LeastPosition, counted(positions.min)),
             (Setting::LargestPosition, counted(positions.max)),
             (

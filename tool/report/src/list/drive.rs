@@ -62,7 +62,8 @@ struct Parameter {
     name: String,
     #[serde(default)]
     unit: String,
-    setting: Setting,
+    /// The figure; without one the value is `factor`.
+    setting: Option<Setting>,
     base: Option<Setting>,
     #[serde(default = "one")]
     factor: f64,
@@ -200,11 +201,12 @@ fn typed(value: f64, decimals: Option<i32>) -> f64 {
 
 impl Parameter {
     fn data(&self, settings: &Settings, makers: &Makers) -> ParameterData {
-        let asked = [Some(self.setting), self.base].into_iter().flatten();
-        let unknown = asked.into_iter().find(|s| settings.get(*s).is_none());
-        let base = self.base.map_or(Some(1.0), |base| settings.get(base));
-        let value = (settings.get(self.setting).zip(base))
-            .map(|(value, base)| typed(value / base * self.factor, self.decimals));
+        let asked = [self.setting, self.base];
+        let mut given = asked.into_iter().flatten();
+        let unknown = given.find(|s| settings.get(*s).is_none());
+        let [value, base] = asked.map(|s| s.map_or(Some(1.0), |s| settings.get(s)));
+        let value =
+            (value.zip(base)).map(|(value, base)| typed(value / base * self.factor, self.decimals));
         let least = self.range.first().copied().unwrap_or(f64::NEG_INFINITY);
         let most = self.range.get(1).copied().unwrap_or(f64::INFINITY);
         let range = match self.range.as_slice() {
@@ -299,6 +301,13 @@ impl DriveView<'_> {
                     significant(times, 3)
                 ));
             }
+        }
+        if get(Setting::Direction).is_some_and(|direction| direction < 0.0) {
+            warnings.push(
+                "the drive train reverses: the motor turns against the drive link; positions and torques have the motor's sign, \
+                 so reverse the polarity (CiA 402: 192 in 0x607E) only where the controller gives those of the drive link"
+                    .to_owned(),
+            );
         }
         for maker in makers {
             let beyond = maker.parameters.iter();
@@ -402,7 +411,7 @@ mod tests {
             assert_eq!(numbers.len(), maker.parameters.len(), "{}", maker.name);
             for p in &maker.parameters {
                 assert!(p.range.is_sorted() && p.range.len() <= 2, "{}", p.number);
-                for setting in [Some(p.setting), p.base].into_iter().flatten() {
+                for setting in [p.setting, p.base].into_iter().flatten() {
                     assert!(all.figure.iter().any(|f| f.setting == setting));
                 }
             }
