@@ -15,6 +15,12 @@ fn figure(json: &Value, setting: &str) -> Option<f64> {
     found.expect(setting)["value"].as_f64()
 }
 
+fn limited_by(json: &Value) -> &str {
+    let figures = json["figures"].as_array().unwrap();
+    let limit = figures.iter().find(|f| f["setting"] == "torque-limit");
+    limit.unwrap()["remark"].as_str().unwrap()
+}
+
 fn parameter<'a>(json: &'a Value, maker: &str, number: &str) -> &'a Value {
     let find = |list: &'a Value, key: &str, word: &str| {
         let list = list.as_array().unwrap();
@@ -42,6 +48,7 @@ fn parameters_of_a_named_drive_follow_its_data_sheet() {
     let cycle = figure(&json, "cycle-peak-torque").unwrap();
     let limit = 23.9_f64.min(16.5_f64.max(cycle));
     near("limit", figure(&json, "torque-limit").unwrap(), limit, 1e-9);
+    assert_eq!(limited_by(&json), "T2B/i of the gearbox");
     let per_mille = (limit / 7.96 * 1000.0).round();
     assert_eq!(value("cia402", "0x6072"), Some(per_mille));
     assert_eq!(
@@ -175,7 +182,10 @@ fn a_drive_link_that_slides_has_no_ratio_of_turns() {
     let folder = Folder::new();
     let gripper = std::fs::read_to_string(shipped("linear-gripper.toml")).unwrap();
     let rack = "[[drive_train]]\ntype = \"rack\"\nradius = \"30 mm\"\ninertia = \"0 kg m^2\"\n\n[motion]\n";
-    let file = folder.file("gripper.toml", &gripper.replacen("[motion]\n", rack, 1));
+    let gripper = gripper.replacen("[motion]\n", rack, 1);
+    // The simulation has a torque at the input now.
+    let gripper = gripper.replacen("force = \"60 N\"", "torque = \"2 N m\"", 1);
+    let file = folder.file("gripper.toml", &gripper);
     let line = "drive {} --drive sgm7a-25a --counts-per-turn 1000000 --format json";
     let json = jred_of(line, [&file]).json();
     for number in ["0x6091:01", "0x6091:02"] {

@@ -11,7 +11,7 @@ use jred_file::number::rounding::{rounded, significant};
 use jred_file::problem;
 use jred_file::text::problem::Result;
 use jred_sizing::cell::Cell;
-use jred_sizing::settings::{Setting, Settings};
+use jred_sizing::settings::{LimitedBy, Setting, Settings};
 
 /// The words of the makers.
 const PARAMETERS: &str = include_str!("drive/parameters.toml");
@@ -118,8 +118,8 @@ struct FigureData {
     /// The value as a person reads it, and its unit.
     #[serde(skip)]
     shown: (Option<f64>, String),
-    /// Where to read a value that is not given.
-    missing: String,
+    /// Where to read a value that is not given, or the part that sets the torque limit.
+    remark: String,
 }
 
 #[derive(Serialize, JsonSchema)]
@@ -147,7 +147,26 @@ struct ParameterData {
     /// Range of the parameter as text, empty if it is not known.
     range: String,
     /// Where to read a value that is not given, or the fault of one beyond the range.
-    remark: String,
+    #[schemars(with = "String")]
+    remark: Remark,
+}
+
+/// The remark on a parameter.
+#[derive(Serialize)]
+#[serde(untagged)]
+enum Remark {
+    None(&'static str),
+    Missing(String),
+    Beyond(String),
+}
+
+impl Remark {
+    fn text(&self) -> &str {
+        match self {
+            Self::None(text) => text,
+            Self::Missing(text) | Self::Beyond(text) => text,
+        }
+    }
 }
 
 impl Data for DriveData {
@@ -216,12 +235,12 @@ impl Parameter {
         };
         let beyond = value.filter(|value| !(least..=most).contains(value));
         let remark = match (unknown, beyond) {
-            (Some(setting), _) => makers.missing(setting),
-            (None, Some(value)) => format!(
+            (Some(setting), _) => Remark::Missing(makers.missing(setting)),
+            (None, Some(value)) => Remark::Beyond(format!(
                 "{} is beyond the range {range}: choose another motor or gear ratio, or set the nearest value and check the motion",
                 whole(value)
-            ),
-            _ => String::new(),
+            )),
+            _ => Remark::None(""),
         };
         ParameterData {
             number: self.number.clone(),
@@ -232,6 +251,17 @@ impl Parameter {
             remark,
         }
     }
+}
+
+/// The part that sets the torque limit.
+fn limit_words(settings: &Settings) -> String {
+    let by = match settings.limited_by {
+        LimitedBy::Peak => "peak torque of motor and amplifier",
+        LimitedBy::Gearbox => "T2B/i of the gearbox",
+        LimitedBy::Cycle => "largest torque of the cycle, above T2B/i of the gearbox",
+    };
+    let unknown = "; the peak torque of motor and amplifier is not given";
+    format!("{by}{}", if settings.peak_known { "" } else { unknown })
 }
 
 /// A number with all its digits.
@@ -254,7 +284,11 @@ impl DriveView<'_> {
                     value.map(|value| typed(value * figure.factor, figure.decimals)),
                     figure.unit.clone(),
                 ),
-                missing: value.map_or_else(|| makers.missing(figure.setting), |_| String::new()),
+                remark: match (value, figure.setting) {
+                    (None, setting) => makers.missing(setting),
+                    (Some(_), Setting::TorqueLimit) => limit_words(settings),
+                    _ => String::new(),
+                },
             }
         });
         let each = makers.maker.iter().map(|maker| MakerData {
@@ -310,9 +344,10 @@ impl DriveView<'_> {
             );
         }
         for maker in makers {
-            let beyond = maker.parameters.iter();
-            let beyond = beyond.filter(|p| p.remark.contains("beyond the range"));
-            warnings.extend(beyond.map(|p| format!("{} {}: {}", maker.name, p.number, p.remark)));
+            warnings.extend(maker.parameters.iter().filter_map(|p| match &p.remark {
+                Remark::Beyond(fault) => Some(format!("{} {}: {fault}", maker.name, p.number)),
+                Remark::None(_) | Remark::Missing(_) => None,
+            }));
         }
         warnings
     }
@@ -339,9 +374,9 @@ impl DriveView<'_> {
             ],
             rows: (data.figures.iter())
                 .map(|f| {
-                    let words = [&f.shown.1, &f.missing].map(|text| text.as_str().into());
-                    let [unit, missing] = words;
-                    vec![f.name.as_str().into(), value(f.shown.0), unit, missing]
+                    let words = [&f.shown.1, &f.remark].map(|text| text.as_str().into());
+                    let [unit, remark] = words;
+                    vec![f.name.as_str().into(), value(f.shown.0), unit, remark]
                 })
                 .collect(),
             whole: 3,
@@ -352,9 +387,16 @@ impl DriveView<'_> {
         for maker in &data.makers {
             answer.heading(maker.name.clone());
             let rows = maker.parameters.iter().map(|p| {
-                let [number, name, unit, range, remark] =
-                    [&p.number, &p.name, &p.unit, &p.range, &p.remark].map(|t| t.as_str().into());
-                vec![number, name, value(p.value), unit, range, remark]
+                let [number, name, unit, range] =
+                    [&p.number, &p.name, &p.unit, &p.range].map(|t| t.as_str().into());
+                vec![
+                    number,
+                    name,
+                    value(p.value),
+                    unit,
+                    range,
+                    p.remark.text().into(),
+                ]
             });
             let columns = ["parameter", "name", "value", "unit", "range", "remark"];
             answer.table(Reading {
