@@ -305,6 +305,82 @@ fn a_motion_that_says_too_little_is_named() {
     assert!(nothing.coefficients.iter().all(|value| value.is_finite()));
 }
 
+/// A repeated step of the law 3-4-5 by an angle in a time, and a rest.
+fn steps(time: f64, by: f64, during: f64, rest: f64) -> [f64; 3] {
+    let cycle = during + rest;
+    let u = ((time % cycle) / during).min(1.0);
+    let lift = u.powi(3) * (10.0 - 15.0 * u + 6.0 * u * u);
+    let speed = 30.0 * (u * (1.0 - u)).powi(2);
+    let alpha = 60.0 * u * (1.0 - 3.0 * u + 2.0 * u * u);
+    let done = (time / cycle).floor();
+    [
+        0.4 + by * (done + lift),
+        by * speed / during,
+        by * alpha / (during * during),
+    ]
+}
+
+/// The law of Bestehorn: u − sin(2π·u)/2π.
+fn bestehorn(time: f64) -> [f64; 3] {
+    let u = time % 1.0;
+    let (s, c) = (TAU * u).sin_cos();
+    [0.4 + TAU * time - s, TAU * (1.0 - c), TAU * TAU * s]
+}
+
+/// A crank that runs up in a quarter of its 0.8 s, down in another, and rests.
+fn crank(time: f64) -> [f64; 3] {
+    let (w, up) = (TAU / 0.6, 0.2);
+    let t = time % 1.3;
+    let done = 0.4 + TAU * (time / 1.3).floor();
+    let left = (0.8 - t).max(0.0);
+    if t < up {
+        [done + 0.5 * w * t * t / up, w * t / up, w / up]
+    } else if left > up {
+        [done + w * (t - 0.5 * up), w, 0.0]
+    } else {
+        let alpha = if left > 0.0 { -w / up } else { 0.0 };
+        [
+            done + TAU - 0.5 * w * left * left / up,
+            w * left / up,
+            alpha,
+        ]
+    }
+}
+
+/// Over a turn and back.
+fn to_and_fro(time: f64) -> [f64; 3] {
+    let w = 0.3 * TAU;
+    let (s, c) = (w * time).sin_cos();
+    [
+        0.5 * TAU * (1.0 - c),
+        0.5 * TAU * w * s,
+        0.5 * TAU * w * w * c,
+    ]
+}
+
+/// A cycle that repeats has one speed at each angle, however it accelerates, rests or returns.
+#[test]
+fn repeated_cycles_have_the_same_speed() {
+    let cycles: [(&str, Motion); 6] = [
+        ("3-4-5", |time| steps(time, TAU, 1.0, 0.0)),
+        ("Bestehorn", bestehorn),
+        ("half a turn", |time| steps(time, 0.5 * TAU, 0.6, 0.4)),
+        ("turn and rest", |time| steps(time, TAU, 1.0, 0.5)),
+        ("crank", crank),
+        ("to and fro", to_and_fro),
+    ];
+    for (name, motion) in cycles {
+        let found = status(motion, TICKS, |_| ());
+        let said = (name, found.speed_spread);
+        assert_eq!(found.status, FoundStatus::SameSpeed, "{said:?}");
+    }
+    for motion in [vary, other, repeated, swing] {
+        let found = status(motion, TICKS, |_| ());
+        assert_ne!(found.status, FoundStatus::SameSpeed);
+        assert!(found.speed_spread > 0.1, "{}", found.speed_spread);
+    }
+}
+
 #[test]
 fn signals_that_are_wrong_are_named() {
     let reversed = status(vary, TICKS, |log| {

@@ -10,7 +10,7 @@ const PARTS: usize = 32;
 /// Fewest rows of a solution: 5 s.
 const FEWEST_ROWS: u32 = 1250;
 
-/// Standard deviation of the speed at an angle, as a share of its root mean square, below which J′ and load cannot be told apart; squared.
+/// [`Found::speed_spread`] below which J′ and load cannot be told apart; squared.
 const LEAST_SPREAD: f64 = 0.025 * 0.025;
 
 /// Residual, in the stated noise, beyond which something else disturbs.
@@ -50,7 +50,7 @@ pub enum FoundStatus {
     TooShort,
     /// A 32nd of the turn was visited for less than a tenth of the mean time.
     NotVisited(Phase),
-    /// At each angle the speed was always the same: J′ and load act alike.
+    /// At each angle the speed was always the same, whatever its sign: J′ and load act alike.
     SameSpeed,
     /// The motion does not determine this coefficient.
     NotDetermined(usize),
@@ -73,7 +73,8 @@ pub struct Found<T, const N: usize> {
     pub status: FoundStatus,
     /// Root mean square of the whitened residual: 1 if the stated noise is right; 0 before an estimate was adopted.
     pub residual: T,
-    /// Standard deviation of the speed at an angle, as a share of its root mean square.
+    /// Standard deviation of |ω| from its line over a 32nd of the turn, as a share of its root mean square there: the median over the turn. A
+    /// standstill does not count.
     pub speed_spread: T,
     /// Only one direction: Coulomb friction includes the mean of the load.
     pub one_way: bool,
@@ -275,8 +276,8 @@ impl<T: Circular, const N: usize> Found<T, N> {
 /// Where the machine was, and how fast.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Motion<T> {
-    /// Number of samples, sum of speeds, and of their squares, in each part of a turn.
-    parts: [[T; 3]; PARTS],
+    /// Sums of 1, |ω|, ω², x, x² and x·|ω| in each part of a turn, with x from −½ to ½ over the part.
+    parts: [[T; 6]; PARTS],
     samples: u32,
     forward: u32,
 }
@@ -285,7 +286,7 @@ impl<T: Circular> Motion<T> {
     const fn new() -> Self {
         let [zero, ..] = T::CONSTANTS;
         Self {
-            parts: [[zero; 3]; PARTS],
+            parts: [[zero; 6]; PARTS],
             samples: 0,
             forward: 0,
         }
@@ -294,10 +295,21 @@ impl<T: Circular> Motion<T> {
     #[inline]
     pub(super) fn add(&mut self, phase: Phase, omega: T, most: u32) {
         let [zero, half, one] = T::CONSTANTS;
-        if let Some([number, sum, squares]) = self.parts.get_mut((phase.to_bits() >> 27) as usize) {
-            *number = *number + one;
-            *sum = *sum + omega;
-            *squares = *squares + omega * omega;
+        let speed = if omega < zero { -omega } else { omega };
+        let place = (phase.to_bits() << 5 >> 8) as f32 / 16_777_216.0;
+        let place = T::from_single(place) - half;
+        if let Some(part) = self.parts.get_mut((phase.to_bits() >> 27) as usize) {
+            let more = [
+                one,
+                speed,
+                speed * speed,
+                place,
+                place * place,
+                place * speed,
+            ];
+            for (sum, value) in part.iter_mut().zip(more) {
+                *sum = *sum + value;
+            }
         }
         self.samples += 1;
         self.forward += u32::from(omega > zero);
@@ -313,20 +325,38 @@ impl<T: Circular> Motion<T> {
         self.forward < least || self.samples - self.forward < least
     }
 
-    /// A part that was hardly visited, and the share of ω² that varies at an angle.
+    /// A part that was hardly visited, and the median of the share of ω² that varies at an angle.
     fn judge(&self) -> (Option<Phase>, T) {
         let [zero, ..] = T::CONSTANTS;
         let fewest = T::from_count(self.samples) * T::from_f64(0.1 / PARTS as f64);
-        let (mut part, mut varying, mut all) = (None, zero, zero);
-        for (k, [number, sum, squares]) in (0..).zip(self.parts) {
+        let mut part = None;
+        let mut shares = [zero; PARTS];
+        for ((k, sums), share) in (0..).zip(self.parts).zip(&mut shares) {
+            let [number, speeds, squares, places, width, both] = sums;
             if number > fewest {
-                varying = varying + (squares - sum * sum / number) / number;
-                all = all + squares / number;
+                let varying = squares - speeds * speeds / number;
+                let (width, both) = (
+                    width - places * places / number,
+                    both - places * speeds / number,
+                );
+                let line = if width > zero {
+                    both * both / width
+                } else {
+                    zero
+                };
+                *share = if squares > zero {
+                    (varying - line) / squares
+                } else {
+                    zero
+                };
             } else {
                 part.get_or_insert(Phase::from_bits(k << 27));
             }
         }
-        (part, if all > zero { varying / all } else { zero })
+        let below = |limit: &T| shares.iter().filter(|share| **share < *limit).count();
+        let upper = shares.into_iter().filter(|share| below(share) <= PARTS / 2);
+        let median = upper.fold(zero, |most, share| if share > most { share } else { most });
+        (part, median)
     }
 }
 

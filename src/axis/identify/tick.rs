@@ -43,10 +43,10 @@ impl<T: Circular, const N: usize, const RING: usize, const SET: CurveSet>
         let omega = seen.omega;
         if omega < self.plan.slowest && -omega < self.plan.slowest {
             self.stood = [true; WINDOWS];
+        } else {
+            let most = self.plan.remembered;
+            self.equations.motion.add(phase, omega, most);
         }
-        self.equations
-            .motion
-            .add(phase, omega, self.plan.remembered);
         let sign = |omega: T| if omega < zero { -one } else { one };
 
         let moved = self

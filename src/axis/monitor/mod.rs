@@ -34,7 +34,8 @@
 //! ```
 //!
 //! for six sums: from every cycle on, exp of 1.2 times the sum without the 0 is a supermartingale, as long as the reference's mean is within 0.4·2·σ, 4
-//! of its standard errors, and σ is at least half of the true one; the union bound is over the cycles. Changes below 2·σ are not seen; one of 10·σ is
+//! of its standard errors, and σ is at least half of the true one; the union bound is over the cycles. It needs cycles that are independent and normal:
+//! a machine that warms up breaks it. Changes below 2·σ are not seen; one of 10·σ is
 //! after h/4, 4 cycles for the figures above. The spread is not judged while the payload is wrong.
 //!
 //! # Cost

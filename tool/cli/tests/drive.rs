@@ -15,6 +15,12 @@ fn figure(json: &Value, setting: &str) -> Option<f64> {
     found.expect(setting)["value"].as_f64()
 }
 
+fn limited_by(json: &Value) -> &str {
+    let figures = json["figures"].as_array().unwrap();
+    let limit = figures.iter().find(|f| f["setting"] == "torque-limit");
+    limit.unwrap()["remark"].as_str().unwrap()
+}
+
 fn parameter<'a>(json: &'a Value, maker: &str, number: &str) -> &'a Value {
     let find = |list: &'a Value, key: &str, word: &str| {
         let list = list.as_array().unwrap();
@@ -42,6 +48,7 @@ fn parameters_of_a_named_drive_follow_its_data_sheet() {
     let cycle = figure(&json, "cycle-peak-torque").unwrap();
     let limit = 23.9_f64.min(16.5_f64.max(cycle));
     near("limit", figure(&json, "torque-limit").unwrap(), limit, 1e-9);
+    assert_eq!(limited_by(&json), "T2B/i of the gearbox");
     let per_mille = (limit / 7.96 * 1000.0).round();
     assert_eq!(value("cia402", "0x6072"), Some(per_mille));
     assert_eq!(
@@ -167,6 +174,49 @@ fn faults_have_their_cure() {
     );
     let run = jred_of("drive {}", [&shipped("linear-gripper.toml")]).ends(2);
     assert!(run.message().contains("rotary motors only"));
+}
+
+/// A gripper's slide on a rack has no turns; with 30 mm of its pinion the motor turns by s/r.
+#[test]
+fn a_drive_link_that_slides_has_no_ratio_of_turns() {
+    let folder = Folder::new();
+    let gripper = std::fs::read_to_string(shipped("linear-gripper.toml")).unwrap();
+    let rack = "[[drive_train]]\ntype = \"rack\"\nradius = \"30 mm\"\ninertia = \"0 kg m^2\"\n\n[motion]\n";
+    let gripper = gripper.replacen("[motion]\n", rack, 1);
+    // The simulation has a torque at the input now.
+    let gripper = gripper.replacen("force = \"60 N\"", "torque = \"2 N m\"", 1);
+    let file = folder.file("gripper.toml", &gripper);
+    let line = "drive {} --drive sgm7a-25a --counts-per-turn 1000000 --format json";
+    let json = jred_of(line, [&file]).json();
+    for number in ["0x6091:01", "0x6091:02"] {
+        let turns = parameter(&json, "cia402", number);
+        assert_eq!(turns["value"], Value::Null);
+        let remark = turns["remark"].as_str().unwrap();
+        assert!(remark.contains("the drive link slides"), "{remark}");
+    }
+    let way = figure(&json, "largest-position").unwrap() - figure(&json, "least-position").unwrap();
+    near("counts", way, 0.08 / 0.03 / TAU * 1e6, 1e-9);
+    let turns = parameter(&json, "cia402", "0x608F:02");
+    assert_eq!(turns["value"].as_f64(), Some(1.0));
+}
+
+/// One pair of gears reverses, two do not.
+#[test]
+fn a_train_that_reverses_is_named() {
+    let folder = Folder::new();
+    let axis = std::fs::read_to_string(shipped("belt-axis.toml")).unwrap();
+    let idler = "[[drive_train.stage]]\ndriver = { teeth = 20, inertia = \"0 kg m^2\" }\ndriven = { teeth = 20, inertia = \"0 kg m^2\" }\n\n[motion]\n";
+    let twice = folder.file("twice.toml", &axis.replacen("[motion]\n", idler, 1));
+    for (file, direction) in [(shipped("belt-axis.toml"), -1.0), (twice, 1.0)] {
+        let line = "drive {} --drive sgm7a-25a --counts-per-turn 1000 --format json";
+        let json = jred_of(line, [&file]).json();
+        assert_eq!(figure(&json, "direction"), Some(direction));
+        let [least, most] =
+            ["least-position", "largest-position"].map(|setting| figure(&json, setting).unwrap());
+        assert!((least + most) * direction > 0.0, "{least} to {most}");
+        let named = json["warnings"].to_string().contains("reverses");
+        assert_eq!(named, direction < 0.0);
+    }
 }
 
 #[test]

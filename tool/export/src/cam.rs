@@ -41,6 +41,8 @@ pub struct Cam<'a> {
     pub master: &'a str,
     /// Symbol and unit of the position.
     pub position: [&'a str; 2],
+    /// A turn in this unit, of a link that turns.
+    pub turn: Option<f64>,
 }
 
 /// A table that a drive does not take.
@@ -57,7 +59,7 @@ const NAMES: PlcNames = PlcNames {
     taken: "master slave count",
 };
 
-/// Share of the largest derivative by which the ends of a cyclic cam may differ: rounding.
+/// Share of the largest value by which the ends of a cyclic cam may differ: rounding.
 const ROUNDING: f64 = 1e-9;
 
 impl CamForm {
@@ -160,17 +162,17 @@ impl Cam<'_> {
         [end(self.rows.first()), end(self.rows.last())]
     }
 
-    /// Whether the motion continues at its start where it ends, so that the cam may repeat.
+    /// Whether the cam may repeat: position and derivatives end as they start, or a link that turns ends whole turns further.
     fn is_cyclic(&self) -> bool {
         let (Some(first), Some(last)) = (self.rows.first(), self.rows.last()) else {
             return false;
         };
-        [2, 3].into_iter().all(|k| {
-            let largest = self
-                .rows
-                .iter()
-                .fold(0.0, |most, row| f64::max(most, row[k].abs()));
-            (first[k] - last[k]).abs() <= ROUNDING * largest
+        (1..4).all(|k| {
+            let sizes = self.rows.iter().map(|row| row[k].abs());
+            let difference = last[k] - first[k];
+            let turns = self.turn.filter(|_| k == 1);
+            let whole = turns.map_or(0.0, |turn| (difference / turn).round() * turn);
+            (difference - whole).abs() <= ROUNDING * sizes.fold(0.0, f64::max)
         })
     }
 

@@ -26,6 +26,7 @@ fn text(rows: &[CamRow], form: CamForm) -> String {
         rows,
         master: "deg",
         position: ["s", "mm"],
+        turn: None,
     };
     cam.text(form, "lift__table.xyz").unwrap()
 }
@@ -220,6 +221,7 @@ fn a_table_that_the_maker_does_not_take_is_refused() {
             rows: &rows,
             master: "deg",
             position: ["s", "mm"],
+            turn: None,
         };
         let fault = cam.text(form, "cam.st").unwrap_err();
         let said = fault.to_string();
@@ -233,4 +235,42 @@ fn a_table_that_the_maker_does_not_take_is_refused() {
         assert!(Cam { rows: &rows, ..cam }.text(form, "cam.st").is_ok());
     }
     assert_eq!(CamForm::WORDS.len(), 8);
+}
+
+/// From rest to rest by the law 3-4-5: only whole turns of a link that turns may repeat.
+#[test]
+fn a_cam_repeats_only_where_its_position_does() {
+    for (stroke, turn, cyclic) in [
+        (600.0, None, "NO"),
+        (720.0, None, "NO"),
+        (720.0, Some(360.0), "YES"),
+        (-360.0, Some(360.0), "YES"),
+        (600.0, Some(360.0), "NO"),
+        (0.0, None, "YES"),
+    ] {
+        let rows: Vec<CamRow> = (0..=20)
+            .map(|k| {
+                let u = f64::from(k) / 20.0;
+                let lift = u.powi(3) * (10.0 - 15.0 * u + 6.0 * u * u);
+                let slope = 30.0 * (u * (1.0 - u)).powi(2) / TURN;
+                let curvature = 60.0 * u * (1.0 - 3.0 * u + 2.0 * u * u) / (TURN * TURN);
+                [
+                    TURN * u,
+                    120.0 + stroke * lift,
+                    stroke * slope,
+                    stroke * curvature,
+                ]
+            })
+            .collect();
+        let cam = Cam {
+            title: "",
+            rows: &rows,
+            master: "deg",
+            position: ["s", "mm"],
+            turn,
+        };
+        let text = cam.text(CamForm::Kollmorgen, "cam").unwrap();
+        let head = format!("CYCLIC;{cyclic};\n");
+        assert!(text.starts_with(&head), "{stroke} {turn:?}");
+    }
 }

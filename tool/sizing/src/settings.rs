@@ -5,6 +5,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::judge::Context;
 use jred_analysis::duty::{Duty, Instant};
+use jred_file::model::coordinate::Coordinate;
+use jred_file::model::machine::MachineFile;
 
 /// A figure that a drive asks for, in SI.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -26,19 +28,19 @@ pub enum Setting {
     RatedTorque,
     /// S1 torque of the motor at standstill (N·m).
     StandstillTorque,
-    /// Torque limit: the peak torque of motor and amplifier, and T2B/i of the gearbox unless the cycle takes more (N·m).
+    /// Torque limit of [`LimitedBy`]: the peak torque, and T2B/i of the gearbox unless the cycle takes more (N·m).
     TorqueLimit,
     /// Largest torque of the cycle (N·m).
     CyclePeakTorque,
     /// RMS torque of the cycle (N·m).
     CycleRmsTorque,
-    /// Current at the rated torque (A).
+    /// Current at the rated torque (A RMS).
     RatedCurrent,
-    /// Current at the torque at standstill (A).
+    /// Current at the torque at standstill (A RMS).
     StandstillCurrent,
-    /// Largest current of the motor (A).
+    /// Largest current of the motor (A RMS).
     PeakCurrent,
-    /// Torque constant (N·m/A).
+    /// Torque constant (N·m/A RMS).
     TorqueConstant,
     /// Speed limit: the least of the largest speeds of motor and gearbox (rad/s).
     SpeedLimit,
@@ -46,10 +48,12 @@ pub enum Setting {
     CyclePeakSpeed,
     /// Encoder counts in a turn of the motor.
     CountsPerTurn,
-    /// Turns of the motor in [`Setting::ShaftTurns`] of the drive link.
+    /// Turns of the motor in [`Setting::ShaftTurns`] of a drive link that turns.
     MotorTurns,
-    /// Turns of the drive link.
+    /// Turns of a drive link that turns.
     ShaftTurns,
+    /// 1 if a positive speed of the motor is one of the drive link; -1 if the drive train reverses.
+    Direction,
     /// Least position of the motor over the motion, from φ = 0 (counts).
     LeastPosition,
     /// Largest position of the motor over the motion, from φ = 0 (counts).
@@ -87,17 +91,35 @@ pub struct Choices {
     pub bandwidth: Option<f64>,
 }
 
+/// The part that sets [`Setting::TorqueLimit`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LimitedBy {
+    /// The peak torque of motor and amplifier.
+    Peak,
+    /// T2B/i of the gearbox.
+    Gearbox,
+    /// The largest torque of the cycle, above T2B/i of the gearbox.
+    Cycle,
+}
+
 /// The figures that are known.
 #[derive(Clone, Debug)]
-pub struct Settings(Vec<(Setting, f64)>);
+pub struct Settings {
+    figures: Vec<(Setting, f64)>,
+    /// The part that sets the torque limit.
+    pub limited_by: LimitedBy,
+    /// Whether the peak torque of motor and amplifier is known.
+    pub peak_known: bool,
+}
 
 impl Settings {
-    /// The figures of a drive with a rotary motor. `train` is the ratio of the drive train, negative if it reverses.
-    pub fn new(context: &Context, duty: &Duty, train: f64, choices: Choices) -> Self {
+    /// The figures of a drive with a rotary motor for this machine. Positions and torques have the sign of the motor.
+    pub fn new(context: &Context, duty: &Duty, file: &MachineFile, choices: Choices) -> Self {
         let (drive, ratio) = (context.drive, context.ratio);
         let (motor, gearbox) = (drive.motor, drive.gearbox);
         let (winding, brake) = (&motor.winding, motor.brake.as_ref());
-        let total = ratio * train;
+        // Negative if the train reverses; rad/m for a link that slides.
+        let total = ratio * file.drive_train.ratio();
         let at_motor = |inertia: f64| {
             inertia / (ratio * ratio) + gearbox.map_or(0.0, |gearbox| gearbox.inertia)
         };
@@ -111,11 +133,18 @@ impl Settings {
         let peak = context.motor.envelope.peak_torque(1.0, 0.0);
         let rate = context.cycle.mechanics().move_rate * 3600.0;
         let output = gearbox.and_then(|gearbox| gearbox.acceleration_torque(rate));
-        let limit = output.map_or(peak, |torque| peak.min((torque / ratio).max(cycle_peak)));
+        let output = output.map(|torque| torque / ratio);
+        let (limit, limited_by) = match output.map(|torque| (torque.max(cycle_peak), torque)) {
+            Some((limit, torque)) if limit < peak && torque < limit => (limit, LimitedBy::Cycle),
+            Some((limit, _)) if limit < peak => (limit, LimitedBy::Gearbox),
+            _ => (peak, LimitedBy::Peak),
+        };
         let speeds = [motor.max_speed, gearbox.and_then(|g| g.max_speed)];
         let positions = duty.figures(|i| i.phi * total);
         let counts = choices.counts_per_turn;
-        let turns = fraction(total.abs());
+        let turns = (file.machine.mechanism().coordinate() == Coordinate::Angle)
+            .then(|| fraction(total.abs()))
+            .flatten();
         let given = context.site.supply.brake_resistor;
         let chosen = context.resistor();
         let resistor = (given.map(|r| [r.resistance, r.power]))
@@ -148,6 +177,7 @@ impl Settings {
             (Setting::CountsPerTurn, counts),
             (Setting::MotorTurns, turns.map(|[motor, _]| motor)),
             (Setting::ShaftTurns, turns.map(|[_, shaft]| shaft)),
+            (Setting::Direction, Some(total.signum())),
             (Setting::LeastPosition, counted(positions.min)),
             (Setting::LargestPosition, counted(positions.max)),
             (
@@ -190,12 +220,16 @@ impl Settings {
             // An unknown limit is infinite.
             Some((setting, figure.filter(|value| value.is_finite())?))
         });
-        Self(known.collect())
+        Self {
+            figures: known.collect(),
+            limited_by,
+            peak_known: peak.is_finite(),
+        }
     }
 
     /// A figure; `None` if the data do not give it.
     pub fn get(&self, setting: Setting) -> Option<f64> {
-        let found = self.0.iter().find(|(known, _)| *known == setting);
+        let found = self.figures.iter().find(|(known, _)| *known == setting);
         found.map(|(_, value)| *value)
     }
 }

@@ -51,7 +51,7 @@ pub(super) fn run(options: &Drive) -> Result<Completion> {
         bandwidth: options.bandwidth,
     };
     let context = selection.context(&candidate);
-    let settings = Settings::new(&context, &duty, file.drive_train.ratio(), choices);
+    let settings = Settings::new(&context, &duty, &file, choices);
     let shown = DriveView {
         title: &file.title,
         drive: &candidate.drive.name(),

@@ -32,6 +32,7 @@ pub(super) fn write(
             rows: &trace.cam(options.rows as usize, options.master),
             master: options.master.word(),
             position: [coordinate.pick("phi", "s"), coordinate.unit()],
+            turn: coordinate.pick(Some(coordinate.shown(std::f64::consts::TAU)), None),
         };
         let name = path.file_name().unwrap_or_default().to_string_lossy();
         let text = cam

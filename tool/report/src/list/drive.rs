@@ -11,7 +11,7 @@ use jred_file::number::rounding::{rounded, significant};
 use jred_file::problem;
 use jred_file::text::problem::Result;
 use jred_sizing::cell::Cell;
-use jred_sizing::settings::{Setting, Settings};
+use jred_sizing::settings::{LimitedBy, Setting, Settings};
 
 /// The words of the makers.
 const PARAMETERS: &str = include_str!("drive/parameters.toml");
@@ -62,7 +62,8 @@ struct Parameter {
     name: String,
     #[serde(default)]
     unit: String,
-    setting: Setting,
+    /// The figure; without one the value is `factor`.
+    setting: Option<Setting>,
     base: Option<Setting>,
     #[serde(default = "one")]
     factor: f64,
@@ -117,8 +118,8 @@ struct FigureData {
     /// The value as a person reads it, and its unit.
     #[serde(skip)]
     shown: (Option<f64>, String),
-    /// Where to read a value that is not given.
-    missing: String,
+    /// Where to read a value that is not given, or the part that sets the torque limit.
+    remark: String,
 }
 
 #[derive(Serialize, JsonSchema)]
@@ -146,7 +147,26 @@ struct ParameterData {
     /// Range of the parameter as text, empty if it is not known.
     range: String,
     /// Where to read a value that is not given, or the fault of one beyond the range.
-    remark: String,
+    #[schemars(with = "String")]
+    remark: Remark,
+}
+
+/// The remark on a parameter.
+#[derive(Serialize)]
+#[serde(untagged)]
+enum Remark {
+    None(&'static str),
+    Missing(String),
+    Beyond(String),
+}
+
+impl Remark {
+    fn text(&self) -> &str {
+        match self {
+            Self::None(text) => text,
+            Self::Missing(text) | Self::Beyond(text) => text,
+        }
+    }
 }
 
 impl Data for DriveData {
@@ -200,11 +220,12 @@ fn typed(value: f64, decimals: Option<i32>) -> f64 {
 
 impl Parameter {
     fn data(&self, settings: &Settings, makers: &Makers) -> ParameterData {
-        let asked = [Some(self.setting), self.base].into_iter().flatten();
-        let unknown = asked.into_iter().find(|s| settings.get(*s).is_none());
-        let base = self.base.map_or(Some(1.0), |base| settings.get(base));
-        let value = (settings.get(self.setting).zip(base))
-            .map(|(value, base)| typed(value / base * self.factor, self.decimals));
+        let asked = [self.setting, self.base];
+        let mut given = asked.into_iter().flatten();
+        let unknown = given.find(|s| settings.get(*s).is_none());
+        let [value, base] = asked.map(|s| s.map_or(Some(1.0), |s| settings.get(s)));
+        let value =
+            (value.zip(base)).map(|(value, base)| typed(value / base * self.factor, self.decimals));
         let least = self.range.first().copied().unwrap_or(f64::NEG_INFINITY);
         let most = self.range.get(1).copied().unwrap_or(f64::INFINITY);
         let range = match self.range.as_slice() {
@@ -214,12 +235,12 @@ impl Parameter {
         };
         let beyond = value.filter(|value| !(least..=most).contains(value));
         let remark = match (unknown, beyond) {
-            (Some(setting), _) => makers.missing(setting),
-            (None, Some(value)) => format!(
+            (Some(setting), _) => Remark::Missing(makers.missing(setting)),
+            (None, Some(value)) => Remark::Beyond(format!(
                 "{} is beyond the range {range}: choose another motor or gear ratio, or set the nearest value and check the motion",
                 whole(value)
-            ),
-            _ => String::new(),
+            )),
+            _ => Remark::None(""),
         };
         ParameterData {
             number: self.number.clone(),
@@ -230,6 +251,17 @@ impl Parameter {
             remark,
         }
     }
+}
+
+/// The part that sets the torque limit.
+fn limit_words(settings: &Settings) -> String {
+    let by = match settings.limited_by {
+        LimitedBy::Peak => "peak torque of motor and amplifier",
+        LimitedBy::Gearbox => "T2B/i of the gearbox",
+        LimitedBy::Cycle => "largest torque of the cycle, above T2B/i of the gearbox",
+    };
+    let unknown = "; the peak torque of motor and amplifier is not given";
+    format!("{by}{}", if settings.peak_known { "" } else { unknown })
 }
 
 /// A number with all its digits.
@@ -252,7 +284,11 @@ impl DriveView<'_> {
                     value.map(|value| typed(value * figure.factor, figure.decimals)),
                     figure.unit.clone(),
                 ),
-                missing: value.map_or_else(|| makers.missing(figure.setting), |_| String::new()),
+                remark: match (value, figure.setting) {
+                    (None, setting) => makers.missing(setting),
+                    (Some(_), Setting::TorqueLimit) => limit_words(settings),
+                    _ => String::new(),
+                },
             }
         });
         let each = makers.maker.iter().map(|maker| MakerData {
@@ -300,10 +336,18 @@ impl DriveView<'_> {
                 ));
             }
         }
+        if get(Setting::Direction).is_some_and(|direction| direction < 0.0) {
+            warnings.push(
+                "the drive train reverses: the motor turns against the drive link; positions and torques have the motor's sign, \
+                 so reverse the polarity (CiA 402: 192 in 0x607E) only where the controller gives those of the drive link"
+                    .to_owned(),
+            );
+        }
         for maker in makers {
-            let beyond = maker.parameters.iter();
-            let beyond = beyond.filter(|p| p.remark.contains("beyond the range"));
-            warnings.extend(beyond.map(|p| format!("{} {}: {}", maker.name, p.number, p.remark)));
+            warnings.extend(maker.parameters.iter().filter_map(|p| match &p.remark {
+                Remark::Beyond(fault) => Some(format!("{} {}: {fault}", maker.name, p.number)),
+                Remark::None(_) | Remark::Missing(_) => None,
+            }));
         }
         warnings
     }
@@ -330,9 +374,9 @@ impl DriveView<'_> {
             ],
             rows: (data.figures.iter())
                 .map(|f| {
-                    let words = [&f.shown.1, &f.missing].map(|text| text.as_str().into());
-                    let [unit, missing] = words;
-                    vec![f.name.as_str().into(), value(f.shown.0), unit, missing]
+                    let words = [&f.shown.1, &f.remark].map(|text| text.as_str().into());
+                    let [unit, remark] = words;
+                    vec![f.name.as_str().into(), value(f.shown.0), unit, remark]
                 })
                 .collect(),
             whole: 3,
@@ -343,9 +387,16 @@ impl DriveView<'_> {
         for maker in &data.makers {
             answer.heading(maker.name.clone());
             let rows = maker.parameters.iter().map(|p| {
-                let [number, name, unit, range, remark] =
-                    [&p.number, &p.name, &p.unit, &p.range, &p.remark].map(|t| t.as_str().into());
-                vec![number, name, value(p.value), unit, range, remark]
+                let [number, name, unit, range] =
+                    [&p.number, &p.name, &p.unit, &p.range].map(|t| t.as_str().into());
+                vec![
+                    number,
+                    name,
+                    value(p.value),
+                    unit,
+                    range,
+                    p.remark.text().into(),
+                ]
             });
             let columns = ["parameter", "name", "value", "unit", "range", "remark"];
             answer.table(Reading {
@@ -402,7 +453,7 @@ mod tests {
             assert_eq!(numbers.len(), maker.parameters.len(), "{}", maker.name);
             for p in &maker.parameters {
                 assert!(p.range.is_sorted() && p.range.len() <= 2, "{}", p.number);
-                for setting in [Some(p.setting), p.base].into_iter().flatten() {
+                for setting in [p.setting, p.base].into_iter().flatten() {
                     assert!(all.figure.iter().any(|f| f.setting == setting));
                 }
             }
