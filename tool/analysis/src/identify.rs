@@ -21,7 +21,7 @@ mod solution;
 mod weak;
 
 use basis::Basis;
-use fit::{DELAY_STEP, Fit, fit};
+use fit::{DELAY_STEP, Fit, fit, rest};
 use solution::Unfit;
 
 pub use fault::{Fault, Obstacle};
@@ -115,14 +115,16 @@ fn cleaned(samples: &Samples, first: &Fit, options: &Options) -> (Option<Fit>, V
     (cleaned, spikes)
 }
 
+/// Samples that move forwards and back.
+fn ways(speed: &[f64]) -> [f64; 2] {
+    let rest = rest(speed);
+    let count = |sign: f64| speed.iter().filter(|w| sign * **w > rest).count() as f64;
+    [count(1.0), count(-1.0)]
+}
+
 /// The unknowns that this log may determine.
 fn basis_of(samples: &Samples, options: &Options) -> Result<Basis, Obstacle> {
-    fault::check(samples)?;
-    let moves = samples.position.windows(2).map(|pair| pair[1] - pair[0]);
-    let (mut forward, mut back) = (0.0, 0.0);
-    for step in moves {
-        *(if step > 0.0 { &mut forward } else { &mut back }) += step.abs();
-    }
+    let [forward, back] = ways(&fault::check(samples)?);
     let mean = forward.min(back) > BOTH_WAYS * (forward + back);
     Ok(Basis {
         harmonics: HARMONICS,

@@ -508,6 +508,15 @@ fn faults_are_found() {
         spiked.faults
     );
     assert!(errors(&plant, &spiked)[0] < 0.01);
+    // Rest with an encoder that counts to and fro is no second direction.
+    let mut resting = clean.samples.clone();
+    let end = resting.position[29_999];
+    resting.position.extend((0..10_000).map(|k| end + step * f64::from([0, 2, 0, -2][k % 4])));
+    resting.torque.resize(40_000, 0.0);
+    resting.faulty.resize(40_000, false);
+    let rested = identify(&resting, &clean.options).unwrap();
+    assert_eq!(rested.mean_load, None);
+    assert!((rested.excitation.turns - 45.0).abs() < 0.5, "{}", rested.excitation.turns);
     // A delay far from the usual one is searched for.
     let late = found(&|samples| samples.torque.rotate_right(5));
     assert!((late.delay.value - 6e-3).abs() < 0.3e-3, "{:?}", late.delay);

@@ -212,3 +212,30 @@ fn reversed_columns_and_another_zero_are_named_with_their_option() {
         both.err
     );
 }
+
+#[test]
+fn negative_friction_of_one_direction_becomes_a_load_and_is_said() {
+    let folder = tempfile::tempdir().unwrap();
+    // A mean load of −2 N·m: c of the log is 0.4 − 2.
+    let text = example(|phi, torque| [phi, torque - 2.0]);
+    let run = of_text(folder.path(), &text, COUNTED);
+    assert_eq!(run.code, 0, "{}", run.err);
+    assert!(run.out.contains("Coulomb friction is negative"), "{}", run.out);
+    let csv = of_text(folder.path(), &text, &format!("{COUNTED} --format csv"));
+    let row = csv.out.lines().nth(1).unwrap();
+    let cells: Vec<f64> = row.split(',').map(|cell| cell.parse().unwrap()).collect();
+    assert!((cells[2] - 1.6).abs() < 0.15 && cells[5] == 0.0, "{row}");
+}
+
+#[test]
+fn options_out_of_range_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = example(|phi, torque| [phi, torque]);
+    for (options, expected) in [
+        ("--delay 1s", "longer than 50 ms"),
+        ("--cogging 36,48,36", "the order 36 twice"),
+    ] {
+        let run = of_text(folder.path(), &text, &format!("--counts-per-turn 4096 {options}"));
+        assert!(run.code == 2 && run.err.contains(expected), "{}", run.err);
+    }
+}

@@ -58,7 +58,7 @@ pub enum Fault {
         at: f64,
         /// By how much (rad).
         by: f64,
-        /// The statistic: standard deviations of the difference.
+        /// The statistic: standard deviations of the difference, by the residuals that were found.
         statistic: f64,
     },
     /// Single torques or positions that the motion cannot explain.
@@ -146,8 +146,8 @@ pub(super) fn visits(samples: &Samples, speed: &[f64]) -> Visits {
     }
 }
 
-/// Refuses a log that cannot determine a machine, whatever the fit.
-pub(super) fn check(samples: &Samples) -> Result<(), Obstacle> {
+/// The smoothed speed; refuses a log that cannot determine a machine, whatever the fit.
+pub(super) fn check(samples: &Samples) -> Result<Vec<f64>, Obstacle> {
     const LEAST: usize = 500;
     let count = samples.position.len();
     if count < LEAST {
@@ -171,7 +171,7 @@ pub(super) fn check(samples: &Samples) -> Result<(), Obstacle> {
             variation: visits.variation,
         });
     }
-    Ok(())
+    Ok(speed)
 }
 
 /// Rows whose residual is too large.
@@ -230,7 +230,8 @@ pub(super) fn slip(fit: &Fit) -> Option<Fault> {
         }
         // The model's angle must be moved against the slip.
         let by = before[0] / before[1] - after[0] / after[1];
-        let statistic = by.abs() / (1.0 / before[1] + 1.0 / after[1]).sqrt();
+        let spread = fit.misfit.max(1.0) * (1.0 / before[1] + 1.0 / after[1]);
+        let statistic = by.abs() / spread.sqrt();
         let larger =
             |known: &Fault| !matches!(known, Fault::Slip { statistic: s, .. } if *s >= statistic);
         if statistic > SLIP && best.as_ref().is_none_or(larger) {

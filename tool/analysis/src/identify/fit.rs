@@ -35,6 +35,11 @@ const NEAR: f64 = 3e-3;
 /// Below this speed (rad/s), or a twentieth of the RMS speed if that is lower, friction is that of a joint at rest.
 const REST: f64 = 0.3;
 
+/// The speed (rad/s) from which on the machine moves.
+pub(super) fn rest(speed: &[f64]) -> f64 {
+    REST.min((dot(speed, speed) / speed.len().max(1) as f64).sqrt() / 20.0)
+}
+
 /// Number of rounds.
 const ROUNDS: usize = 3;
 
@@ -185,7 +190,7 @@ impl Prepared {
         let edge = (margin / spacing as f64).ceil() as usize + 1;
         let near = (NEAR / step + 1e-9) as usize;
         let faulty = weak.touched(samples.faulty.iter().copied(), near);
-        let rest = REST.min(mean_square.sqrt() / 20.0);
+        let rest = rest(&raw);
         let resting = instruments.motion.speed.iter().map(|w| w.abs() < rest);
         let resting = weak.touched(resting, near);
         let kept: Vec<bool> = (0..weak.count)

@@ -6,9 +6,9 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::fault::{Fault, slip, visits};
-use super::fit::{DELAY_STEP, Fit, GRID};
+use super::fit::{DELAY_STEP, Fit, GRID, rest};
 use super::matrix::dot;
-use super::{Options, Samples};
+use super::{Options, Samples, ways};
 
 /// Quantile of the normal distribution for a band of 95 %.
 const BAND: f64 = 1.96;
@@ -60,7 +60,7 @@ pub struct Excitation {
     pub speed_variation: f64,
     /// Inertial torque against the torque's noise: std α·mean J/σ_T.
     pub acceleration: f64,
-    /// Share of the motion in the positive direction.
+    /// Share of the samples in motion whose direction is positive.
     pub forward: f64,
     /// Largest band of J, as a share of its maximum.
     pub band: f64,
@@ -121,6 +121,12 @@ impl Identified {
             + self.viscous.value * omega
             + self.coulomb.value * sign
             + cogging.sum::<f64>()
+    }
+
+    /// The only direction of the log (±1); `None`: both, so that the mean load is apart from Coulomb friction.
+    pub fn direction(&self) -> Option<f64> {
+        let forward = self.excitation.forward > 0.5;
+        self.mean_load.is_none().then_some(if forward { 1.0 } else { -1.0 })
     }
 
     /// The band of J, and whether J is positive, of the curves as they are.
@@ -225,14 +231,16 @@ fn excitation(fit: &Fit, samples: &Samples, curves: &[CurvePoint]) -> Excitation
     let deviation = alpha.iter().map(|a| (a - mean_alpha).powi(2)).sum::<f64>() / count;
     let inertias = curves.iter().map(|point| point.inertia.value.abs());
     let mean = inertias.sum::<f64>() / curves.len() as f64;
-    let moves = samples.position.windows(2).map(|pair| pair[1] - pair[0]);
-    let travel: f64 = moves.map(f64::abs).sum();
+    let [forward, back] = ways(speed);
+    let rest = rest(speed);
+    let moving = speed.iter().map(|w| w.abs()).filter(|w| *w > rest);
+    let travel = moving.sum::<f64>() * samples.step;
     Excitation {
         duration: samples.step * samples.position.len() as f64,
         turns: travel / TAU,
         speed_variation: visits(samples, speed).variation,
         acceleration: deviation.sqrt() * mean / fit.torque_noise,
-        forward: speed.iter().filter(|w| **w > 0.0).count() as f64 / count,
+        forward: forward / (forward + back).max(1.0),
         band: 0.0,
     }
 }

@@ -15,10 +15,14 @@ use jred_analysis::checked;
 use jred_analysis::identify::{self, Options, Repair, Shaft};
 use jred_file::model::machine::MachineFile;
 use jred_file::model::variator;
+use jred_file::number::rounding::short;
 use jred_file::plain;
 use jred_file::read::{self, LogLayout};
 use jred_report::list::identify::{Designed, IdentifyView, LogResult, Signs, refusal, unreadable};
 use jred_report::page;
+
+/// The longest delay of a logged torque (s).
+const LONGEST_DELAY: f64 = 0.05;
 
 /// Runs the command.
 ///
@@ -39,6 +43,22 @@ pub(super) fn run(options: &Identify) -> Result<Completion> {
         return Err(miette!(
             help = "leave out --rotor-inertia, or give --shaft motor",
             "--rotor-inertia is at the motor, and the log is of the drive link"
+        ));
+    }
+    if let Some(delay) = options.delay.filter(|delay| delay.abs() > LONGEST_DELAY) {
+        return Err(miette!(
+            help = "give the delay with its unit, for example --delay \"1 ms\", or leave it out: it is found",
+            "a delay of {} ms is longer than 50 ms: no drive logs its torque that late",
+            short(delay * 1e3)
+        ));
+    }
+    let mut orders = options.cogging.clone();
+    orders.sort_unstable();
+    if let Some(pair) = orders.windows(2).find(|pair| pair[0] == pair[1]) {
+        return Err(miette!(
+            help = "give each order once",
+            "--cogging has the order {} twice",
+            pair[0]
         ));
     }
     let designed = designed(&file).map_err(core_report)?;

@@ -52,7 +52,7 @@ pub struct Identify {
     /// Orders of the motor's cogging in a turn of the drive link, e.g. 36,72.
     #[arg(long, value_name = "ORDERS", value_delimiter = ',', value_parser = clap::value_parser!(u32).range(1..=1000))]
     pub cogging: Vec<u32>,
-    /// Delay of the logged torque behind the position, e.g. "1 ms", if it is known; found if not given.
+    /// Delay of the logged torque behind the position, e.g. "1 ms", if it is known, 50 ms at most; found if not given.
     #[arg(long, value_name = "TIME", allow_hyphen_values = true, value_parser = jred_file::argument::any(&jred_file::units::kind::TIME))]
     pub delay: Option<f64>,
     /// Output format.
