@@ -11,6 +11,7 @@ use std::f64::consts::TAU;
 mod basis;
 mod fault;
 mod fit;
+mod likelihood;
 mod matrix;
 mod place;
 mod record;
@@ -64,7 +65,7 @@ pub struct Samples {
 /// The request.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Options {
-    /// Orders of the cogging per turn of the drive link.
+    /// Orders of the cogging per turn of the drive link; up to 24 they become harmonics of V′.
     pub cogging: Vec<u32>,
     /// The delay of the logged torque (s), if known.
     pub delay: Option<f64>,
@@ -126,10 +127,14 @@ fn ways(speed: &[f64]) -> [f64; 2] {
 fn basis_of(samples: &Samples, options: &Options) -> Result<Basis, Obstacle> {
     let [forward, back] = ways(&fault::check(samples)?);
     let mean = forward.min(back) > BOTH_WAYS * (forward + back);
+    let orders = options.cogging.iter();
+    let (low, cogging): (Vec<u32>, Vec<u32>) =
+        orders.partition(|order| **order as usize <= HARMONICS);
     Ok(Basis {
         harmonics: HARMONICS,
         mean,
-        cogging: options.cogging.clone(),
+        cogging,
+        least: low.into_iter().max().unwrap_or(0) as usize,
     })
 }
 
@@ -137,15 +142,16 @@ fn basis_of(samples: &Samples, options: &Options) -> Result<Basis, Obstacle> {
 fn fitted(samples: &Samples, basis: &Basis, options: &Options) -> Result<Fit, Obstacle> {
     let mut basis = basis.clone();
     let mut found = fit(samples, &basis, options, None, None);
-    while let (Err(Unfit::Few { .. }), true) = (&found, basis.harmonics > FEWEST) {
-        basis = basis.with_harmonics((basis.harmonics * 3 / 4).max(FEWEST));
+    let fewest = FEWEST.max(basis.least);
+    while let (Err(Unfit::Few { .. }), true) = (&found, basis.harmonics > fewest) {
+        basis = basis.with_harmonics((basis.harmonics * 3 / 4).max(fewest));
         found = fit(samples, &basis, options, None, None);
     }
     let found = found.map_err(obstacle)?;
     if found.delay_step.abs() < DELAY_STEP {
         return Ok(found);
     }
-    let low = basis.with_harmonics(basis.harmonics.min(8));
+    let low = basis.with_harmonics(basis.harmonics.min(basis.least.max(8)));
     let tried = DELAYS.filter_map(|ms| {
         let start = f64::from(ms) * 1e-3;
         let known = Options {

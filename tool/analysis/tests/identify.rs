@@ -10,6 +10,7 @@ use rand::rngs::ChaCha8Rng;
 use rand::{RngExt as _, SeedableRng as _};
 
 use jred::machine::Reducible as _;
+use jred::mechanism::TrainOutput;
 use jred_analysis::identify::{
     Fault, Identified, Obstacle, Options, RecordFault, Repair, Samples, identify, referred,
     samples, without_drive,
@@ -278,31 +279,37 @@ fn inertia_within_one_percent_and_torque_within_two() {
     }
 }
 
-/// The log of a motor with a rotor behind a drive train with losses, made from that of the drive link.
+/// The log of a motor with a rotor behind a drive train with losses, made from that of the drive link by the drive train's own torques.
 #[test]
 fn a_log_of_the_motor_gives_the_machine_alone() {
-    let plant = press();
-    let (ratio, efficiency) = (
-        plant.file.drive_train.ratio(),
-        plant.file.drive_train.efficiency(),
-    );
-    let rotor = 3e-3;
+    let text = crate::reading::text_of("press.toml");
+    let lossy = crate::support::edited(&text, "efficiency = \"97 %\"", "efficiency = \"80 %\"");
+    let plant = Plant {
+        file: crate::reading::parse(&lossy).unwrap(),
+        ..press()
+    };
+    let train = &plant.file.drive_train;
+    let ratio = train.ratio();
+    assert!((train.efficiency() - 0.8).abs() < 1e-12);
+    // As much as the machine itself has.
+    let rotor = 0.5 * plant.inertias()[0] / (ratio * ratio);
     let inertia = plant.file.train_inertia() + rotor * ratio * ratio;
-    assert!(inertia > 0.05 * plant.inertias()[0]);
     let mut log = log(&plant, Encoder::Fine, false, 4, 30.0);
     for (k, torque) in log.samples.torque.iter_mut().enumerate() {
         let [_, omega, alpha] = motion((k as f64 - 1.0) * STEP, &VARIED, 1.5 * TAU, TAU / 2.0);
-        *torque += inertia * alpha;
-        *torque *= if *torque * omega >= 0.0 {
-            1.0 / (ratio * efficiency)
-        } else {
-            efficiency / ratio
+        let output = TrainOutput {
+            torque: *torque,
+            omega,
+            alpha,
+            direction: omega,
+            ..TrainOutput::default()
         };
+        *torque = train.input(&output).torque + rotor * ratio * alpha;
     }
     for position in &mut log.samples.position {
         *position *= ratio;
     }
-    referred(&mut log.samples, &plant.file);
+    referred(&mut log.samples, &plant.file, rotor);
     let mut found = identify(&log.samples, &log.options).unwrap();
     let [with, ..] = errors(&plant, &found);
     let (mut heavy, least) = (found.clone(), plant.inertias());
@@ -511,12 +518,47 @@ fn faults_are_found() {
     // Rest with an encoder that counts to and fro is no second direction.
     let mut resting = clean.samples.clone();
     let end = resting.position[29_999];
-    resting.position.extend((0..10_000).map(|k| end + step * f64::from([0, 2, 0, -2][k % 4])));
+    resting
+        .position
+        .extend((0..10_000).map(|k| end + step * f64::from([0, 2, 0, -2][k % 4])));
     resting.torque.resize(40_000, 0.0);
     resting.faulty.resize(40_000, false);
     let rested = identify(&resting, &clean.options).unwrap();
     assert_eq!(rested.mean_load, None);
-    assert!((rested.excitation.turns - 45.0).abs() < 0.5, "{}", rested.excitation.turns);
+    assert!(
+        (rested.excitation.turns - 45.0).abs() < 0.5,
+        "{}",
+        rested.excitation.turns
+    );
+    // The encoder of one turn, with a gap in which it turns more than half a turn; and the same with an encoder that counts turns.
+    let times = || (0..30_000).map(|k| f64::from(k) * STEP);
+    let gapped: Vec<f64> = times().filter(|t| !(5.0..5.5).contains(t)).collect();
+    let rows = |of: &[f64], change: fn(f64) -> f64| -> Vec<f64> {
+        let kept = times().zip(of).filter(|(t, _)| !(5.0..5.5).contains(t));
+        kept.map(|(_, x)| change(*x)).collect()
+    };
+    let torque = rows(&clean.samples.torque, |x| x);
+    let within = rows(&clean.samples.position, |x| x.rem_euclid(TAU));
+    let Err(RecordFault::Turns { row, gap, longest }) = samples(&gapped, &within, &torque) else {
+        panic!("turns are lost");
+    };
+    assert!(row == 5001 && (gap - 0.501).abs() < 1e-9 && (0.15..0.5).contains(&longest));
+    let counted = rows(&clean.samples.position, |x| x);
+    let (read, repairs) = samples(&gapped, &counted, &torque).unwrap();
+    assert!(matches!(repairs[..], [Repair::Gaps { count: 1, .. }]));
+    assert!((read.position[29_999] - clean.samples.position[29_999]).abs() < 1e-9);
+    // Steps of more than half a turn, of a fast motor that counts turns, stay.
+    let fast: Vec<f64> = clean.samples.position.iter().map(|x| 400.0 * x).collect();
+    let all: Vec<f64> = times().collect();
+    let (read, _) = samples(&all, &fast, &clean.samples.torque).unwrap();
+    assert!((read.position[29_999] - fast[29_999]).abs() < 1e-6);
+    // Cogging of a low order is a harmonic of V′: above the order that the noise suggests.
+    let low = Options {
+        cogging: vec![18, 36],
+        ..clean.options.clone()
+    };
+    let lower = identify(&clean.samples, &low).unwrap();
+    assert!(lower.harmonics >= 18 && lower.cogging.len() == 1);
     // A delay far from the usual one is searched for.
     let late = found(&|samples| samples.torque.rotate_right(5));
     assert!((late.delay.value - 6e-3).abs() < 0.3e-3, "{:?}", late.delay);

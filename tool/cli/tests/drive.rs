@@ -206,7 +206,7 @@ fn a_train_that_reverses_is_named() {
     let folder = Folder::new();
     let axis = std::fs::read_to_string(shipped("belt-axis.toml")).unwrap();
     let idler = "[[drive_train.stage]]\ndriver = { teeth = 20, inertia = \"0 kg m^2\" }\ndriven = { teeth = 20, inertia = \"0 kg m^2\" }\n\n[motion]\n";
-    let twice = folder.file("twice.toml", &axis.replacen("[motion]\n", idler, 1));
+    let twice = folder.file("twice.toml", axis.replacen("[motion]\n", idler, 1));
     for (file, direction) in [(shipped("belt-axis.toml"), -1.0), (twice, 1.0)] {
         let line = "drive {} --drive sgm7a-25a --counts-per-turn 1000 --format json";
         let json = jred_of(line, [&file]).json();

@@ -220,7 +220,11 @@ fn negative_friction_of_one_direction_becomes_a_load_and_is_said() {
     let text = example(|phi, torque| [phi, torque - 2.0]);
     let run = of_text(folder.path(), &text, COUNTED);
     assert_eq!(run.code, 0, "{}", run.err);
-    assert!(run.out.contains("Coulomb friction is negative"), "{}", run.out);
+    assert!(
+        run.out.contains("Coulomb friction is negative"),
+        "{}",
+        run.out
+    );
     let csv = of_text(folder.path(), &text, &format!("{COUNTED} --format csv"));
     let row = csv.out.lines().nth(1).unwrap();
     let cells: Vec<f64> = row.split(',').map(|cell| cell.parse().unwrap()).collect();
@@ -235,7 +239,11 @@ fn options_out_of_range_are_refused() {
         ("--delay 1s", "longer than 50 ms"),
         ("--cogging 36,48,36", "the order 36 twice"),
     ] {
-        let run = of_text(folder.path(), &text, &format!("--counts-per-turn 4096 {options}"));
+        let run = of_text(
+            folder.path(),
+            &text,
+            &format!("--counts-per-turn 4096 {options}"),
+        );
         assert!(run.code == 2 && run.err.contains(expected), "{}", run.err);
     }
 }

@@ -7,8 +7,10 @@ pub(super) struct Basis {
     pub(super) harmonics: usize,
     /// Whether there is a mean load: in one direction it is the same as Coulomb friction.
     pub(super) mean: bool,
-    /// Orders of the cogging.
+    /// Orders of the cogging above the harmonics.
     pub(super) cogging: Vec<u32>,
+    /// The highest order of cogging that is a harmonic of V′; 0 without one.
+    pub(super) least: usize,
 }
 
 /// Values at a position.

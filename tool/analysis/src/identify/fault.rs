@@ -15,6 +15,12 @@ const BINS: usize = 72;
 /// A bin with less than this share of the mean is not visited.
 const VISITED: f64 = 0.1;
 
+/// The least number of samples whose speed is a filtered one.
+const SHORTEST: usize = 500;
+
+/// The least number of samples in a bin from which a variation follows.
+const IN_BIN: usize = 20;
+
 /// Whitened residuals above this many robust standard deviations are outliers.
 const OUTLIER: f64 = 5.0;
 
@@ -25,11 +31,11 @@ const SLIP: f64 = 4.5;
 /// Why a log does not determine the machine.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Obstacle {
-    /// Too few independent rows are left.
+    /// Too few samples, or independent rows.
     Short {
-        /// Rows that are left: one for every 4 ms of faultless motion.
+        /// Samples, or rows that are left: one for every 4 ms of faultless motion.
         rows: usize,
-        /// Rows that are needed.
+        /// How many are needed.
         needed: usize,
     },
     /// Angles that are not visited, the longest range (rad).
@@ -101,8 +107,8 @@ pub enum Fault {
 
 /// Angles, speeds and their variation.
 pub(super) struct Visits {
-    /// Median over the angles of std ω²/mean ω².
-    pub(super) variation: f64,
+    /// Median over the angles of std ω²/mean ω²; `None`: too few samples at each.
+    pub(super) variation: Option<f64>,
     /// The longest range of empty bins.
     gap: Option<[usize; 2]>,
 }
@@ -131,7 +137,7 @@ pub(super) fn visits(samples: &Samples, speed: &[f64]) -> Visits {
     }
     let mut each: Vec<f64> = bins
         .iter()
-        .filter(|bin| bin.len() > 20)
+        .filter(|bin| bin.len() >= IN_BIN)
         .map(|bin| {
             let count = bin.len() as f64;
             let mean = bin.iter().sum::<f64>() / count;
@@ -141,20 +147,20 @@ pub(super) fn visits(samples: &Samples, speed: &[f64]) -> Visits {
         .collect();
     each.sort_by(f64::total_cmp);
     Visits {
-        variation: each.get(each.len() / 2).copied().unwrap_or_default(),
+        variation: each.get(each.len() / 2).copied(),
         gap,
     }
 }
 
 /// The smoothed speed; refuses a log that cannot determine a machine, whatever the fit.
 pub(super) fn check(samples: &Samples) -> Result<Vec<f64>, Obstacle> {
-    const LEAST: usize = 500;
     let count = samples.position.len();
-    if count < LEAST {
-        return Err(Obstacle::Short {
-            rows: count,
-            needed: LEAST,
-        });
+    let short = Obstacle::Short {
+        rows: count,
+        needed: BINS * IN_BIN,
+    };
+    if count < SHORTEST {
+        return Err(short);
     }
     let half = ((0.05 / samples.step) as usize).max(8);
     let speed = super::smooth::smooth(&samples.position, samples.step, half).speed;
@@ -166,10 +172,9 @@ pub(super) fn check(samples: &Samples) -> Result<Vec<f64>, Obstacle> {
             to: ((from % BINS) + length) as f64 * width,
         });
     }
-    if visits.variation < 0.05 {
-        return Err(Obstacle::SameSpeed {
-            variation: visits.variation,
-        });
+    let variation = visits.variation.ok_or(short)?;
+    if variation < 0.05 {
+        return Err(Obstacle::SameSpeed { variation });
     }
     Ok(speed)
 }

@@ -11,7 +11,8 @@
 use std::f64::consts::TAU;
 
 use super::basis::Basis;
-use super::matrix::{Band, DIAGONALS, Matrix, dot, factor, whiten};
+use super::likelihood::{covariance, torque_variance};
+use super::matrix::{Band, Matrix, dot, factor, whiten};
 use super::smooth::{Smooth, half_window, noise, smooth, speed_noise};
 use super::solution::{Unfit, solve};
 use super::weak::Weak;
@@ -75,53 +76,6 @@ pub(super) struct Fit {
     pub(super) weak: Weak,
     pub(super) motion: Smooth,
     pub(super) lower: Band,
-}
-
-/// Covariance of the rows; those that do not count are set apart.
-fn covariance(position: &Band, torque: &[f64; DIAGONALS], variance: f64, kept: &[bool]) -> Band {
-    let row = |(i, band): (usize, &[f64; DIAGONALS])| {
-        std::array::from_fn(|l| match (kept[i], l) {
-            (true, _) if l <= i && kept[i - l] => band[l] + variance * torque[l],
-            (false, 0) => 1.0,
-            _ => 0.0,
-        })
-    };
-    position.iter().enumerate().map(row).collect()
-}
-
-/// −2·ln of the likelihood of residuals, but for a constant.
-fn unlikeliness(band: &Band, residuals: &[f64]) -> Option<f64> {
-    let lower = factor(band)?;
-    let mut column = Matrix::zeros(residuals.len(), 1)
-        .beside(residuals)
-        .select(&[1]);
-    whiten(&lower, &mut column);
-    let squares: f64 = column.rows().map(|row| row[0] * row[0]).sum();
-    let logs: f64 = lower.iter().map(|row| row[0].ln()).sum();
-    Some(squares + 2.0 * logs)
-}
-
-/// The variance of the torque by maximum likelihood, with Newton's method on its logarithm.
-fn torque_variance(
-    position: &Band,
-    torque: &[f64; DIAGONALS],
-    kept: &[bool],
-    residuals: &[f64],
-    start: f64,
-    steps: usize,
-) -> Option<f64> {
-    let mut log = start.ln();
-    let at = |log: f64| unlikeliness(&covariance(position, torque, log.exp(), kept), residuals);
-    for _ in 0..steps {
-        let [here, above, below] = [at(log)?, at(log + 0.1)?, at(log - 0.1)?];
-        let curvature = ((above - 2.0 * here + below) / 0.01).max(1e-2 * kept.len() as f64);
-        let step = (-(above - below) / 0.2 / curvature).clamp(-1.5, 1.5);
-        log += step;
-        if step.abs() < 0.01 {
-            break;
-        }
-    }
-    Some(log.exp())
 }
 
 /// Derivative by the row's number.
@@ -285,7 +239,8 @@ pub(super) fn fit(
                 .sum();
             let mean = (size / GRID as f64).max(1e-300);
             let crossing = (variance.sqrt() / (mean * position_noise)).sqrt() / TAU;
-            let cutoff = (0.7 * crossing).max(5.0 * turns).min(0.05 / samples.step);
+            // The machine's own harmonics must pass, whatever the noise.
+            let cutoff = (0.7 * crossing).min(0.05 / samples.step).max(5.0 * turns);
             instruments = Instruments::new(&weak, basis, samples, cutoff);
         }
         let modelled = gradient(&instruments.rows.times(&theta), weak.knots());
@@ -372,7 +327,7 @@ impl Fit {
         let normal = self.instruments.transposed_product(&self.whitened);
         let spread = self.instruments.transposed_product(&self.instruments);
         let right = self.instruments.transposed_times(&self.right);
-        for harmonics in FROM..most {
+        for harmonics in FROM.max(self.basis.least)..most {
             let next = NEXT.min(most - harmonics);
             let wide = self.basis.with_harmonics(harmonics + next);
             let mut columns = self.basis.columns_of(harmonics + next);

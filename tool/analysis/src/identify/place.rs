@@ -30,7 +30,9 @@ impl Curves {
         }
         for curve in [&mut j, &mut v] {
             let mean = curve.iter().sum::<f64>() / curve.len().max(1) as f64;
-            curve.iter_mut().for_each(|y| *y -= mean);
+            for y in curve.iter_mut() {
+                *y -= mean;
+            }
         }
         Self([j, v])
     }

@@ -69,6 +69,15 @@ pub enum RecordFault {
         /// The time before (s).
         before: f64,
     },
+    /// The turns within a gap are not known: the encoder counts within one turn.
+    Turns {
+        /// The row after the gap.
+        row: usize,
+        /// Its duration (s).
+        gap: f64,
+        /// The longest that is possible at the log's largest speed (s).
+        longest: f64,
+    },
     /// Most of the samples are missing.
     Scattered,
     /// There are fewer than two different times.
@@ -138,7 +147,7 @@ pub fn samples(
     if off > JITTER {
         repairs.push(Repair::Jitter { share: off });
     }
-    let unwrapped = unwrapped(&kept, position);
+    let unwrapped = unwrapped(&kept, position, time, GAP * median)?;
     let mut samples = Samples {
         step,
         position: vec![0.0; count],
@@ -201,20 +210,48 @@ fn rising(time: &[f64], repairs: &mut Vec<Repair>) -> Result<Vec<usize>, RecordF
     Ok(kept)
 }
 
-/// Positions without the jump of an encoder that counts within one turn.
-fn unwrapped(kept: &[usize], position: &[f64]) -> Vec<f64> {
+/// Positions without the jump of an encoder that counts within one turn; others stay.
+fn unwrapped(
+    kept: &[usize],
+    position: &[f64],
+    time: &[f64],
+    gap: f64,
+) -> Result<Vec<f64>, RecordFault> {
+    let mut values: Vec<f64> = kept.iter().map(|&row| position[row]).collect();
+    let [least, most] = values
+        .iter()
+        .fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], &x| {
+            [a.min(x), b.max(x)]
+        });
+    // Rounded positions may exceed a turn.
+    if most - least > 1.001 * TAU {
+        return Ok(values);
+    }
     let mut turns = 0.0;
-    let mut before: Option<f64> = None;
-    let each = kept.iter().map(|&row| {
-        let here = position[row];
-        let jump = before.map_or(0.0, |before| here - before);
-        if jump.abs() > PI {
-            turns -= (jump / TAU).round() * TAU;
+    let mut before = values.first().copied().unwrap_or_default();
+    let (mut speed, mut row, mut longest) = (0.0f64, 0, 0.0);
+    for (value, rows) in values.iter_mut().skip(1).zip(kept.windows(2)) {
+        let jump = *value - before;
+        before = *value;
+        let over = (jump / TAU).round() * TAU;
+        turns -= over;
+        *value += turns;
+        let &[from, to] = rows else { continue };
+        let step = time[to] - time[from];
+        if step <= gap {
+            speed = speed.max((jump - over).abs() / step);
+        } else if step > longest {
+            (row, longest) = (to + 1, step);
         }
-        before = Some(here);
-        here + turns
-    });
-    each.collect()
+    }
+    if longest * speed > PI {
+        return Err(RecordFault::Turns {
+            row,
+            gap: longest,
+            longest: PI / speed,
+        });
+    }
+    Ok(values)
 }
 
 /// Which of the kept rows are at a limit of the torque.

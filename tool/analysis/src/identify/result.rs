@@ -54,6 +54,8 @@ pub struct CurvePoint {
 pub struct Excitation {
     /// Duration of the log (s).
     pub duration: f64,
+    /// Time between two samples (s).
+    pub step: f64,
     /// Turns.
     pub turns: f64,
     /// Median over the angles of std ω²/mean ω².
@@ -126,7 +128,9 @@ impl Identified {
     /// The only direction of the log (±1); `None`: both, so that the mean load is apart from Coulomb friction.
     pub fn direction(&self) -> Option<f64> {
         let forward = self.excitation.forward > 0.5;
-        self.mean_load.is_none().then_some(if forward { 1.0 } else { -1.0 })
+        self.mean_load
+            .is_none()
+            .then_some(if forward { 1.0 } else { -1.0 })
     }
 
     /// The band of J, and whether J is positive, of the curves as they are.
@@ -139,14 +143,11 @@ impl Identified {
         let least = each.min_by(|a, b| a.inertia.value.total_cmp(&b.inertia.value));
         let is_reversed = |fault: &Fault| matches!(fault, Fault::Reversed { .. });
         let reversed = self.faults.iter().any(is_reversed);
-        if let Some(least) = least.filter(|point| point.inertia.value <= 0.0) {
-            if !reversed {
-                self.faults.push(Fault::NotPositive {
-                    at: least.phi,
-                    inertia: least.inertia.value,
-                });
-            }
-        }
+        let least = least.filter(|point| point.inertia.value <= 0.0 && !reversed);
+        self.faults.extend(least.map(|point| Fault::NotPositive {
+            at: point.phi,
+            inertia: point.inertia.value,
+        }));
     }
 
     /// Largest J (kg·m²).
@@ -238,7 +239,8 @@ fn excitation(fit: &Fit, samples: &Samples, curves: &[CurvePoint]) -> Excitation
     Excitation {
         duration: samples.step * samples.position.len() as f64,
         turns: travel / TAU,
-        speed_variation: visits(samples, speed).variation,
+        speed_variation: visits(samples, speed).variation.unwrap_or_default(),
+        step: samples.step,
         acceleration: deviation.sqrt() * mean / fit.torque_noise,
         forward: forward / (forward + back).max(1.0),
         band: 0.0,

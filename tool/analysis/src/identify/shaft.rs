@@ -1,6 +1,9 @@
 //! The shaft on which a log was recorded.
 
+use super::smooth::smooth;
 use super::{Identified, Samples};
+use jred::mechanism::TrainOutput;
+use jred_file::model::drive_train::DriveTrain;
 use jred_file::model::machine::MachineFile;
 
 jred_file::words! {
@@ -13,35 +16,68 @@ jred_file::words! {
     }
 }
 
-/// Samples on either side from which the direction of the motion follows.
-const NEAR: usize = 5;
+/// Half window of the filter of the acceleration (s).
+const WINDOW: f64 = 0.025;
 
-/// Refers samples of the motor to the drive link. The losses of the drive train take part of a driving torque, and are added to a braking one.
-pub fn referred(samples: &mut Samples, file: &MachineFile) {
-    let (ratio, efficiency) = (file.drive_train.ratio(), file.drive_train.efficiency());
-    let last = samples.position.len().saturating_sub(1);
-    let moved = |k: usize| {
-        samples.position[(k + NEAR).min(last)] - samples.position[k.saturating_sub(NEAR)]
-    };
-    let torque = samples.torque.iter().enumerate().map(|(k, torque)| {
-        let driving = torque * moved(k) >= 0.0;
-        torque
-            * ratio
-            * if driving {
-                efficiency
-            } else {
-                1.0 / efficiency
-            }
-    });
-    samples.torque = torque.collect();
+/// Rounds of the search for the output torque: one for each stage whose direction of power is not that of the guess.
+const ROUNDS: usize = 20;
+
+/// Refers samples of the motor to the drive link: without the losses of the drive train, with the torques that its shafts and a rotor (kg·m², at the
+/// motor) need. Where power comes from the motor,
+///
+/// ```text
+/// T = i·η·(T_log − J_rotor·i·α) + i²·J_rotor·α
+/// ```
+///
+/// of one stage; shaft by shaft by [`DriveTrain::input`]. The filtered α acts on the losses alone.
+pub fn referred(samples: &mut Samples, file: &MachineFile, rotor: f64) {
+    let train = &file.drive_train;
+    let ratio = train.ratio();
+    let inertia = drive_inertia(file, rotor);
     for position in &mut samples.position {
         *position /= ratio;
     }
+    let half = ((WINDOW / samples.step) as usize).max(4);
+    let motion = smooth(&samples.position, samples.step, half);
+    let moving = motion.speed.iter().zip(&motion.acceleration);
+    for (torque, (&omega, &alpha)) in samples.torque.iter_mut().zip(moving) {
+        let at = TrainOutput {
+            omega,
+            alpha,
+            direction: omega,
+            ..TrainOutput::default()
+        };
+        *torque = output(train, &at, *torque - rotor * ratio * alpha) + inertia * alpha;
+    }
+}
+
+/// The output torque of a drive train whose input has this torque, by Newton's method: the losses make the input a convex function of straight lines.
+fn output(train: &DriveTrain, motion: &TrainOutput, wanted: f64) -> f64 {
+    let mut at = *motion;
+    for _ in 0..ROUNDS {
+        let input = train.input(&at);
+        let steeper = TrainOutput {
+            torque_per_alpha: 1.0,
+            ..at
+        };
+        let slope = train.input(&steeper).torque_per_alpha - input.torque_per_alpha;
+        let step = (wanted - input.torque) / slope;
+        at.torque += step;
+        if step.abs() <= 1e-12 * at.torque.abs() {
+            break;
+        }
+    }
+    at.torque
+}
+
+/// Inertia of drive train and rotor at the drive link (kg·m²).
+fn drive_inertia(file: &MachineFile, rotor: f64) -> f64 {
+    file.train_inertia() + rotor * file.drive_train.ratio().powi(2)
 }
 
 /// The machine alone: without the drive train of the file and a rotor (kg·m², at the motor).
 pub fn without_drive(found: &mut Identified, file: &MachineFile, rotor: f64) {
-    let inertia = file.train_inertia() + rotor * file.drive_train.ratio().powi(2);
+    let inertia = drive_inertia(file, rotor);
     if let Some(mean) = found.inertia.first_mut() {
         mean.value -= inertia;
     }

@@ -39,28 +39,7 @@ pub(super) fn run(options: &Identify) -> Result<Completion> {
             file.name
         ));
     }
-    if options.rotor_inertia.is_some() && options.shaft == Shaft::Link {
-        return Err(miette!(
-            help = "leave out --rotor-inertia, or give --shaft motor",
-            "--rotor-inertia is at the motor, and the log is of the drive link"
-        ));
-    }
-    if let Some(delay) = options.delay.filter(|delay| delay.abs() > LONGEST_DELAY) {
-        return Err(miette!(
-            help = "give the delay with its unit, for example --delay \"1 ms\", or leave it out: it is found",
-            "a delay of {} ms is longer than 50 ms: no drive logs its torque that late",
-            short(delay * 1e3)
-        ));
-    }
-    let mut orders = options.cogging.clone();
-    orders.sort_unstable();
-    if let Some(pair) = orders.windows(2).find(|pair| pair[0] == pair[1]) {
-        return Err(miette!(
-            help = "give each order once",
-            "--cogging has the order {} twice",
-            pair[0]
-        ));
-    }
+    refuse(options)?;
     let designed = designed(&file).map_err(core_report)?;
     let each = options.logs.iter();
     let logs = each.map(|log| one(options, &file, &designed, log));
@@ -85,6 +64,34 @@ pub(super) fn run(options: &Identify) -> Result<Completion> {
     } else {
         Completion::Holds
     })
+}
+
+/// Refuses options that exclude each other, or are out of range.
+fn refuse(options: &Identify) -> Result<()> {
+    if options.rotor_inertia.is_some() && options.shaft == Shaft::Link {
+        return Err(miette!(
+            help = "leave out --rotor-inertia, or give --shaft motor",
+            "--rotor-inertia is at the motor, and the log is of the drive link"
+        ));
+    }
+    if let Some(delay) = options.delay.filter(|delay| delay.abs() > LONGEST_DELAY) {
+        return Err(miette!(
+            help = "give the delay with its unit, for example --delay \"1 ms\", or leave it out: it is found",
+            "a delay of {} ms is longer than 50 ms: no drive logs its torque that late",
+            short(delay * 1e3)
+        ));
+    }
+    let mut orders = options.cogging.clone();
+    orders.sort_unstable();
+    let mut neighbours = orders.iter().zip(orders.iter().skip(1));
+    if let Some((order, _)) = neighbours.find(|(a, b)| a == b) {
+        return Err(miette!(
+            help = "give each order once",
+            "--cogging has the order {} twice",
+            order
+        ));
+    }
+    Ok(())
 }
 
 /// The result of one log.
@@ -116,8 +123,9 @@ fn one(
         *position = sign * (*position - zero);
     }
     let geared = options.shaft == Shaft::Motor;
+    let rotor = options.rotor_inertia.unwrap_or_default();
     if geared {
-        identify::referred(&mut samples, file);
+        identify::referred(&mut samples, file, rotor);
     }
     let ratio = if geared {
         file.drive_train.ratio()
@@ -132,7 +140,7 @@ fn one(
     };
     let mut found = identify::identify(&samples, &request).map_err(|why| refusal(&name, &why))?;
     if geared {
-        identify::without_drive(&mut found, file, options.rotor_inertia.unwrap_or_default());
+        identify::without_drive(&mut found, file, rotor);
     }
     let curves = designed.iter().map(|at| [at.inertia, at.potential_slope]);
     identify::against_design(&mut found, &curves.collect::<Vec<_>>());

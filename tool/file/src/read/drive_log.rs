@@ -2,8 +2,6 @@
 //!
 //! The header of the measured four-bar linkage of DaRUS (doi 10.18419/darus-4152) is known; others have units in their titles, or are named.
 
-use std::fmt::Write as _;
-
 use crate::plain;
 use crate::problem;
 use crate::text::columns::{self, ColumnSpec, CsvFault, Format, Layout, known};
@@ -147,19 +145,20 @@ pub fn drive_log(name: &str, files: impl Files, layout: &LogLayout) -> Result<Dr
 
 /// The options as the table of a machine file, whose reader is used.
 fn options_as_table(named: &[(String, String)], layout: &LogLayout) -> String {
-    let mut table = String::new();
-    if !named.is_empty() {
-        let entries = named
-            .iter()
-            .map(|(name, title)| format!("{name} = {title:?}"));
-        let entries: Vec<String> = entries.collect();
-        let _ = writeln!(table, "columns = {{ {} }}", entries.join(", "));
-    }
+    let mut table = toml::Table::new();
     if let Some(counts) = layout.counts_per_turn {
-        let _ = writeln!(table, "counts_per_turn = {counts}");
+        table.insert("counts_per_turn".to_owned(), i64::from(counts).into());
     }
     if layout.skipped > 0 {
-        let _ = writeln!(table, "skip_rows = {}", layout.skipped);
+        table.insert("skip_rows".to_owned(), i64::from(layout.skipped).into());
     }
-    table
+    if !named.is_empty() {
+        let entries = named.iter().cloned();
+        let entries = entries.map(|(name, title)| (name, title.into()));
+        table.insert(
+            "columns".to_owned(),
+            entries.collect::<toml::Table>().into(),
+        );
+    }
+    table.to_string()
 }

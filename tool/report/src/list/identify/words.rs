@@ -8,6 +8,10 @@ use jred_file::number::rounding::{percent, short};
 use super::{LogResult, Signs};
 use crate::answer::Answer;
 
+/// The longest time between samples (s) for which the method is tested, and the highest frequency (Hz) that its test functions let through.
+const SLOW: f64 = 0.0021;
+const HIGHEST: f64 = 80.0;
+
 /// Limits of the warnings: variation of ω² at an angle, inertial torque against the noise, band of J.
 const EVEN: f64 = 0.10;
 const HARDLY: f64 = 2.0;
@@ -48,6 +52,23 @@ pub(super) fn of_log(answer: &mut Answer, log: &LogResult) {
     }
     for fault in &found.faults {
         answer.warning(fault_words(fault, log));
+    }
+    if motion.step > SLOW {
+        answer.warning(format!(
+            "the log has {} samples a second: the method is tested from 500 on; with fewer it sees less of high harmonics",
+            short(1.0 / motion.step)
+        ));
+    }
+    let turns = motion.turns / motion.duration;
+    for cogging in &found.cogging {
+        let frequency = f64::from(cogging.order) * turns;
+        if frequency > HIGHEST {
+            answer.warning(format!(
+                "cogging of order {} has {} Hz at the mean speed; above {HIGHEST} Hz the method sees little of it: record a slower run",
+                cogging.order,
+                short(frequency)
+            ));
+        }
     }
     if motion.speed_variation < EVEN {
         answer.warning(format!(
@@ -173,7 +194,7 @@ pub fn refusal(name: &str, why: &Obstacle) -> Report {
     match *why {
         Obstacle::Short { rows, needed } => miette!(
             help = "record 30 s with the speed varied from turn to turn",
-            "{name} is too short: {rows} independent rows are left, {needed} are needed"
+            "{name} is too short: {rows} independent samples are left, {needed} are needed"
         ),
         Obstacle::NotVisited { from, to } => miette!(
             help = "let the drive link turn fully in the log",
@@ -201,6 +222,12 @@ pub fn unreadable(name: &str, fault: &RecordFault) -> Report {
             "{name}: the time does not increase: row {row} has {} s after {} s",
             short(time),
             short(before)
+        ),
+        RecordFault::Turns { row, gap, longest } => miette!(
+            help = "give the rows before and after the gap as two files, or log a position that counts turns",
+            "{name}: the encoder counts within one turn, and {} ms are missing before row {row}: above {} ms half a turn may be lost",
+            short(gap * 1e3),
+            short(longest * 1e3)
         ),
         RecordFault::Scattered => miette!(
             help = "give one file for each run without pauses in the recording",
