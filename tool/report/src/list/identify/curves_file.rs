@@ -1,0 +1,82 @@
+//! The identified curves as the file of a machine of the type reduced-curves.
+
+use std::fmt::Write as _;
+
+use jred_analysis::identify::CurvePoint;
+use jred_file::number::rounding::short;
+
+use super::IdentifyView;
+use crate::answer::Answer;
+
+/// What a file of reduced curves has beside J and V′.
+struct Loads {
+    mean_load: f64,
+    viscous: f64,
+    coulomb: f64,
+}
+
+impl IdentifyView<'_> {
+    /// The loads, of which friction is never negative: what is left of c in one direction is a mean load.
+    fn loads(&self) -> Loads {
+        let mean_load = self.mean(|found| found.mean_load.unwrap_or_default()).value;
+        let [b, c] = [
+            self.mean(|f| f.viscous).value,
+            self.mean(|f| f.coulomb).value,
+        ];
+        let direction = self.logs.first().and_then(|log| log.found.direction());
+        Loads {
+            mean_load: mean_load + direction.unwrap_or_default() * c.min(0.0),
+            viscous: b.max(0.0),
+            coulomb: c.max(0.0),
+        }
+    }
+
+    /// Warnings of friction that is negative.
+    pub(super) fn negative_friction(&self, answer: &mut Answer) {
+        let [b, c] = [self.mean(|f| f.viscous), self.mean(|f| f.coulomb)];
+        if b.value < 0.0 {
+            answer.warning(format!(
+                "viscous friction is negative ({} ± {} N m s/rad); the CSV has 0: record higher and lower speeds",
+                short(b.value),
+                short(b.band)
+            ));
+        }
+        if c.value < 0.0 {
+            let one = self.logs.first().and_then(|log| log.found.direction());
+            let written = one.map_or(
+                "the CSV has 0",
+                |_| "in one direction this is a mean load; the CSV has it in T",
+            );
+            answer.warning(format!(
+                "Coulomb friction is negative ({} ± {} N m); {written}: record both directions",
+                short(c.value),
+                short(c.band)
+            ));
+        }
+    }
+
+    /// The curves as the file of a machine of the type reduced-curves.
+    pub(super) fn reduced_curves(&self, curves: &[CurvePoint]) -> String {
+        let Loads {
+            mean_load,
+            viscous,
+            coulomb,
+        } = self.loads();
+        let mut csv =
+            "phi [deg],J [kg m^2],T [N m],T_potential [N m],b [N m s/rad],c [N m]\n".to_owned();
+        for point in curves {
+            // Writing to a text cannot fail.
+            let _ = writeln!(
+                csv,
+                "{},{:.9e},{:.9e},{:.9e},{:.9e},{:.9e}",
+                short(point.phi.to_degrees()),
+                point.inertia.value,
+                -mean_load,
+                mean_load - point.potential_slope.value,
+                viscous,
+                coulomb
+            );
+        }
+        csv
+    }
+}
