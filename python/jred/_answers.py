@@ -428,10 +428,10 @@ class DriveFigureData(Item):
     """Its name."""
     value: float | None
     """Its value in SI; null if it is not given."""
-    missing: str
-    """Where to read a value that is not given."""
+    remark: str
+    """Where to read a value that is not given, or the part that sets the torque limit."""
 
-DriveSetting: TypeAlias = "Literal['bandwidth'] | Literal['brake-closing'] | Literal['brake-opening'] | Literal['coulomb-friction'] | Literal['counts-per-turn'] | Literal['cycle-peak-speed'] | Literal['cycle-peak-torque'] | Literal['cycle-rms-torque'] | Literal['inertia-ratio'] | Literal['largest-load-inertia'] | Literal['largest-position'] | Literal['least-load-inertia'] | Literal['least-position'] | Literal['load-inertia'] | Literal['motor-time'] | Literal['motor-turns'] | Literal['peak-current'] | Literal['rated-current'] | Literal['rated-torque'] | Literal['resistance'] | Literal['resistor-power'] | Literal['rotor-inertia'] | Literal['shaft-turns'] | Literal['speed-gain'] | Literal['speed-limit'] | Literal['standstill-current'] | Literal['standstill-torque'] | Literal['torque-constant'] | Literal['torque-limit'] | Literal['total-inertia'] | Literal['viscous-friction'] | Literal['weight-torque'] | Literal['winding-time']"
+DriveSetting: TypeAlias = "Literal['bandwidth'] | Literal['brake-closing'] | Literal['brake-opening'] | Literal['coulomb-friction'] | Literal['counts-per-turn'] | Literal['cycle-peak-speed'] | Literal['cycle-peak-torque'] | Literal['cycle-rms-torque'] | Literal['direction'] | Literal['inertia-ratio'] | Literal['largest-load-inertia'] | Literal['largest-position'] | Literal['least-load-inertia'] | Literal['least-position'] | Literal['load-inertia'] | Literal['motor-time'] | Literal['motor-turns'] | Literal['peak-current'] | Literal['rated-current'] | Literal['rated-torque'] | Literal['resistance'] | Literal['resistor-power'] | Literal['rotor-inertia'] | Literal['shaft-turns'] | Literal['speed-gain'] | Literal['speed-limit'] | Literal['standstill-current'] | Literal['standstill-torque'] | Literal['torque-constant'] | Literal['torque-limit'] | Literal['total-inertia'] | Literal['viscous-friction'] | Literal['weight-torque'] | Literal['winding-time']"
 
 class DriveMakerData(Item):
     key: str
