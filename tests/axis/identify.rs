@@ -305,6 +305,50 @@ fn a_motion_that_says_too_little_is_named() {
     assert!(nothing.coefficients.iter().all(|value| value.is_finite()));
 }
 
+/// 3 % of the samples beyond the stated speed are too many, 1 % are not; those that are left out do no harm.
+#[test]
+fn a_speed_beyond_the_stated_one_is_named() {
+    let log = recorded(&PRESS, BITS_12, vary, 1, TICKS);
+    let mut speeds: Vec<_> = (0..TICKS).map(|k| vary(k as f64 * TICK)[1]).collect();
+    speeds.sort_by(f64::total_cmp);
+    for (share, status) in [
+        (0.01, FoundStatus::Good),
+        (0.03, FoundStatus::TooFast),
+        (0.5, FoundStatus::TooFast),
+    ] {
+        let at = ((1.0 - share) * TICKS as f64) as usize;
+        let settings = IdentificationSettings {
+            max_speed: speeds[at] as f32,
+            ..settings(&PRESS, BITS_12)
+        };
+        let found = found::<f32, OF_PRESS>(&settings, &log);
+        assert_eq!(found.status, status, "{share}");
+        assert!(share > 0.1 || score(&PRESS, &found).inertia < 0.01);
+    }
+}
+
+/// Two to four turns a minute are motion for a machine that is no faster.
+#[test]
+fn a_slow_machine_moves() {
+    let slow: Motion = |time| {
+        let [phi, omega, alpha] = vary(time / 30.0);
+        [phi, omega / 30.0, alpha / 900.0]
+    };
+    let encoder = Encoder {
+        counts: 65_536.0,
+        jitter: 0.0,
+    };
+    let log = recorded(&PRESS, encoder, slow, 1, TICKS);
+    let rows = |max_speed| {
+        let settings = IdentificationSettings {
+            max_speed,
+            ..settings(&PRESS, encoder)
+        };
+        found::<f32, OF_PRESS>(&settings, &log).rows
+    };
+    assert!(rows(0.5) > 7000 && rows(14.0) < 5000);
+}
+
 /// A repeated step of the law 3-4-5 by an angle in a time, and a rest.
 fn steps(time: f64, by: f64, during: f64, rest: f64) -> [f64; 3] {
     let cycle = during + rest;

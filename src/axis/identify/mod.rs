@@ -21,8 +21,8 @@ use weight::{MOST_TICKS, WINDOWS, Weights};
 /// Share of the squared residual that a row keeps: a mean over 4 s.
 const RESIDUAL_KEPT: f64 = 0.999;
 
-/// Slowest speed that gives a row (rad/s): below it, friction may stick.
-const SLOWEST: f64 = 0.3;
+/// Slowest speed that gives a row (rad/s), or a 40th of the greatest one if that is less: below it, friction may stick.
+const SLOWEST: f32 = 0.3;
 
 /// The coefficients of a machine from its encoder's phase and its drive's torque, as the words of a [`Harmonic`](crate::Harmonic) table.
 ///
@@ -101,7 +101,7 @@ pub struct Identification<T, const N: usize, const RING: usize, const SET: Curve
     tick: usize,
     windows: usize,
     begins: [Phase; WINDOWS],
-    stood: [bool; WINDOWS],
+    left_out: [bool; WINDOWS],
     measured: [[T; WINDOWS]; N],
     smoothed: [[T; WINDOWS]; N],
     right: [T; WINDOWS],
@@ -177,7 +177,7 @@ impl<T: Circular, const N: usize, const RING: usize, const SET: CurveSet>
             tick: 0,
             windows: 0,
             begins: [Phase::default(); WINDOWS],
-            stood: [false; WINDOWS],
+            left_out: [false; WINDOWS],
             measured: [[zero; WINDOWS]; N],
             smoothed: [[zero; WINDOWS]; N],
             right: [zero; WINDOWS],

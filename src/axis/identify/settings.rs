@@ -29,7 +29,7 @@ const LEAST_JUMP: f32 = 0.25;
 pub struct IdentificationSettings {
     /// Period of the ticks (s): 0.5, 1 or 2 ms, or so.
     pub period: f32,
-    /// Greatest speed of the drive link (rad/s).
+    /// Greatest speed of the drive link (rad/s); what is faster is left out.
     pub max_speed: f32,
     /// Mean of J (kg·m²) as far as it is known: within a factor of two.
     pub inertia: f32,
@@ -55,6 +55,7 @@ pub(super) struct Plan<T> {
     pub(super) inertia: T,
     pub(super) jump: T,
     pub(super) slowest: T,
+    pub(super) fastest: T,
     pub(super) angle_variance: T,
     pub(super) torque_products: [T; WINDOWS],
     pub(super) least_share: T,
@@ -101,6 +102,7 @@ impl IdentificationSettings {
         )?;
         // Where the noise of the torque and of the angle's second derivative are alike.
         let corner = Real::sqrt(self.torque_noise / (self.inertia * self.angle_noise)) / TAU;
+        // The motion comes last: a corner below its harmonics would smooth away what the instruments are for.
         let corner = (0.7 * corner).min(0.05 / period).max(5.0 * turns);
         let narrow = (NARROW / period + 0.5) as u32;
         // R. Schafer, *IEEE Signal Processing Magazine* 28, 2011: the corner of a filter of fourth degree.
@@ -141,7 +143,8 @@ impl IdentificationSettings {
             late: (ring as isize + whole) as usize,
             inertia,
             jump: T::from_single(jump),
-            slowest: T::from_f64(SLOWEST),
+            slowest: T::from_single(SLOWEST.min(self.max_speed / 40.0)),
+            fastest: T::from_single(self.max_speed),
             angle_variance: angle * angle,
             torque_products: products.map(|product| torque * torque * product),
             least_share: T::from_f64(1e-6),

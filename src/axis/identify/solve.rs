@@ -46,6 +46,8 @@ pub struct Equations<T, const N: usize> {
 pub enum FoundStatus {
     /// It can. [`Found::inertia`] says how well it is known.
     Good,
+    /// More than 2 % of the samples were faster than the stated `max_speed`, and were left out: state the machine's greatest speed, and start anew.
+    TooFast,
     /// Less than 5 s of motion without jumps and standstill.
     TooShort,
     /// A 32nd of the turn was visited for less than a tenth of the mean time.
@@ -207,7 +209,9 @@ impl<T: Circular, const N: usize> Equations<T, N> {
                 rest / *diagonal
             };
         }
-        found.status = if self.rows < FEWEST_ROWS {
+        found.status = if self.motion.is_too_fast() {
+            FoundStatus::TooFast
+        } else if self.rows < FEWEST_ROWS {
             FoundStatus::TooShort
         } else if let Some(part) = part {
             FoundStatus::NotVisited(part)
@@ -280,6 +284,8 @@ pub(super) struct Motion<T> {
     parts: [[T; 6]; PARTS],
     samples: u32,
     forward: u32,
+    /// Samples beyond the greatest speed, which are in no part.
+    pub(super) fast: u32,
 }
 
 impl<T: Circular> Motion<T> {
@@ -289,6 +295,7 @@ impl<T: Circular> Motion<T> {
             parts: [[zero; 6]; PARTS],
             samples: 0,
             forward: 0,
+            fast: 0,
         }
     }
 
@@ -316,8 +323,13 @@ impl<T: Circular> Motion<T> {
         if self.samples >= most {
             self.samples /= 2;
             self.forward /= 2;
+            self.fast /= 2;
             self.parts = self.parts.map(|part| part.map(|sum| half * sum));
         }
+    }
+
+    fn is_too_fast(&self) -> bool {
+        self.fast > self.samples / 50
     }
 
     fn is_one_way(&self) -> bool {

@@ -41,11 +41,15 @@ impl<T: Circular, const N: usize, const RING: usize, const SET: CurveSet>
             self.open(phase);
         }
         let omega = seen.omega;
-        if omega < self.plan.slowest && -omega < self.plan.slowest {
-            self.stood = [true; WINDOWS];
+        let speed = if omega < zero { -omega } else { omega };
+        let motion = &mut self.equations.motion;
+        if speed > self.plan.fastest {
+            motion.fast = motion.fast.saturating_add(1);
+        }
+        if speed < self.plan.slowest || speed > self.plan.fastest {
+            self.left_out = [true; WINDOWS];
         } else {
-            let most = self.plan.remembered;
-            self.equations.motion.add(phase, omega, most);
+            motion.add(phase, omega, self.plan.remembered);
         }
         let sign = |omega: T| if omega < zero { -one } else { one };
 
@@ -104,7 +108,7 @@ impl<T: Circular, const N: usize, const RING: usize, const SET: CurveSet>
         age(&mut self.right, zero);
         age(&mut self.products, [zero; WINDOWS]);
         age(&mut self.begins, phase);
-        age(&mut self.stood, false);
+        age(&mut self.left_out, false);
     }
 
     /// The oldest window becomes a row, whitened by those before it, and waits to be turned into the equations.
@@ -149,8 +153,8 @@ impl<T: Circular, const N: usize, const RING: usize, const SET: CurveSet>
         }
         let least = self.plan.least_share * variance;
         let diagonal = (if rest > least { rest } else { least }).sqrt();
-        let [.., stood] = self.stood;
-        let used = !stood && diagonal > zero;
+        let [.., left_out] = self.left_out;
+        let used = !left_out && diagonal > zero;
         if used {
             let scale = one / diagonal;
             row.factor[0] = diagonal;
