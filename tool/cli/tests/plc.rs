@@ -195,7 +195,7 @@ fn what_a_plc_does_not_take_is_refused() {
         ),
         (
             "--rated-torque '4 N m'",
-            ["applies to --format cia402", "remove --rated-torque"],
+            ["'--torque-error <TORQUE_ERROR>'", "cannot be used with"],
         ),
     ] {
         for form in ["st", "plcopen"] {
@@ -203,12 +203,19 @@ fn what_a_plc_does_not_take_is_refused() {
             jred_of(&line, [&press]).ends(2).says(&words);
         }
     }
-    let line = "export {} --format cia402 --rated-torque '1 N m' --torque-error '1 N m'";
+    let line = "export {} --format c --rated-torque '4 N m'";
     let run = jred_of(line, [&press]).ends(2);
-    run.says(&[
-        "--torque-error applies to tables over the position",
-        "remove --torque-error",
-    ]);
+    run.says(&["applies to --format cia402", "remove --rated-torque"]);
+    let table = "--forward --prove --pieces auto --omega 1rad/s --alpha 1rad/s^2 --max-bytes 99";
+    for option in table.split(" --").map(|option| option.trim_start_matches("--")) {
+        let line = format!("export {{}} --format cia402 --rated-torque '1 N m' --{option}");
+        jred_of(&line, [&press]).ends(2).says(&["cannot be used with"]);
+    }
+    for option in ["--rows 9", "--counts-per-turn 9"] {
+        let line = format!("export {{}} --torque-error '1 N m' {option}");
+        let run = jred_of(&line, [&press]).ends(2);
+        run.says(&["required arguments were not provided", "--rated-torque"]);
+    }
     let run = jred_of("export {} --format cia402 --torque-error '1 N m'", [&press]).ends(2);
     run.says(&[
         "thousandths of the rated torque, which is not given",

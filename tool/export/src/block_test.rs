@@ -5,7 +5,7 @@ use jred::Phase;
 use crate::export::Export;
 use crate::function_block::{DINT, TEST};
 use crate::name::Name;
-use crate::structured_text::{Block, Kind, List, Use, Variable, real};
+use crate::structured_text::{Block, Kind, Use, number, numbers, real, variable};
 use crate::wide_table::Wide;
 
 /// Rows of the test.
@@ -34,34 +34,25 @@ impl Export {
             torques = torques.max(torque.abs());
             rows.extend([position, omega, alpha, torque]);
         }
-        let input = Variable::new;
         let about = format!(
             "Call it once in the PLC: Passed becomes TRUE if {name} gives the {} values that jred computed.",
             2 * ROWS
         );
-        let part = |of, variables| List { of, variables };
-        let tick = input("Tick", "the block under test").of(Kind::Block(name.clone()));
-        let worst = "largest difference, as a share of the largest torque or force";
-        let lists = vec![
-            part(
-                Use::Output,
-                vec![
-                    input("Passed", "every value is right").of(Kind::Elementary("BOOL")),
-                    input("Worst", worst),
-                ],
+        let outputs = vec![
+            variable("Passed", "every value is right").of(Kind::Elementary("BOOL")),
+            variable(
+                "Worst",
+                "largest difference, as a share of the largest torque or force",
             ),
-            part(Use::Local, vec![tick, input("K", "row").of(DINT)]),
-            part(
-                Use::Constant,
-                vec![
-                    Variable::number("LARGEST_EFFORT", torques, "of the rows"),
-                    Variable::numbers(
-                        "ROWS",
-                        &rows,
-                        "position, speed, acceleration and torque or force of each row, in SI units",
-                    ),
-                ],
-            ),
+        ];
+        let locals = vec![
+            variable("Tick", "the block under test").of(Kind::Block(name.clone())),
+            variable("K", "row").of(DINT),
+        ];
+        let what = "position, speed, acceleration and torque or force of each row, in SI units";
+        let constants = vec![
+            number("LARGEST_EFFORT", torques, "of the rows"),
+            numbers("ROWS", &rows, what),
         ];
         let body = format!(
             "Worst := 0.0;\n\
@@ -82,8 +73,12 @@ impl Export {
         );
         Some(Block {
             name: [name, TEST].concat(),
-            about: vec![about],
-            lists,
+            about,
+            lists: vec![
+                (Use::Output, outputs),
+                (Use::Local, locals),
+                (Use::Constant, constants),
+            ],
             body,
         })
     }

@@ -1,9 +1,9 @@
 //! An electronic cam as PLCs and drives read it: each form is written from the same rows.
 
-use std::fmt;
-
 use crate::name::{Name, PlcNames};
 use crate::structured_text::{array, commented, real};
+use jred_file::problem;
+use jred_file::text::problem::Result;
 
 jred_file::words! {
     /// The form of an electronic cam's table.
@@ -45,14 +45,6 @@ pub struct Cam<'a> {
     pub turn: Option<f64>,
 }
 
-/// A table that a drive does not take.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct CamFault {
-    form: CamForm,
-    rows: usize,
-    limit: usize,
-}
-
 /// Names of cams in a PLC: a tag of Studio 5000 has 40 characters, and a name here may get a suffix.
 const NAMES: PlcNames = PlcNames {
     longest: 32,
@@ -81,92 +73,68 @@ impl CamForm {
     }
 }
 
-impl fmt::Display for CamFault {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (_, _, because) = self.form.limits();
-        let word = if self.rows > self.limit {
-            "most"
-        } else {
-            "least"
-        };
-        write!(
-            f,
-            "the cam has {} rows, and the form {} takes at {word} {}: {because}",
-            self.rows, self.form, self.limit
-        )
-    }
-}
-
-impl CamFault {
-    /// The cure.
-    pub fn cure(&self) -> String {
-        format!("use --rows {}", self.limit)
-    }
-}
-
 impl Cam<'_> {
     /// The table in a form, for a file of this name.
     ///
     /// # Errors
     /// More or fewer rows than the form takes.
-    pub fn text(&self, form: CamForm, file: &str) -> Result<String, CamFault> {
-        let (least, most, _) = form.limits();
-        let rows = self.rows.len();
-        if !(least..=most).contains(&rows) {
-            let limit = if rows > most { most } else { least };
-            return Err(CamFault { form, rows, limit });
-        }
+    pub fn text(&self, form: CamForm, file: &str) -> Result<String> {
+        let (least, most, because) = form.limits();
+        let count = self.rows.len();
+        let ([first, .., last], true) = (self.rows, (least..=most).contains(&count)) else {
+            let (word, limit) = if count > most {
+                ("most", most)
+            } else {
+                ("least", least)
+            };
+            return Err(problem!(
+                help = format!("use --rows {limit}"),
+                "the cam has {count} rows, and the form {form} takes at {word} {limit}: {because}"
+            ));
+        };
         let Name(name) = &Name::for_plc_of_file(file, &NAMES);
+        let (about, comments) = (self.about(), self.comments(form));
         Ok(match form {
             CamForm::Csv => self.csv(),
-            CamForm::Codesys => self.codesys(name),
-            CamForm::Twincat => self.twincat(name),
-            CamForm::Rockwell => self.rockwell(name),
+            CamForm::Codesys => comments + &self.codesys(name, first[0], last[0]),
+            CamForm::Twincat => comments + &self.twincat(name),
+            CamForm::Rockwell => comments + &self.rockwell(name, first[2], last[2]),
             CamForm::Siemens => self.siemens(name),
-            CamForm::Sew => format!("{rows}\n") + &self.lines(|_, [x, y, ..]| format!("{x};{y}")),
+            CamForm::Sew => format!("{count}\n") + &self.lines(|_, [x, y, ..]| format!("{x};{y}")),
             CamForm::Kollmorgen => {
-                let cyclic = if self.is_cyclic() { "YES" } else { "NO" };
+                let cyclic = if self.is_cyclic(first, last) {
+                    "YES"
+                } else {
+                    "NO"
+                };
                 let rows = self.lines(|_, [x, y, ..]| format!("{x};{y};SPLINE"));
                 format!("CYCLIC;{cyclic};\nTABLE_BEGIN;;\n{rows}TABLE_END;;\n")
             }
-            CamForm::Lenze => {
-                let columns = self.about().replace(['\n', '\r'], " ");
-                self.lines(|k, [x, y, ..]| match k {
-                    0 => format!("{x} {y} // {columns}"),
-                    _ => format!("{x} {y}"),
-                })
-            }
+            CamForm::Lenze => self.lines(|k, [x, y, ..]| match k {
+                0 => format!("{x} {y} // {about}"),
+                _ => format!("{x} {y}"),
+            }),
         })
     }
 
     /// A line for each row.
     fn lines(&self, line: impl Fn(usize, &CamRow) -> String) -> String {
-        let lines = self.rows.iter().enumerate();
-        lines
-            .flat_map(|(k, row)| [line(k, row), "\n".to_owned()])
-            .collect()
+        let rows = self.rows.iter().enumerate();
+        rows.map(|(k, row)| line(k, row) + "\n").collect()
     }
 
-    /// Title and columns.
+    /// Title and columns, on one line.
     fn about(&self) -> String {
         let [symbol, unit] = self.position;
-        format!(
+        let about = format!(
             "{}: master [{}], {symbol} [{unit}]",
             self.title, self.master
-        )
-    }
-
-    /// First and last master.
-    fn ends(&self) -> [f64; 2] {
-        let end = |row: Option<&CamRow>| row.map_or(0.0, |[x, ..]| *x);
-        [end(self.rows.first()), end(self.rows.last())]
+        );
+        about.replace(['\n', '\r'], " ")
     }
 
     /// Whether the cam may repeat: position and derivatives end as they start, or a link that turns ends whole turns further.
-    fn is_cyclic(&self) -> bool {
-        let (Some(first), Some(last)) = (self.rows.first(), self.rows.last()) else {
-            return false;
-        };
+    fn is_cyclic(&self, first: &CamRow, last: &CamRow) -> bool {
         (1..4).all(|k| {
             let sizes = self.rows.iter().map(|row| row[k].abs());
             let difference = last[k] - first[k];
@@ -195,67 +163,71 @@ impl Cam<'_> {
         text
     }
 
-    /// A structure for each row, its members from this function.
-    fn structures(&self, members: impl Fn(usize, [String; 4]) -> String) -> String {
+    /// Global variables: an array with a structure for each row, its members from a function of number and row, and the cam that refers to it.
+    fn variables(
+        &self,
+        name: &str,
+        kind: &str,
+        cam: &str,
+        members: impl Fn(usize, [String; 4]) -> String,
+    ) -> String {
         let rows = (1..).zip(self.rows);
-        let rows: Vec<String> = rows
-            .map(|(number, row)| format!("({})", members(number, row.map(real))))
-            .collect();
-        array(&rows, 1, "    ")
+        let rows = rows.map(|(number, row)| format!("({})", members(number, row.map(real))));
+        let rows = array(&rows.collect::<Vec<_>>(), 1, "    ");
+        format!(
+            "VAR_GLOBAL\n    {name}_points : {kind} := {rows};\n    {name} : MC_CAM_REF := ({cam});\nEND_VAR\n"
+        )
     }
 
-    fn codesys(&self, name: &str) -> String {
-        let rows = self
-            .structures(|_, [x, y, v, a]| format!("dX := {x}, dY := {y}, dV := {v}, dA := {a}"));
-        let (count, [start, end]) = (self.rows.len(), self.ends().map(real));
-        format!(
-            "{}VAR_GLOBAL\n    {name}_points : ARRAY[0..{}] OF SMC_CAMXYVA := {rows};\n\
-             \x20   {name} : MC_CAM_REF := (nElements := {count}, byType := 3, xStart := {start}, xEnd := {end}, nTappets := 0, \
-             strCAMName := '{name}', pce := ADR({name}_points));\nEND_VAR\n",
-            self.comments(CamForm::Codesys),
-            count - 1
-        )
+    fn codesys(&self, name: &str, start: f64, end: f64) -> String {
+        let count = self.rows.len();
+        let kind = format!("ARRAY[0..{}] OF SMC_CAMXYVA", count - 1);
+        let cam = format!(
+            "nElements := {count}, byType := 3, xStart := {}, xEnd := {}, nTappets := 0, strCAMName := '{name}', pce := ADR({name}_points)",
+            real(start),
+            real(end)
+        );
+        self.variables(name, &kind, &cam, |_, [x, y, v, a]| {
+            format!("dX := {x}, dY := {y}, dV := {v}, dA := {a}")
+        })
     }
 
     /// Each segment is a polynomial of degree 5 between points in motion: the plain `POLYNOM5` goes from rest to rest.
     fn twincat(&self, name: &str) -> String {
         let count = self.rows.len();
-        let rows = self.structures(|number, [x, y, v, a]| {
+        let kind = format!("ARRAY[1..{count}] OF MC_MotionFunctionPoint");
+        let cam = format!(
+            "pArray := ADR({name}_points), ArraySize := SIZEOF({name}_points), \
+             TableType := MC_TABLETYPE_MOTIONFUNCTION, NoOfRows := {count}, NoOfColumns := 1"
+        );
+        self.variables(name, &kind, &cam, |number, [x, y, v, a]| {
             let next = u8::from(number < count);
             format!(
                 "PointIndex := {number}, FunctionType := MOTIONFUNCTYPE_POLYNOM5_MM, PointType := MOTIONPOINTTYPE_MOTION, \
                  RelIndexNextPoint := {next}, MasterPos := {x}, SlavePos := {y}, SlaveVelo := {v}, SlaveAcc := {a}, SlaveJerk := 0.0"
             )
-        });
-        format!(
-            "{}VAR_GLOBAL\n    {name}_points : ARRAY[1..{count}] OF MC_MotionFunctionPoint := {rows};\n\
-             \x20   {name} : MC_CAM_REF := (pArray := ADR({name}_points), ArraySize := SIZEOF({name}_points), \
-             TableType := MC_TABLETYPE_MOTIONFUNCTION, NoOfRows := {count}, NoOfColumns := 1);\nEND_VAR\n",
-            self.comments(CamForm::Twincat)
-        )
+        })
     }
 
     /// The slopes at both ends, which MCCP asks for, are in the comment.
-    fn rockwell(&self, name: &str) -> String {
-        let slope = |row: Option<&CamRow>| row.map_or(0.0, |[_, _, v, _]| *v) as f32;
+    fn rockwell(&self, name: &str, start: f64, end: f64) -> String {
+        let count = self.rows.len();
         let head = format!(
-            "tag {name} : CAM[{}]; MCCP with Length {}, Start Slope {}, End Slope {}",
-            self.rows.len(),
-            self.rows.len(),
-            short(slope(self.rows.first())),
-            short(slope(self.rows.last()))
+            "tag {name} : CAM[{count}]; MCCP with Length {count}, Start Slope {}, End Slope {}",
+            short(start),
+            short(end)
         );
         let rows = self.lines(|k, [x, y, ..]| {
-            let [x, y] = [*x, *y].map(|value| short(value as f32));
+            let [x, y] = [x, y].map(|value| short(*value));
             format!(
                 "{name}[{k}].Master := {x}; {name}[{k}].Slave := {y}; {name}[{k}].SegmentType := 1;"
             )
         });
-        self.comments(CamForm::Rockwell) + &commented(&head) + "\n" + &rows
+        commented(&head) + "\n" + &rows
     }
 
     fn siemens(&self, name: &str) -> String {
-        let (count, about) = (self.rows.len(), self.about().replace(['\n', '\r'], " "));
+        let (count, about) = (self.rows.len(), self.about());
         let rows = self.lines(|k, [x, y, ..]| {
             let (number, [x, y]) = (k + 1, [*x, *y].map(real));
             format!("    Master[{number}] := {x};\n    Slave[{number}] := {y};")
@@ -268,8 +240,8 @@ impl Cam<'_> {
     }
 }
 
-/// A literal of type REAL with the same bits.
-fn short(value: f32) -> String {
-    let shortest: f64 = value.to_string().parse().unwrap_or_default();
-    real(shortest)
+/// The nearest literal of type REAL.
+fn short(value: f64) -> String {
+    let shortest = (value as f32).to_string();
+    real(shortest.parse().unwrap_or_default())
 }

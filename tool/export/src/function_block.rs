@@ -2,12 +2,13 @@
 
 use std::fmt::Write as _;
 
-use jred::table::Shape;
 use jred::{Domain, curves};
 
 use crate::export::Export;
 use crate::name::{Name, PlcNames};
-use crate::structured_text::{Block, Initial, Kind, List, Use, Variable, real};
+use crate::structured_text::{
+    Block, Initial, Kind, Use, Variable, number, numbers, real, variable,
+};
 use crate::wide_table::Wide;
 
 /// Names of the blocks: 32 characters are the limit of the strictest PLCs, and the second block has a suffix.
@@ -60,112 +61,97 @@ impl Export {
     /// The block with both directions of the tick.
     pub(crate) fn tick_block(&self, wide: &Wide, Name(name): &Name, about: &str) -> Block {
         let [drive, required, unit] = self.effort();
-        let [base, inertia, slope] = self
-            .coordinate
-            .pick(["rad", "[kg m^2]", "[kg m^2/rad]"], ["m", "[kg]", "[kg/m]"]);
-        let input = Variable::new;
+        let [base, inertia, slope, one] = self.coordinate.pick(
+            [
+                "rad",
+                "[kg m^2]",
+                "[kg m^2/rad]",
+                "0.017453292519943295 for degrees",
+            ],
+            ["m", "[kg]", "[kg/m]", "0.001 for mm"],
+        );
+        let one = format!("{base} in one unit of Position, Speed and accelerations; {one}");
         let inputs = vec![
-            input("Position", "of the drive link, in units of Unit"),
-            input("Speed", "per second"),
-            input(
+            variable("Position", "of the drive link, in units of Unit"),
+            variable("Speed", "per second"),
+            variable(
                 "Acceleration",
                 "per second squared: asks for the torque or force",
             ),
-            input(
+            variable(
                 drive,
-                &format!("at the drive link {unit}: asks for the acceleration"),
+                format!("at the drive link {unit}: asks for the acceleration"),
             ),
-            Variable::number(
-                "Unit",
-                1.0,
-                &format!(
-                    "{base} in one unit of Position, Speed and accelerations; {}",
-                    self.coordinate
-                        .pick("0.017453292519943295 for degrees", "0.001 for mm")
-                ),
-            ),
+            number("Unit", 1.0, one),
         ];
+        let resulting = format!("of Speed and {drive}, in units of Unit per second squared");
         let status = "0 valid; sum of 1: position beyond the stroke, its end is used; 2: speed, 4: acceleration beyond the range of the table; \
                       8: an input is no number or far too large, all outputs are 0";
         let outputs = vec![
-            input(required, &format!("for Speed and Acceleration {unit}")),
-            input(
-                "ResultingAcceleration",
-                &format!("of Speed and {drive}, in units of Unit per second squared"),
-            ),
-            input("Inertia", &format!("reduced, here {inertia}")),
-            input(
+            variable(required, format!("for Speed and Acceleration {unit}")),
+            variable("ResultingAcceleration", resulting),
+            variable("Inertia", format!("reduced, here {inertia}")),
+            variable(
                 "InertiaSlope",
-                &format!("its derivative by the position {slope}"),
+                format!("its derivative by the position {slope}"),
             ),
-            input("Status", status).of(UINT),
+            variable("Status", status).of(UINT),
         ];
-        let locals = ["Place", "Omega", "Alpha", "U"].into_iter();
-        let locals = locals.chain(["D0", "D1", "D2", "P0", "P1", "P2", "P3"]);
-        let locals = locals.chain(["CellSlope", "Damping", "Resisting", "Curve"]);
-        let locals = locals.map(|name| input(name, "intermediate value"));
-        let cell = std::iter::once(input("Cell", "index of the cell").of(DINT));
-        let lists = [
-            (Use::Input, inputs),
-            (Use::Output, outputs),
-            (Use::Local, cell.chain(locals).collect()),
-            (Use::Constant, self.constants(wide)),
-        ];
+        let names = "Place Omega Alpha U D0 D1 D2 P0 P1 P2 P3 CellSlope Damping Resisting Curve";
+        let locals = names
+            .split(' ')
+            .map(|name| variable(name, "intermediate value"));
+        let cell = variable("Cell", "index of the cell").of(DINT);
         Block {
             name: name.clone(),
-            about: about.lines().map(str::to_owned).collect(),
-            lists: lists.map(|(of, variables)| List { of, variables }).into(),
+            about: about.trim_end().to_owned(),
+            lists: vec![
+                (Use::Input, inputs),
+                (Use::Output, outputs),
+                (Use::Local, std::iter::once(cell).chain(locals).collect()),
+                (Use::Constant, self.constants(wide)),
+            ],
             body: self.statements(wide),
         }
     }
 
     /// The table, and the limits of the inputs.
     fn constants(&self, wide: &Wide) -> Vec<Variable> {
-        let Shape {
-            cells, constants, ..
-        } = wide.shape;
-        let span = self.domain.span();
-        let per_position = f64::from(cells) / span;
+        let (constants, span) = (&wide.shape.constants, self.domain.span());
+        let cells = f64::from(wide.shape.cells);
         let count = Variable {
-            initial: Initial::One(cells.to_string()),
-            ..Variable::new("CELLS", "of the table")
+            initial: Initial::One(wide.shape.cells.to_string()),
+            ..variable("CELLS", "of the table").of(DINT)
         };
         let mut all = vec![
-            count.of(DINT),
-            Variable::number("START", self.domain.position(0.0), "of the range"),
-            Variable::number("SPAN", span, "length of the range"),
-            Variable::number("PER_POSITION", per_position, "cells per position"),
-            Variable::number("HALF", 0.5 * f64::from(cells) / span, "half of it"),
-            Variable::number("MAX_SPEED", self.task.omega, "of the table"),
-            Variable::number("MAX_ACCELERATION", self.task.alpha, "of the table"),
-            Variable::number("OFFSET", constants.inertia, "added to the inertia"),
+            count,
+            number("START", self.domain.position(0.0), "of the range"),
+            number("SPAN", span, "length of the range"),
+            number("PER_POSITION", cells / span, "cells per position"),
+            number("HALF", 0.5 * cells / span, "half of it"),
+            number("MAX_SPEED", self.task.omega, "of the table"),
+            number("MAX_ACCELERATION", self.task.alpha, "of the table"),
+            number("OFFSET", constants.inertia, "added to the inertia"),
         ];
         if wide.has(curves::CONSTANT_VISCOUS) {
-            all.push(Variable::number(
-                "VISCOUS",
-                constants.viscous,
-                "friction by speed",
-            ));
+            all.push(number("VISCOUS", constants.viscous, "friction by speed"));
         }
         if wide.has(curves::CONSTANT_COULOMB) {
-            all.push(Variable::number(
+            all.push(number(
                 "COULOMB",
                 constants.coulomb,
                 "friction by direction",
             ));
         }
-        let points = "control points of a cubic B-spline, in sixths:";
-        let curve = |name, curve, what| {
-            Variable::numbers(name, &wide.points(curve), &format!("{points} {what}"))
-        };
-        all.push(curve("INERTIAS", curves::INERTIA, "reduced inertia"));
-        for (bit, name, what) in [
+        for (curve, name, what) in [
+            (curves::INERTIA, "INERTIAS", "reduced inertia"),
             (curves::LOAD, "LOADS", "load, in the direction of motion"),
             (curves::VISCOUS, "VISCOUSES", "friction by speed"),
             (curves::COULOMB, "COULOMBS", "friction by direction"),
         ] {
-            if wide.has(bit) {
-                all.push(curve(name, bit, what));
+            if wide.has(curve) {
+                let what = format!("control points of a cubic B-spline, in sixths: {what}");
+                all.push(numbers(name, &wide.points(curve), what));
             }
         }
         all

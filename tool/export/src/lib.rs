@@ -42,10 +42,10 @@ mod ticks;
 mod wide_table;
 
 pub use c_source::plan_c_source;
-pub use cam::{Cam, CamFault, CamForm, CamRow};
+pub use cam::{Cam, CamForm, CamRow};
 pub use candidate::{Candidate, RangeTable, SearchResult};
 pub use choice::{Choice, LayoutChoice, LayoutName, Number};
-pub use cia402::{ShaftInstant, TorqueOffsetFault, TorqueOffsets};
+pub use cia402::{ShaftInstant, TorqueOffsets};
 pub use cost::Core;
 pub use export::{Export, identifier};
 pub use failure::{

@@ -20,13 +20,8 @@ pub struct PlcNames {
 const LIBRARY: &str = "jred";
 
 /// Reserved words of Rust, of those that a name could be.
-const RUST: [&str; 50] = [
-    "abstract", "as", "async", "await", "become", "box", "break", "const", "continue", "crate",
-    "do", "dyn", "else", "enum", "extern", "false", "final", "fn", "for", "gen", "if", "impl",
-    "in", "let", "loop", "macro", "match", "mod", "move", "mut", "override", "priv", "pub", "ref",
-    "return", "self", "static", "struct", "super", "trait", "true", "try", "type", "typeof",
-    "unsafe", "unsized", "use", "virtual", "where", "while",
-];
+const RUST: &str = "abstract as async await become box break const continue crate do dyn else enum extern false final fn for gen if impl in let loop
+    macro match mod move mut override priv pub ref return self static struct super trait true try type typeof unsafe unsized use virtual where while";
 
 /// Reserved words of IEC 61131-3, and names of its types, functions and blocks, as CODESYS and TwinCAT have them.
 const IEC: &str = "abs abstract acos action add adr and any any_num any_real array asin at atan bit bool by byte case concat configuration constant
@@ -48,11 +43,10 @@ impl Name {
         if valid.0 == text {
             return Ok(valid);
         }
-        let PlcNames { longest, .. } = *names;
-        let length = text.chars().count();
-        let why = if names.takes(text) {
+        let (length, longest) = (text.chars().count(), names.longest);
+        let why = if is_among(names.taken, text) {
             "the block has a variable of this name".to_owned()
-        } else if is_reserved(text) {
+        } else if is_among(IEC, text) {
             "it is a word of the languages of PLCs (IEC 61131-3)".to_owned()
         } else if length > longest {
             format!("it has {length} characters, and a PLC takes {longest}")
@@ -82,39 +76,24 @@ impl Name {
     pub fn new(text: &str) -> Result<Self, (String, Self)> {
         let is_word = text.starts_with(|c: char| c.is_ascii_alphabetic())
             && text.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
-        if !is_word {
+        let (why, valid) = if !is_word {
             let why = "a name in a program begins with a letter from a to z, and has such letters, digits and underscores";
-            return Err((why.to_owned(), Self(word(text))));
-        }
-        if text == LIBRARY || text.starts_with(&[LIBRARY, "_"].concat()) {
-            return Err((
-                "names of the library begin so".to_owned(),
-                Self(["my_", text].concat()),
-            ));
-        }
-        if RUST.contains(&text.to_lowercase().as_str()) {
-            return Err((
-                "it is a word of the programming language Rust".to_owned(),
-                Self(format!("{text}_table")),
-            ));
-        }
-        Ok(Self(text.to_owned()))
+            (why, word(text))
+        } else if text == LIBRARY || text.starts_with(&[LIBRARY, "_"].concat()) {
+            ("names of the library begin so", format!("my_{text}"))
+        } else if is_among(RUST, text) {
+            let why = "it is a word of the programming language Rust";
+            (why, format!("{text}_table"))
+        } else {
+            return Ok(Self(text.to_owned()));
+        };
+        Err((why.to_owned(), Self(valid)))
     }
 
     /// The name as text.
     pub fn as_str(&self) -> &str {
         &self.0
     }
-}
-
-impl PlcNames {
-    fn takes(&self, text: &str) -> bool {
-        is_among(self.taken, text)
-    }
-}
-
-fn is_reserved(text: &str) -> bool {
-    is_among(IEC, text)
 }
 
 /// Whether a list of words has this one; letter case does not count.
@@ -129,7 +108,7 @@ fn plc_word(text: &str, names: &PlcNames) -> String {
     let word = word(text);
     let parts: Vec<&str> = word.split('_').filter(|part| !part.is_empty()).collect();
     let mut name = parts.join("_");
-    if is_reserved(&name) || names.takes(&name) {
+    if is_among(IEC, &name) || is_among(names.taken, &name) {
         name.insert_str(0, "my_");
     }
     name.truncate(names.longest);

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use crate::structured_text::{Block, Initial, Kind, List, Use, Variable};
+use crate::structured_text::{Block, Initial, Kind, Use, Variable};
 
 /// Text as content of XML.
 fn escaped(text: &str) -> String {
@@ -29,26 +29,24 @@ fn variable(of: &Variable) -> String {
         Kind::Elementary(name) => format!("<{name}/>"),
         Kind::Block(name) => format!("<derived name=\"{}\"/>", escaped(name)),
     };
+    let initial = |value: &str| format!("<initialValue>{value}</initialValue>");
     let (kind, initial) = match &of.initial {
-        Initial::Default => (base, None),
-        Initial::One(value) => (base, Some(simple(value))),
+        Initial::Default => (base, String::new()),
+        Initial::One(value) => (base, initial(&simple(value))),
         Initial::Array(values) => {
             let last = values.len().saturating_sub(1);
-            let values = values
-                .iter()
-                .map(|value| format!("<value>{}</value>\n", simple(value)));
-            let values: String = values.collect();
+            let values = values.iter().map(|value| simple(value));
+            let values: String = values
+                .map(|value| format!("<value>{value}</value>\n"))
+                .collect();
             (
                 format!(
                     "<array><dimension lower=\"0\" upper=\"{last}\"/><baseType>{base}</baseType></array>"
                 ),
-                Some(format!("<arrayValue>\n{values}</arrayValue>")),
+                initial(&format!("<arrayValue>\n{values}</arrayValue>")),
             )
         }
     };
-    let initial = initial.map_or_else(String::new, |value| {
-        format!("<initialValue>{value}</initialValue>")
-    });
     format!(
         "<variable name=\"{}\"><type>{kind}</type>{initial}<documentation>{}</documentation></variable>\n",
         escaped(&of.name),
@@ -56,14 +54,14 @@ fn variable(of: &Variable) -> String {
     )
 }
 
-fn list(of: &List) -> String {
-    let (element, attribute) = match of.of {
+fn list((of, variables): &(Use, Vec<Variable>)) -> String {
+    let (element, attribute) = match of {
         Use::Input => ("inputVars", ""),
         Use::Output => ("outputVars", ""),
         Use::Local => ("localVars", ""),
         Use::Constant => ("localVars", " constant=\"true\""),
     };
-    let variables: String = of.variables.iter().map(variable).collect();
+    let variables: String = variables.iter().map(variable).collect();
     format!("<{element}{attribute}>\n{variables}</{element}>\n")
 }
 
@@ -86,7 +84,7 @@ pub(crate) fn project(title: &str, day: &str, blocks: &[Block]) -> String {
             "<pou name=\"{}\" pouType=\"functionBlock\">\n<interface>\n{interface}<documentation>{}</documentation>\n</interface>\n\
              <body><ST>{}</ST></body>\n</pou>\n",
             escaped(&block.name),
-            formatted(&block.about.join("\n")),
+            formatted(&block.about),
             formatted(&block.body)
         );
     }

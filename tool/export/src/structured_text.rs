@@ -9,16 +9,16 @@ const PER_LINE: usize = 8;
 pub(crate) struct Block {
     /// Its name.
     pub(crate) name: String,
-    /// Its purpose, a line each.
-    pub(crate) about: Vec<String>,
+    /// Its purpose, in lines.
+    pub(crate) about: String,
     /// Its variables, by their use.
-    pub(crate) lists: Vec<List>,
+    pub(crate) lists: Vec<(Use, Vec<Variable>)>,
     /// Its statements.
     pub(crate) body: String,
 }
 
 /// The use of variables: the words of Structured Text, and the element of PLCopen XML.
-#[derive(Clone, Copy, PartialEq, Eq)]
+#[derive(Clone, Copy)]
 pub(crate) enum Use {
     /// Set by the caller.
     Input,
@@ -28,12 +28,6 @@ pub(crate) enum Use {
     Local,
     /// Own constants.
     Constant,
-}
-
-/// Variables of one use.
-pub(crate) struct List {
-    pub(crate) of: Use,
-    pub(crate) variables: Vec<Variable>,
 }
 
 /// A variable with its initial value.
@@ -46,7 +40,6 @@ pub(crate) struct Variable {
 }
 
 /// A type, of the variable or of the elements of its array.
-#[derive(Clone)]
 pub(crate) enum Kind {
     /// An elementary type, such as `LREAL`.
     Elementary(&'static str),
@@ -102,34 +95,33 @@ impl Use {
     }
 }
 
+/// A variable of type LREAL.
+pub(crate) fn variable(name: &str, comment: impl Into<String>) -> Variable {
+    Variable {
+        name: name.to_owned(),
+        kind: Kind::Elementary("LREAL"),
+        initial: Initial::Default,
+        comment: comment.into(),
+    }
+}
+
+/// A number.
+pub(crate) fn number(name: &str, value: f64, comment: impl Into<String>) -> Variable {
+    Variable {
+        initial: Initial::One(real(value)),
+        ..variable(name, comment)
+    }
+}
+
+/// An array of numbers.
+pub(crate) fn numbers(name: &str, values: &[f64], comment: impl Into<String>) -> Variable {
+    Variable {
+        initial: Initial::Array(values.iter().copied().map(real).collect()),
+        ..variable(name, comment)
+    }
+}
+
 impl Variable {
-    /// A variable of type LREAL.
-    pub(crate) fn new(name: &str, comment: &str) -> Self {
-        Self {
-            name: name.to_owned(),
-            kind: Kind::Elementary("LREAL"),
-            initial: Initial::Default,
-            comment: comment.to_owned(),
-        }
-    }
-
-    /// The same with a number at the start.
-    pub(crate) fn number(name: &str, value: f64, comment: &str) -> Self {
-        Self {
-            initial: Initial::One(real(value)),
-            ..Self::new(name, comment)
-        }
-    }
-
-    /// An array of numbers.
-    pub(crate) fn numbers(name: &str, values: &[f64], comment: &str) -> Self {
-        let values = values.iter().map(|value| real(*value)).collect();
-        Self {
-            initial: Initial::Array(values),
-            ..Self::new(name, comment)
-        }
-    }
-
     /// The same of another type.
     pub(crate) fn of(self, kind: Kind) -> Self {
         Self { kind, ..self }
@@ -141,19 +133,15 @@ impl Variable {
             Kind::Elementary(name) => name,
             Kind::Block(name) => name.as_str(),
         };
-        let declared = match &self.initial {
-            Initial::Default => kind.to_owned(),
-            Initial::One(value) => format!("{kind} := {value}"),
+        let (name, comment) = (&self.name, commented(&self.comment));
+        match &self.initial {
+            Initial::Default => format!("    {name} : {kind}; {comment}\n"),
+            Initial::One(value) => format!("    {name} : {kind} := {value}; {comment}\n"),
             Initial::Array(values) => {
                 let last = values.len().saturating_sub(1);
                 let values = array(values, PER_LINE, "    ");
-                format!("ARRAY[0..{last}] OF {kind} := {values}")
+                format!("    {comment}\n    {name} : ARRAY[0..{last}] OF {kind} := {values};\n")
             }
-        };
-        let comment = commented(&self.comment);
-        match &self.initial {
-            Initial::Array(_) => format!("    {comment}\n    {} : {declared};\n", self.name),
-            _ => format!("    {} : {declared}; {comment}\n", self.name),
         }
     }
 }
@@ -162,13 +150,13 @@ impl Block {
     /// Its Structured Text.
     pub(crate) fn text(&self) -> String {
         let mut text = String::new();
-        for line in &self.about {
+        for line in self.about.lines() {
             let _ = writeln!(text, "{}", commented(line));
         }
         let _ = writeln!(text, "FUNCTION_BLOCK {}", self.name);
-        for list in &self.lists {
-            let _ = writeln!(text, "{}", list.of.words());
-            text.extend(list.variables.iter().map(Variable::text));
+        for (of, variables) in &self.lists {
+            let _ = writeln!(text, "{}", of.words());
+            text.extend(variables.iter().map(Variable::text));
             text += "END_VAR\n";
         }
         text + "\n" + &self.body + "END_FUNCTION_BLOCK\n"

@@ -31,9 +31,9 @@ impl Wide {
         })
     }
 
-    /// Whether it has this curve.
-    pub(crate) fn has(&self, curve: CurveSet) -> bool {
-        self.shape.set & curve != 0
+    /// Whether it has one of these curves. Every table has that of J.
+    pub(crate) fn has(&self, curves: CurveSet) -> bool {
+        curves == curves::INERTIA || self.shape.set & curves != 0
     }
 
     /// The control points of a curve of the set: of J for [`curves::INERTIA`].

@@ -229,7 +229,7 @@ fn a_table_that_the_maker_does_not_take_is_refused() {
             said.contains(because) && said.contains(form.word()),
             "{said}"
         );
-        let cure = fault.cure();
+        let cure = fault.cure().unwrap();
         let taken: usize = cure.strip_prefix("use --rows ").unwrap().parse().unwrap();
         let rows = self::rows(taken);
         assert!(Cam { rows: &rows, ..cam }.text(form, "cam.st").is_ok());

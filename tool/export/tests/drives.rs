@@ -83,7 +83,7 @@ fn what_an_object_cannot_hold_is_refused_with_what_fits() {
         ),
         "{said}"
     );
-    let cure = fault.cure();
+    let cure = fault.cure().unwrap();
     let least = cure
         .split_once("From ")
         .unwrap()
@@ -101,7 +101,7 @@ fn what_an_object_cannot_hold_is_refused_with_what_fits() {
                 .to_string()
                 .contains("does not fit object 0x6076, whole mN m from 1 to 4294967295")
         );
-        assert!(fault.cure().contains("rated torque of the motor"));
+        assert!(fault.cure().unwrap().contains("rated torque of the motor"));
     }
     let fault = offsets(&instants, 2.0, Some(u32::MAX)).csv().unwrap_err();
     assert!(
@@ -109,7 +109,7 @@ fn what_an_object_cannot_hold_is_refused_with_what_fits() {
             .to_string()
             .contains("object 0x6064 is INTEGER32, up to 2147483647")
     );
-    assert!(fault.cure().contains("fewer --counts-per-turn"));
+    assert!(fault.cure().unwrap().contains("fewer --counts-per-turn"));
 }
 
 /// Letter case does not count in a PLC, so a block must not have the name of a variable in it.

@@ -1,86 +1,49 @@
 //! Figures for the parameters of a servo drive, at the motor shaft.
 
+use std::f64::consts::TAU;
+
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::catalogue::Drive;
 use crate::judge::Context;
 use jred_analysis::duty::{Duty, Instant};
 use jred_file::model::coordinate::Coordinate;
 use jred_file::model::machine::MachineFile;
 
-/// A figure that a drive asks for, in SI.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum Setting {
-    /// Rotor with its brake (kg·m²).
-    RotorInertia,
-    /// Constant inertia of load and gearbox that gives the torque of acceleration best: ∫J·α² dt/∫α² dt, or the mean without acceleration (kg·m²).
-    LoadInertia,
-    /// Least inertia of load and gearbox over the cycle (kg·m²).
-    LeastLoadInertia,
-    /// Largest inertia of load and gearbox over the cycle (kg·m²).
-    LargestLoadInertia,
-    /// Rotor and [`Setting::LoadInertia`] (kg·m²).
-    TotalInertia,
-    /// [`Setting::LoadInertia`] over the rotor.
-    InertiaRatio,
-    /// S1 torque of the motor at its rated speed (N·m).
-    RatedTorque,
-    /// S1 torque of the motor at standstill (N·m).
-    StandstillTorque,
-    /// Torque limit of [`LimitedBy`]: the peak torque, and T2B/i of the gearbox unless the cycle takes more (N·m).
-    TorqueLimit,
-    /// Largest torque of the cycle (N·m).
-    CyclePeakTorque,
-    /// RMS torque of the cycle (N·m).
-    CycleRmsTorque,
-    /// Current at the rated torque (A RMS).
-    RatedCurrent,
-    /// Current at the torque at standstill (A RMS).
-    StandstillCurrent,
-    /// Largest current of the motor (A RMS).
-    PeakCurrent,
-    /// Torque constant (N·m/A RMS).
-    TorqueConstant,
-    /// Speed limit: the least of the largest speeds of motor and gearbox (rad/s).
-    SpeedLimit,
-    /// Largest speed of the cycle (rad/s).
-    CyclePeakSpeed,
-    /// Encoder counts in a turn of the motor.
-    CountsPerTurn,
-    /// Turns of the motor in [`Setting::ShaftTurns`] of a drive link that turns.
-    MotorTurns,
-    /// Turns of a drive link that turns.
-    ShaftTurns,
-    /// 1 if a positive speed of the motor is one of the drive link; -1 if the drive train reverses.
-    Direction,
-    /// Least position of the motor over the motion, from φ = 0 (counts).
-    LeastPosition,
-    /// Largest position of the motor over the motion, from φ = 0 (counts).
-    LargestPosition,
-    /// Mean torque against dry friction while moving, of motor, gearbox and machine, without losses by an efficiency (N·m).
-    CoulombFriction,
-    /// Viscous friction that takes the power of the cycle's: ∫b·ω² dt/∫ω² dt (N·m·s/rad).
-    ViscousFriction,
-    /// Mean torque against the weight over the cycle, without losses (N·m).
-    WeightTorque,
-    /// Bandwidth of the speed loop as asked for (Hz).
-    Bandwidth,
-    /// Proportional gain of the speed loop, 2π·f·J with the total inertia (N·m·s/rad).
-    SpeedGain,
-    /// Time until the holding brake is open (s).
-    BrakeOpening,
-    /// Time until the holding brake holds (s).
-    BrakeClosing,
-    /// Thermal time constant of the winding (s).
-    WindingTime,
-    /// Thermal time constant of the motor (s).
-    MotorTime,
-    /// Brake resistor (Ω).
-    Resistance,
-    /// Continuous power of the brake resistor (W).
-    ResistorPower,
+/// A figure that a drive asks for.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct Figure {
+    /// The figure.
+    pub setting: Setting,
+    /// Its name.
+    pub name: &'static str,
+    /// Its value in SI; null if it is not given.
+    pub value: Option<f64>,
+    /// The unit for reading.
+    #[serde(skip)]
+    pub unit: Unit,
+    /// Where to read a value that is not given, or the part that sets the torque limit.
+    pub remark: String,
 }
+
+/// A unit, and a value in it over that in SI.
+pub type Unit = (&'static str, f64);
+
+const KG_CM2: Unit = ("kg cm^2", 1e4);
+const RPM: Unit = ("rpm", 60.0 / TAU);
+const MS: Unit = ("ms", 1e3);
+
+const NAME_PLATE: &str = "read it from the motor's name plate";
+const DATA_SHEET: &str = "read it from the motor's data sheet";
+const DATA_SHEETS: &str = "read it from the data sheets of motor and gearbox";
+const PEAK_TORQUE: &str = "read the peak torque from the data sheets of motor and amplifier";
+const ENCODER: &str = "read it from the encoder's data sheet, and give --counts-per-turn";
+const COUNTS_PER_TURN: &str = "give --counts-per-turn";
+const TURNS: &str = "the drive link slides, or no fraction up to 10000 is exact: then count the teeth of the stages";
+const BANDWIDTH: &str = "give --bandwidth";
+const BRAKE: &str = "read it from the motor's data sheet, if the motor has a brake";
+const RESISTOR: &str = "read it from the amplifier's manual, if it has a brake resistor";
 
 /// Choices of a person.
 #[derive(Clone, Copy, Debug, Default)]
@@ -91,147 +54,155 @@ pub struct Choices {
     pub bandwidth: Option<f64>,
 }
 
-/// The part that sets [`Setting::TorqueLimit`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum LimitedBy {
-    /// The peak torque of motor and amplifier.
-    Peak,
-    /// T2B/i of the gearbox.
-    Gearbox,
-    /// The largest torque of the cycle, above T2B/i of the gearbox.
-    Cycle,
+/// The figures of a drive with a rotary motor. Positions and torques have the sign of the motor.
+#[derive(Clone, Debug)]
+pub struct Settings(Vec<Figure>);
+
+macro_rules! settings {
+    ($context:ident, $duty:ident, $file:ident, $choices:ident, $limit:ident: { $($given:tt)* }
+    $($(#[doc = $doc:literal])? $setting:ident $name:literal [$($si:literal $($shown:ident)?)?] $(or $cure:ident)? = $value:expr;)*) => {
+        /// The word of a figure.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+        #[serde(rename_all = "kebab-case")]
+        pub enum Setting {
+            $(#[doc = concat!($name $(, " (", $si, ")")? $(, ":", $doc)?)] $setting,)*
+        }
+
+        /// The figures; the remark of each is that of a value that is not given.
+        fn figures($context: &Context, $duty: &Duty, $file: &MachineFile, $choices: Choices, $limit: f64) -> Vec<Figure> {
+            $($given)*
+            vec![$(Figure {
+                setting: Setting::$setting,
+                name: $name,
+                value: $value,
+                // The first unit that is given.
+                unit: [$($($shown,)? ($si, 1.0),)? ("", 1.0)][0],
+                remark: ["not given" $(, $cure)?].join("; "),
+            },)*]
+        }
+    };
 }
 
-/// The figures that are known.
-#[derive(Clone, Debug)]
-pub struct Settings {
-    figures: Vec<(Setting, f64)>,
-    /// The part that sets the torque limit.
-    pub limited_by: LimitedBy,
-    /// Whether the peak torque of motor and amplifier is known.
-    pub peak_known: bool,
+// Name, SI unit, another unit for reading, where to read it if it is not given, and value; before it what the name does not say.
+settings! {
+    context, duty, file, choices, limit: {
+        let Drive { motor, gearbox, .. } = context.drive;
+        let (winding, brake, rotor) = (&motor.winding, motor.brake.as_ref(), context.drive.rotor());
+        let inertias = duty.figures(|i| i.input_inertia);
+        let best = mean(duty, |i| i.input_inertia, |i| i.input_alpha.powi(2)).unwrap_or(inertias.mean);
+        let [load, least, largest] = [best, inertias.min, inertias.max].map(|inertia| {
+            inertia / context.ratio.powi(2) + gearbox.map_or(0.0, |gearbox| gearbox.inertia)
+        });
+        // Negative if the train reverses; rad/m for a link that slides.
+        let ratio = context.ratio * file.drive_train.ratio();
+        let turns = (file.machine.mechanism().coordinate() == Coordinate::Angle)
+            .then(|| fraction(ratio.abs()))
+            .flatten();
+        let [dry, viscous, weight] = losses(duty);
+        let dry = dry / ratio.abs() + gearbox.map_or(0.0, |gearbox| gearbox.no_load_torque);
+        let cycle = context.cycle.motor_duty(&context.drive);
+        let speeds = [motor.max_speed, gearbox.and_then(|gearbox| gearbox.max_speed)];
+        let positions = duty.figures(|i| i.phi * ratio);
+        let counted = |angle: f64| choices.counts_per_turn.map(|counts| angle / TAU * counts);
+        let resistor = context.site.supply.brake_resistor.map(|r| [r.resistance, r.power]);
+        let resistor = resistor.or_else(|| context.resistor().map(|r| [r.resistance, r.rated_power]));
+    }
+    RotorInertia "inertia of the rotor with its brake" ["kg m^2" KG_CM2] = Some(rotor);
+    /// gives the torque of acceleration best, ∫J·α² dt/∫α² dt; the mean without acceleration
+    LoadInertia "load inertia with gearbox, best constant value" ["kg m^2" KG_CM2] = Some(load);
+    LeastLoadInertia "load inertia with gearbox, least" ["kg m^2" KG_CM2] = Some(least);
+    LargestLoadInertia "load inertia with gearbox, largest" ["kg m^2" KG_CM2] = Some(largest);
+    TotalInertia "total inertia, best constant value" ["kg m^2" KG_CM2] = Some(rotor + load);
+    InertiaRatio "inertia ratio, load to rotor" [] = Some(load / rotor);
+    RatedTorque "rated torque of the motor" ["N m"] or NAME_PLATE = motor.rated_torque;
+    StandstillTorque "S1 torque at standstill" ["N m"] or DATA_SHEET = motor.standstill_torque;
+    /// the peak torque, and T2B/i of the gearbox unless the cycle takes more
+    TorqueLimit "torque limit" ["N m"] or PEAK_TORQUE = Some(limit);
+    CyclePeakTorque "largest torque of the cycle" ["N m"] = Some(cycle.torque.peak());
+    CycleRmsTorque "RMS torque of the cycle" ["N m"] = Some(cycle.torque.rms);
+    RatedCurrent "rated current of the motor" ["A RMS"] or NAME_PLATE = winding.rated_current;
+    StandstillCurrent "current at standstill" ["A RMS"] or DATA_SHEET = winding.standstill_current;
+    PeakCurrent "peak current of the motor" ["A RMS"] or DATA_SHEET = winding.peak_current;
+    TorqueConstant "torque constant" ["N m/A RMS"] or DATA_SHEET = winding.torque_constant;
+    SpeedLimit "speed limit of motor and gearbox" ["rad/s" RPM] or DATA_SHEETS = speeds.into_iter().flatten().reduce(f64::min);
+    CyclePeakSpeed "largest speed of the cycle" ["rad/s" RPM] = Some(cycle.speed.peak());
+    CountsPerTurn "encoder counts in a turn of the motor" ["counts"] or ENCODER = choices.counts_per_turn;
+    MotorTurns "gear ratio: turns of the motor" [] or TURNS = turns.map(|[motor, _]| motor);
+    ShaftTurns "gear ratio: turns of the drive link" [] or TURNS = turns.map(|[_, shaft]| shaft);
+    Direction "direction of the motor: 1 as the drive link, -1 against it" [] = Some(ratio.signum());
+    LeastPosition "least position of the motion, from 0 of the machine file" ["counts"] or COUNTS_PER_TURN = counted(positions.min);
+    LargestPosition "largest position of the motion, from 0 of the machine file" ["counts"] or COUNTS_PER_TURN = counted(positions.max);
+    /// of motor, gearbox and machine, without losses by an efficiency
+    CoulombFriction "dry friction, mean while moving" ["N m"] = Some(motor.friction[0] + dry);
+    /// takes the power of that of the cycle, ∫b·ω² dt/∫ω² dt
+    ViscousFriction "viscous friction" ["N m s/rad"] = Some(motor.friction[1] + viscous / ratio.powi(2));
+    /// without losses
+    WeightTorque "torque against the weight, mean" ["N m"] = Some(weight / ratio);
+    Bandwidth "bandwidth of the speed loop" ["Hz"] or BANDWIDTH = choices.bandwidth;
+    /// with the total inertia
+    SpeedGain "proportional gain of the speed loop, 2π·f·J" ["N m s/rad"] or BANDWIDTH = choices.bandwidth.map(|f| TAU * f * (rotor + load));
+    BrakeOpening "opening time of the holding brake" ["s" MS] or BRAKE = brake.and_then(|brake| brake.opening_time);
+    BrakeClosing "closing time of the holding brake" ["s" MS] or BRAKE = brake.and_then(|brake| brake.closing_time);
+    WindingTime "thermal time constant of the winding" ["s"] or DATA_SHEET = motor.thermal.winding_time;
+    MotorTime "thermal time constant of the motor" ["s"] or DATA_SHEET = motor.thermal.housing_time;
+    Resistance "brake resistor" ["Ohm"] or RESISTOR = resistor.map(|[resistance, _]| resistance);
+    ResistorPower "brake resistor, continuous power" ["W"] or RESISTOR = resistor.map(|[_, power]| power);
 }
 
 impl Settings {
-    /// The figures of a drive with a rotary motor for this machine. Positions and torques have the sign of the motor.
+    /// The figures of a drive for this machine.
     pub fn new(context: &Context, duty: &Duty, file: &MachineFile, choices: Choices) -> Self {
-        let (drive, ratio) = (context.drive, context.ratio);
-        let (motor, gearbox) = (drive.motor, drive.gearbox);
-        let (winding, brake) = (&motor.winding, motor.brake.as_ref());
-        // Negative if the train reverses; rad/m for a link that slides.
-        let total = ratio * file.drive_train.ratio();
-        let at_motor = |inertia: f64| {
-            inertia / (ratio * ratio) + gearbox.map_or(0.0, |gearbox| gearbox.inertia)
-        };
-        let inertias = duty.figures(|i| i.input_inertia);
-        let best = mean(duty, |i| i.input_inertia, |i| i.input_alpha.powi(2));
-        let load = at_motor(best.unwrap_or(inertias.mean));
-        let rotor = drive.rotor();
-        let [dry, viscous, weight] = losses(duty);
-        let cycle = context.cycle.motor_duty(&drive);
-        let cycle_peak = cycle.torque.max.abs().max(cycle.torque.min.abs());
-        let peak = context.motor.envelope.peak_torque(1.0, 0.0);
-        let rate = context.cycle.mechanics().move_rate * 3600.0;
-        let output = gearbox.and_then(|gearbox| gearbox.acceleration_torque(rate));
-        let output = output.map(|torque| torque / ratio);
-        let (limit, limited_by) = match output.map(|torque| (torque.max(cycle_peak), torque)) {
-            Some((limit, torque)) if limit < peak && torque < limit => (limit, LimitedBy::Cycle),
-            Some((limit, _)) if limit < peak => (limit, LimitedBy::Gearbox),
-            _ => (peak, LimitedBy::Peak),
-        };
-        let speeds = [motor.max_speed, gearbox.and_then(|g| g.max_speed)];
-        let positions = duty.figures(|i| i.phi * total);
-        let counts = choices.counts_per_turn;
-        let turns = (file.machine.mechanism().coordinate() == Coordinate::Angle)
-            .then(|| fraction(total.abs()))
-            .flatten();
-        let given = context.site.supply.brake_resistor;
-        let chosen = context.resistor();
-        let resistor = (given.map(|r| [r.resistance, r.power]))
-            .or_else(|| chosen.map(|r| [r.resistance, r.rated_power]));
-        let counted = |angle: f64| counts.map(|counts| angle / std::f64::consts::TAU * counts);
-        let figures = [
-            (Setting::RotorInertia, Some(rotor)),
-            (Setting::LoadInertia, Some(load)),
-            (Setting::LeastLoadInertia, Some(at_motor(inertias.min))),
-            (Setting::LargestLoadInertia, Some(at_motor(inertias.max))),
-            (Setting::TotalInertia, Some(rotor + load)),
-            (Setting::InertiaRatio, Some(load / rotor)),
-            (Setting::RatedTorque, motor.rated_torque),
-            (Setting::StandstillTorque, motor.standstill_torque),
-            (Setting::TorqueLimit, Some(limit)),
-            (Setting::CyclePeakTorque, Some(cycle_peak)),
-            (Setting::CycleRmsTorque, Some(cycle.torque.rms)),
-            (Setting::RatedCurrent, winding.rated_current),
-            (Setting::StandstillCurrent, winding.standstill_current),
-            (Setting::PeakCurrent, winding.peak_current),
-            (Setting::TorqueConstant, winding.torque_constant),
-            (
-                Setting::SpeedLimit,
-                speeds.into_iter().flatten().reduce(f64::min),
-            ),
-            (
-                Setting::CyclePeakSpeed,
-                Some(cycle.speed.max.abs().max(cycle.speed.min.abs())),
-            ),
-            (Setting::CountsPerTurn, counts),
-            (Setting::MotorTurns, turns.map(|[motor, _]| motor)),
-            (Setting::ShaftTurns, turns.map(|[_, shaft]| shaft)),
-            (Setting::Direction, Some(total.signum())),
-            (Setting::LeastPosition, counted(positions.min)),
-            (Setting::LargestPosition, counted(positions.max)),
-            (
-                Setting::CoulombFriction,
-                Some(
-                    motor.friction[0]
-                        + gearbox.map_or(0.0, |gearbox| gearbox.no_load_torque)
-                        + dry / total.abs(),
-                ),
-            ),
-            (
-                Setting::ViscousFriction,
-                Some(motor.friction[1] + viscous / (total * total)),
-            ),
-            (Setting::WeightTorque, Some(weight / total)),
-            (Setting::Bandwidth, choices.bandwidth),
-            (
-                Setting::SpeedGain,
-                choices
-                    .bandwidth
-                    .map(|f| std::f64::consts::TAU * f * (rotor + load)),
-            ),
-            (
-                Setting::BrakeOpening,
-                brake.and_then(|brake| brake.opening_time),
-            ),
-            (
-                Setting::BrakeClosing,
-                brake.and_then(|brake| brake.closing_time),
-            ),
-            (Setting::WindingTime, motor.thermal.winding_time),
-            (Setting::MotorTime, motor.thermal.housing_time),
-            (
-                Setting::Resistance,
-                resistor.map(|[resistance, _]| resistance),
-            ),
-            (Setting::ResistorPower, resistor.map(|[_, power]| power)),
-        ];
-        let known = figures.into_iter().filter_map(|(setting, figure)| {
+        let (limit, limited_by) = torque_limit(context);
+        let mut figures = figures(context, duty, file, choices, limit);
+        for figure in &mut figures {
             // An unknown limit is infinite.
-            Some((setting, figure.filter(|value| value.is_finite())?))
-        });
-        Self {
-            figures: known.collect(),
-            limited_by,
-            peak_known: peak.is_finite(),
+            figure.value = figure.value.filter(|value| value.is_finite());
+            if figure.value.is_some() {
+                figure.remark = match figure.setting {
+                    Setting::TorqueLimit => limited_by.clone(),
+                    _ => String::new(),
+                };
+            }
         }
+        Self(figures)
     }
 
-    /// A figure; `None` if the data do not give it.
-    pub fn get(&self, setting: Setting) -> Option<f64> {
-        let found = self.figures.iter().find(|(known, _)| *known == setting);
-        found.map(|(_, value)| *value)
+    /// All figures.
+    pub fn figures(&self) -> &[Figure] {
+        &self.0
     }
+
+    /// The value of a figure in SI.
+    ///
+    /// # Errors
+    /// The data do not give it: where to read it.
+    pub fn get(&self, setting: Setting) -> Result<f64, &str> {
+        let found = self.0.iter().find(|figure| figure.setting == setting);
+        found.map_or(Err(""), |figure| figure.value.ok_or(&figure.remark))
+    }
+}
+
+/// The largest torque that may be set, and the part that sets it.
+fn torque_limit(context: &Context) -> (f64, String) {
+    let peak = context.motor.envelope.peak_torque(1.0, 0.0);
+    let cycle = context.cycle.motor_duty(&context.drive).torque.peak();
+    let moves_per_hour = context.cycle.mechanics().move_rate * 3600.0;
+    let gearbox = context.drive.gearbox;
+    let gearbox = gearbox.and_then(|gearbox| gearbox.acceleration_torque(moves_per_hour));
+    let gearbox = gearbox.map_or(f64::INFINITY, |torque| torque / context.ratio);
+    let (limit, by) = if gearbox.max(cycle) >= peak {
+        (peak, "peak torque of motor and amplifier")
+    } else if cycle > gearbox {
+        (
+            cycle,
+            "largest torque of the cycle, above T2B/i of the gearbox",
+        )
+    } else {
+        (gearbox, "T2B/i of the gearbox")
+    };
+    let unknown = "; the peak torque of motor and amplifier is not given";
+    let unknown = if peak.is_finite() { "" } else { unknown };
+    (limit, format!("{by}{unknown}"))
 }
 
 /// Mean of a figure with a weight over the cycle, if the weight is anywhere.

@@ -8,7 +8,7 @@ use crate::options::drive::Drive;
 use crate::output::{self, Files};
 use jred_analysis::duty::Duty;
 use jred_file::model::variator;
-use jred_report::list::drive::{DriveView, Makers};
+use jred_report::list::drive::{self, DriveView};
 use jred_report::list::listing;
 use jred_report::page;
 use jred_sizing::catalogue::MotorKind;
@@ -22,7 +22,7 @@ use jred_sizing::settings::{Choices, Settings};
 /// # Errors
 /// Bad input, or a file that cannot be written.
 pub(super) fn run(options: &Drive) -> Result<Completion> {
-    let makers = Makers::read(options.maker.as_deref())?;
+    let makers = drive::makers(options.maker.as_deref())?;
     let file = read_warned(&options.file)?;
     variator::refuse(&file, "drive")?;
     if input_kind(&file) == MotorKind::Linear {

@@ -148,7 +148,13 @@ pub(super) fn run(options: &options::export::Export) -> Result<Completion> {
     if options.format == OutputForm::Cia402 {
         return cia402::run(options, &file);
     }
-    cia402::check(options, false)?;
+    if options.rated_torque.is_some() {
+        return Err(miette!(
+            help = "remove --rated-torque, or use --format cia402",
+            "--rated-torque applies to --format cia402; --format {} is a table over the position",
+            options.format
+        ));
+    }
     file.refuse_joint_friction("export")?;
     variator::refuse(&file, "export")?;
     let layout = layout(options)?;

@@ -1,6 +1,6 @@
 //! Writes a motion as a profile and as an electronic cam.
 
-use miette::{Result, miette};
+use miette::Result;
 
 use crate::commands::profile_written;
 use crate::options::series::SeriesFiles;
@@ -35,9 +35,7 @@ pub(super) fn write(
             turn: coordinate.pick(Some(coordinate.shown(std::f64::consts::TAU)), None),
         };
         let name = path.file_name().unwrap_or_default().to_string_lossy();
-        let text = cam
-            .text(options.cam_form, &name)
-            .map_err(|fault| miette!(help = fault.cure(), "{fault}"))?;
+        let text = cam.text(options.cam_form, &name)?;
         files.add(path, text.as_bytes())?;
         written.push(format!("cam table written to {}", plain::path(path)));
     }
