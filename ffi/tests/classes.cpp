@@ -18,7 +18,9 @@ int main() {
     const Press::Motion rest = {0, 0.0f, 0.0f};
     const Any::CheckedTorque none = any.at_reference(range, rest, jred_f32_friction_of_speed(0.0f));
     const jred_f32_observed seen = press.observe(observer, jred::Phase(0), 1.0f, jred_f32_friction_of_speed(0.0f));
+    const bool beyond = press.at_measured(range, rest, rest, jred_f32_friction_of_speed(0.0f)).speed_beyond;
+    jred::Counter<16> counter(65536);
     tracker.largest_step(jred::Phase(1));
     // Nothing was loaded or made: everything says so.
-    return none.speed_beyond && seen.limited && tracker.update(jred::Phase(7)).jumped && fixed.torque(jred::Phase(0), 1, 1) == 0 ? 0 : 1;
+    return counter.extend(65535) == 65535 && beyond && none.speed_beyond && seen.limited && tracker.update(jred::Phase(7)).jumped && fixed.torque(jred::Phase(0), 1, 1) == 0 ? 0 : 1;
 }

@@ -91,6 +91,7 @@ fn make(folder: &Path, rustc: &[&str]) -> Result<()> {
             "ffi/arduino/examples/axis/axis.ino",
             "examples/axis/axis.ino",
         ),
+        ("ffi/examples/axis.h", "examples/axis/axis.h"),
         ("ffi/examples/press.h", "examples/axis/press.h"),
         ("LICENSE-MIT", "LICENSE-MIT"),
         ("LICENSE-APACHE", "LICENSE-APACHE"),

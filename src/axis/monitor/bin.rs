@@ -16,7 +16,7 @@ pub(super) struct Bin {
     pub(super) limit: i32,
     /// 2²⁴/σ, at most 2²⁴.
     pub(super) inverse: i32,
-    /// The payload's torque without its mean over a cycle, 2¹⁰ at most.
+    /// The payload's torque; after learning without its mean over a cycle.
     pub(super) weight: i32,
 }
 
@@ -39,6 +39,11 @@ impl Bin {
     /// Whether the reference cycles passed here often enough.
     pub(super) const fn is_known(&self) -> bool {
         self.ticks >= LEAST
+    }
+
+    /// 1/σ.
+    pub(super) fn precision(&self) -> f32 {
+        self.inverse as f32 / 16_777_216.0
     }
 
     /// Mean and variance relative to `mean`, in counts.

@@ -105,9 +105,6 @@ pub struct Monitor<N, const BINS: usize> {
     payload: Drift,
 }
 
-/// Largest weight of a bin.
-const WEIGHT: f32 = 1024.0;
-
 /// ln x for x ≥ 1, at most 0.06 too large: the logarithm's chord between powers of two.
 fn logarithm(x: f32) -> f32 {
     let bits = x.to_bits();
@@ -128,39 +125,30 @@ impl<N: Number, const BINS: usize> Monitor<N, BINS> {
         model: &impl MachineUnits<Number = N>,
     ) -> Result<Self, AxisError> {
         let count = TorqueCount::new(watch.largest, model)?;
-        let holds = (1e-9..=0.5).contains(&watch.false_alarm);
         within(
             "the probability of a false alarm",
             watch.false_alarm,
-            holds,
+            (1e-9..=0.5).contains(&watch.false_alarm),
             "from 1e-9 to 0.5",
         )?;
-        for (what, number, least, most, range) in [
-            (
-                "the reference cycles",
-                watch.reference,
-                32,
-                10_000,
-                "from 32 to 10000",
-            ),
-            (
-                "the cycles without a false alarm",
-                watch.cycles,
-                1,
-                1_000_000,
-                "from 1 to 1000000",
-            ),
-            (
-                "the bins",
-                BINS.min(1 << 20) as u32,
-                1,
-                65_535,
-                "from 1 to 65535",
-            ),
-        ] {
-            let holds = (least..=most).contains(&number);
-            within(what, number as f32, holds, range)?;
-        }
+        within(
+            "the reference cycles",
+            watch.reference as f32,
+            (32..=10_000).contains(&watch.reference),
+            "from 32 to 10000",
+        )?;
+        within(
+            "the cycles without a false alarm",
+            watch.cycles as f32,
+            (1..=1_000_000).contains(&watch.cycles),
+            "from 1 to 1000000",
+        )?;
+        within(
+            "the bins",
+            BINS as f32,
+            (1..=65_535).contains(&BINS),
+            "from 1 to 65535",
+        )?;
         let mut bins = [Bin::default(); BINS];
         for (k, bin) in (0u64..).zip(&mut bins) {
             // The middle of the bin.
@@ -302,48 +290,40 @@ impl<N: Number, const BINS: usize> Monitor<N, BINS> {
         }
     }
 
+    /// The mean over the ticks of a figure of the known bins.
+    fn mean(&self, of: impl Fn(&Bin) -> f32) -> f32 {
+        let known = self.bins.iter().filter(|bin| bin.is_known());
+        let [sum, ticks] = known.fold([0.0, 0.0], |[sum, all], bin| {
+            let ticks = bin.ticks as f32;
+            [sum + of(bin) * ticks, all + ticks]
+        });
+        sum / ticks.max(1.0)
+    }
+
     /// The bins are learned: means, limits, and weights of the payload without their mean.
     fn finish_bins(&mut self) {
-        let known = || self.bins.iter().filter(|bin| bin.is_known());
-        let ticks = known().fold(0u32, |sum, bin| sum.saturating_add(bin.ticks));
-        let all = ticks.max(1) as f32;
-        // The mean over the ticks of a figure of each bin.
-        let mean = |of: &dyn Fn(&Bin) -> f32| {
-            known().fold(0.0, |sum, bin| sum + of(bin) * bin.ticks as f32) / all
-        };
-        let variance = mean(&|bin| {
+        let known = self.bins.iter().filter(|bin| bin.is_known());
+        let ticks = known.fold(0u32, |sum, bin| sum.saturating_add(bin.ticks));
+        self.ticks = ticks / self.watch.reference.max(1);
+        // Ticks of all cycles without a false alarm, on both sides.
+        let ticks = 2.0 * self.watch.cycles as f32 * self.ticks.max(1) as f32;
+        let multiple = Real::sqrt(2.0 * logarithm(ticks / self.watch.false_alarm));
+        let variance = self.mean(|bin| {
             let [_, variance] = bin.moments();
             variance
         });
-        let payload = mean(&|bin| bin.weight as f32);
-        let most = known().fold(1.0, |most: f32, bin| {
-            most.max((bin.weight as f32 - payload).abs())
-        });
-        let square = mean(&|bin| {
-            let off = (bin.weight as f32 - payload) / most;
-            off * off
-        });
-        // Ticks of all cycles without a false alarm, on both sides.
-        self.ticks = ticks / self.watch.reference.max(1);
-        let ticks = 2.0 * self.watch.cycles as f32 * self.ticks.max(1) as f32;
-        let multiple = Real::sqrt(2.0 * logarithm(ticks / self.watch.false_alarm));
+        let payload = self.mean(|bin| bin.weight as f32);
         for bin in self.bins.iter_mut().filter(|bin| bin.is_known()) {
             bin.finish(variance, 1.5 * multiple);
-            bin.weight = ((bin.weight as f32 - payload) / most * WEIGHT) as i32;
+            bin.weight = (bin.weight as f32 - payload) as i32;
         }
-        let mean = |of: &dyn Fn(&Bin) -> f32| {
-            let known = self.bins.iter().filter(|bin| bin.is_known());
-            known.fold(0.0, |sum, bin| sum + of(bin) * bin.ticks as f32) / all
-        };
-        let inverse = |bin: &Bin| bin.inverse as f32 / 16_777_216.0;
-        self.precision = mean(&|bin| inverse(bin) * inverse(bin));
-        self.payload_square = mean(&|bin| {
-            let off = bin.weight as f32 * (most / WEIGHT) * inverse(bin);
-            off * off
-        });
+        let squared = |share: f32| share * share;
+        let square = self.mean(|bin| squared(bin.weight as f32));
+        self.precision = self.mean(|bin| squared(bin.precision()));
+        self.payload_square = self.mean(|bin| squared(bin.weight as f32 * bin.precision()));
         self.payload_mean = self.count.si(payload);
         if square > 0.0 {
-            self.payload_scale = 1.0 / (WEIGHT * most * square);
+            self.payload_scale = 1.0 / square;
         }
         self.stage = Stage::Cycles;
         self.learned = 0;
@@ -353,7 +333,7 @@ impl<N: Number, const BINS: usize> Monitor<N, BINS> {
         let resolution = self.count.si(1.0);
         self.friction.finish(resolution);
         self.spread.finish(1.0 / 256.0);
-        self.payload.finish(self.payload_scale * WEIGHT);
+        self.payload.finish(Real::sqrt(self.payload_scale));
         self.stage = Stage::Watching;
     }
 }
