@@ -122,10 +122,9 @@ impl<T: Circular, const N: usize> Equations<T, N> {
         self.weight = self.weight * kept + one;
     }
 
-    /// Solves them: about 4·N³ operations, for the background.
-    #[must_use]
-    pub fn solve(&self) -> Found<T, N> {
-        let [zero, half, one] = T::CONSTANTS;
+    /// An upper triangle that has the same solution.
+    fn triangle(&self) -> ([[T; N]; N], [T; N]) {
+        let [zero, _, one] = T::CONSTANTS;
         let mut triangle = [[zero; N]; N];
         let mut known = [zero; N];
         for (row, value) in self.matrix.iter().zip(&self.known) {
@@ -143,6 +142,14 @@ impl<T: Circular, const N: usize> Equations<T, N> {
                 }
             }
         }
+        (triangle, known)
+    }
+
+    /// Solves them: about 4·N³ operations, for the background.
+    #[must_use]
+    pub fn solve(&self) -> Found<T, N> {
+        let [zero, half, one] = T::CONSTANTS;
+        let (triangle, known) = self.triangle();
         let mut sizes = [zero; N];
         for row in &triangle {
             for (sum, value) in sizes.iter_mut().zip(row) {

@@ -207,9 +207,14 @@ fn what_a_plc_does_not_take_is_refused() {
     let run = jred_of(line, [&press]).ends(2);
     run.says(&["applies to --format cia402", "remove --rated-torque"]);
     let table = "--forward --prove --pieces auto --omega 1rad/s --alpha 1rad/s^2 --max-bytes 99";
-    for option in table.split(" --").map(|option| option.trim_start_matches("--")) {
+    for option in table
+        .split(" --")
+        .map(|option| option.trim_start_matches("--"))
+    {
         let line = format!("export {{}} --format cia402 --rated-torque '1 N m' --{option}");
-        jred_of(&line, [&press]).ends(2).says(&["cannot be used with"]);
+        jred_of(&line, [&press])
+            .ends(2)
+            .says(&["cannot be used with"]);
     }
     for option in ["--rows 9", "--counts-per-turn 9"] {
         let line = format!("export {{}} --torque-error '1 N m' {option}");

@@ -35,10 +35,9 @@ fn variable(of: &Variable) -> String {
         Initial::One(value) => (base, initial(&simple(value))),
         Initial::Array(values) => {
             let last = values.len().saturating_sub(1);
-            let values = values.iter().map(|value| simple(value));
-            let values: String = values
-                .map(|value| format!("<value>{value}</value>\n"))
-                .collect();
+            let values = values.iter().fold(String::new(), |list, value| {
+                list + "<value>" + &simple(value) + "</value>\n"
+            });
             (
                 format!(
                     "<array><dimension lower=\"0\" upper=\"{last}\"/><baseType>{base}</baseType></array>"
