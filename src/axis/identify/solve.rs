@@ -10,8 +10,8 @@ const PARTS: usize = 32;
 /// Fewest rows of a solution: 5 s.
 const FEWEST_ROWS: u32 = 1250;
 
-/// [`Found::speed_spread`] below which J′ and load cannot be told apart; squared.
-const LEAST_SPREAD: f64 = 0.025 * 0.025;
+/// [`Found::speed_spread`] below which J′ and load cannot be told apart.
+const LEAST_SPREAD: f64 = 0.025;
 
 /// Residual, in the stated noise, beyond which something else disturbs.
 const MOST_RESIDUAL: f64 = 1.5;
@@ -163,7 +163,6 @@ impl<T: Circular, const N: usize> Equations<T, N> {
         };
         let fading = (half * (one + self.faded)).sqrt();
         let (part, speed_spread) = self.motion.judge();
-        let varies = speed_spread > T::from_f64(LEAST_SPREAD);
         let mut found = Found {
             coefficients: [zero; N],
             standard_error: [zero; N],
@@ -216,7 +215,19 @@ impl<T: Circular, const N: usize> Equations<T, N> {
                 rest / *diagonal
             };
         }
-        found.status = if self.motion.is_too_fast() {
+        found.status = self.status(&found, part, undetermined);
+        found
+    }
+
+    /// Whether a solution can be used; with a part that was hardly visited, and a coefficient that is not determined.
+    fn status(
+        &self,
+        found: &Found<T, N>,
+        part: Option<Phase>,
+        undetermined: Option<usize>,
+    ) -> FoundStatus {
+        let varies = found.speed_spread > T::from_f64(LEAST_SPREAD);
+        if self.motion.is_too_fast() {
             FoundStatus::TooFast
         } else if self.rows < FEWEST_ROWS {
             FoundStatus::TooShort
@@ -229,12 +240,11 @@ impl<T: Circular, const N: usize> Equations<T, N> {
         } else {
             match found.positive_places() {
                 0 => FoundStatus::Reversed,
-                PARTS if residual < T::from_f64(MOST_RESIDUAL) => FoundStatus::Good,
+                PARTS if found.residual < T::from_f64(MOST_RESIDUAL) => FoundStatus::Good,
                 PARTS => FoundStatus::Disturbed,
                 _ => FoundStatus::NotPositive,
             }
-        };
-        found
+        }
     }
 }
 

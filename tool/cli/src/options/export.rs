@@ -14,6 +14,8 @@ use jred_export::{Choice, Core, LayoutChoice, Number, OutputForm};
     after_help = "Exit codes: 0 done; 1 no table meets the error, or its proof fails; 2 bad input."
 )]
 #[command(group = ArgGroup::new("target").required(true).multiple(true).args(["torque_error", "max_bytes", "rated_torque"]))]
+#[command(group = ArgGroup::new("of_drives").multiple(true).args(["rated_torque", "counts_per_turn", "rows"])
+    .conflicts_with_all(["torque_error", "max_bytes", "omega", "alpha", "pieces", "prove", "forward"]))]
 pub struct Export {
     /// Machine file.
     pub file: PathBuf,
@@ -76,17 +78,13 @@ pub struct Export {
     #[arg(long, value_name = "NAME")]
     pub name: Option<String>,
     /// For --format cia402: the motor's rated torque as set in object 0x6076 of the drive, e.g. "4.2 N m"; torques are thousandths of it.
-    #[arg(
-        long,
-        allow_hyphen_values = true,
-        conflicts_with_all = ["torque_error", "max_bytes", "omega", "alpha", "pieces", "prove", "forward"]
-    )]
+    #[arg(long, allow_hyphen_values = true)]
     pub rated_torque: Option<String>,
     /// For --format cia402: increments of object 0x6064 in a turn of the motor, for a column of positions.
-    #[arg(long, value_name = "COUNTS", requires = "rated_torque", value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, value_name = "COUNTS", value_parser = clap::value_parser!(u32).range(1..))]
     pub counts_per_turn: Option<u32>,
     /// For --format cia402: number of rows, at equal times over the motion; 1001 if not given.
-    #[arg(long, requires = "rated_torque", value_parser = clap::value_parser!(u32).range(2..=1_000_000))]
+    #[arg(long, value_parser = clap::value_parser!(u32).range(2..=1_000_000))]
     pub rows: Option<u32>,
     /// Prove the torque error over every position, by interval arithmetic, with all roundings of the ticks; takes some seconds. The image then
     /// contains the proven error. Exit code 1 if that is larger than --torque-error, or if it cannot be proven.
