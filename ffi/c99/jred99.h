@@ -20,7 +20,7 @@
 #include <stdint.h>
 #include <string.h>
 
-#if defined(__STDC_VERSION__) && !defined(__GNUC__)
+#if defined(__STDC_VERSION__) && (!defined(__GNUC__) || defined(__clang__))
 #pragma STDC FP_CONTRACT OFF
 #endif
 

@@ -236,7 +236,7 @@ static inline uint32_t jred_within_stroke_(uint32_t phase, int32_t moved) {
 
 /* A gearbox between motor and drive link; the rotor is then not in the table. */
 typedef struct {
-    float ratio;      /* turns of the motor for a turn of the drive link (of a stroke rad/m) */
+    float ratio;      /* > 0: turns of the motor for a turn of the drive link (of a stroke rad/m); if it reverses, change the sign of the motor's torque */
     float efficiency; /* 0.01 to 1 */
     float rotor;      /* kg m^2 */
 } jred_gearbox;

@@ -144,7 +144,8 @@ impl IdentificationSettings {
             inertia,
             jump: T::from_single(jump),
             slowest: T::from_single(SLOWEST.min(self.max_speed / 40.0)),
-            fastest: T::from_single(self.max_speed),
+            // Noise and ripple of the filter exceed a stated plateau.
+            fastest: T::from_single(1.05 * self.max_speed),
             angle_variance: angle * angle,
             torque_products: products.map(|product| torque * torque * product),
             least_share: T::from_f64(1e-6),

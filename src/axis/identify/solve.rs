@@ -46,7 +46,7 @@ pub struct Equations<T, const N: usize> {
 pub enum FoundStatus {
     /// It can. [`Found::inertia`] says how well it is known.
     Good,
-    /// More than 2 % of the samples were faster than the stated `max_speed`, and were left out: state the machine's greatest speed, and start anew.
+    /// More than 2 % of the samples were faster than 1.05 times the stated `max_speed`, and were left out: state the machine's greatest speed, and start anew.
     TooFast,
     /// Less than 5 s of motion without jumps and standstill.
     TooShort,

@@ -23,6 +23,7 @@ mod weak;
 
 use basis::Basis;
 use fit::{DELAY_STEP, Fit, fit, rest};
+use matrix::DIAGONALS;
 use solution::Unfit;
 
 pub use fault::{Fault, Obstacle};
@@ -104,7 +105,7 @@ fn cleaned(samples: &Samples, first: &Fit, options: &Options) -> (Option<Fit>, V
         let (spacing, delay) = (now.weak.spacing, now.delay);
         for row in &outliers {
             let from = row * spacing;
-            used.faulty[from + 2 * spacing..from + 5 * spacing].fill(true);
+            used.faulty[from..from + DIAGONALS * spacing].fill(true);
         }
         // With too few rows left, the last fit stays.
         let Ok(next) = fit(&used, &first.basis, options, Some(delay), None) else {

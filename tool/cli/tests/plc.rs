@@ -279,6 +279,6 @@ fn torque_offsets_follow_newtons_law_in_their_own_columns() {
     assert!(
         comments
             .iter()
-            .any(|line| line.contains("frame: the shaft of the motor"))
+            .any(|line| line.contains("frame: the input of the machine file's drive train"))
     );
 }

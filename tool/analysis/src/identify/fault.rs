@@ -6,7 +6,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::fit::Fit;
-use super::matrix::{Matrix, whiten};
+use super::matrix::{DIAGONALS, Matrix, whiten};
 use super::{Samples, within_turn};
 
 /// Number of angle bins in a turn.
@@ -179,7 +179,7 @@ pub(super) fn check(samples: &Samples) -> Result<Vec<f64>, Obstacle> {
     Ok(speed)
 }
 
-/// Rows whose residual is too large.
+/// Rows whose residual is too large: the largest of those that one sample may cause, whose effect whitening carries on.
 pub(super) fn outliers(fit: &Fit) -> Vec<usize> {
     let kept = fit.residuals.iter().zip(&fit.kept);
     let mut sizes: Vec<f64> = kept
@@ -190,9 +190,21 @@ pub(super) fn outliers(fit: &Fit) -> Vec<usize> {
     let median = sizes.get(sizes.len() / 2).copied().unwrap_or_default();
     let limit = OUTLIER * 1.4826 * median;
     let each = fit.residuals.iter().zip(&fit.kept).enumerate();
-    each.filter(|(_, (e, kept))| **kept && e.abs() > limit)
-        .map(|(i, _)| i)
-        .collect()
+    let mut outliers: Vec<usize> = Vec::new();
+    let mut last = 0;
+    for (i, (e, _)) in each.filter(|(_, (e, kept))| **kept && e.abs() > limit) {
+        let size = |row: usize| fit.residuals.get(row).map_or(0.0, |e| e.abs());
+        match outliers.last_mut() {
+            Some(largest) if i - last <= DIAGONALS => {
+                if e.abs() > size(*largest) {
+                    *largest = i;
+                }
+            }
+            _ => outliers.push(i),
+        }
+        last = i;
+    }
+    outliers
 }
 
 /// A slip of the encoder: the place that separates two offsets of the position best.

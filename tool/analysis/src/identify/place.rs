@@ -1,7 +1,7 @@
 //! Where curves lie against others: their shift, and whether they are mirrored.
 //!
 //! ```text
-//! F(δ) = Σ(J(φ + δ) − J₀(φ))²/Σ(J² + J₀²) + Σ(V′(φ + δ) − V′₀(φ))²/Σ(V′² + V′₀²)        without their means
+//! F(δ) = Σ(J(φ + δ) − J₀(φ))²/band² + Σ(V′(φ + δ) − V′₀(φ))²/band²        without their means, by the widest bands of J and V′
 //! ```
 
 use std::f64::consts::TAU;
@@ -14,11 +14,12 @@ const CAUSE: f64 = 0.25;
 /// J and V′ at equal steps of a turn, without their means.
 struct Curves([Vec<f64>; 2]);
 
-/// The best shift (rad), its F, and F without a shift.
+/// The best shift (rad), its F, F without a shift, and the shift (rad) by which F rises by twice a band squared.
 struct Place {
     shift: f64,
     best: f64,
     here: f64,
+    sure: f64,
 }
 
 impl Curves {
@@ -63,19 +64,21 @@ impl Curves {
     }
 
     /// F with the place `by` of these curves at φ = 0 of the others.
-    fn deviation(&self, others: &Self, by: usize) -> f64 {
-        let each = self.0.iter().zip(&others.0).map(|(own, other)| {
+    fn deviation(&self, others: &Self, by: usize, bands: [f64; 2]) -> f64 {
+        let each = self.0.iter().zip(&others.0).zip(bands);
+        let each = each.map(|((own, other), band)| {
             let shifted = own.iter().cycle().skip(by);
             let off: f64 = shifted.zip(other).map(|(a, b)| (a - b).powi(2)).sum();
-            let size: f64 = own.iter().chain(other).map(|y| y * y).sum();
-            off / size.max(1e-300)
+            off / (band * band)
         });
         each.sum()
     }
 
-    fn place(&self, others: &Self) -> Place {
+    fn place(&self, others: &Self, bands: [f64; 2]) -> Place {
         let count = self.0[0].len();
-        let all: Vec<f64> = (0..count).map(|by| self.deviation(others, by)).collect();
+        let all: Vec<f64> = (0..count)
+            .map(|by| self.deviation(others, by, bands))
+            .collect();
         let at = (0..count)
             .min_by(|a, b| all[*a].total_cmp(&all[*b]))
             .unwrap_or(0);
@@ -92,35 +95,28 @@ impl Curves {
             shift: (turns - turns.round()) * TAU,
             best: here - 0.25 * (before - after) * part,
             here: all.first().copied().unwrap_or(0.0),
+            sure: 2.0 * TAU / count.max(1) as f64 / curvature.max(1e-300).sqrt(),
         }
     }
 }
 
-/// The shift (rad) by which the first curves are later than the second, if it is the cause of most of their deviation and larger than their bands explain.
-pub fn shift(points: &[CurvePoint], others: &[CurvePoint]) -> Option<f64> {
-    let bands = others.iter().map(|point| point.inertia.band);
-    caused(
-        &Curves::of(points),
-        &Curves::of(others),
-        points,
-        bands.fold(0.0, f64::max),
-    )
+/// The widest bands of J and V′.
+fn bands<'a>(points: impl Iterator<Item = &'a CurvePoint>) -> [f64; 2] {
+    points.fold([1e-150, 1e-150], |[j, v], point| {
+        [j.max(point.inertia.band), v.max(point.potential_slope.band)]
+    })
 }
 
-fn caused(own: &Curves, others: &Curves, points: &[CurvePoint], band: f64) -> Option<f64> {
-    let place = own.place(others);
-    let count = points.len().max(1) as f64;
-    let slopes = points
-        .iter()
-        .map(|point| point.inertia_slope.powi(2))
-        .sum::<f64>()
-        / count;
-    let bands = points
-        .iter()
-        .map(|point| point.inertia.band)
-        .fold(band, f64::max);
-    let sure = bands / slopes.sqrt().max(1e-300);
-    (place.best < CAUSE * place.here && place.shift.abs() > sure.max(TAU / 1440.0))
+/// The shift (rad) by which the first curves are later than the second, if it is the cause of most of their deviation and larger than their bands explain.
+pub fn shift(points: &[CurvePoint], others: &[CurvePoint]) -> Option<f64> {
+    let bands = bands(points.iter().chain(others));
+    caused(&Curves::of(points), &Curves::of(others), bands)
+}
+
+/// The shift that leaves a quarter of the deviation at most, if it is larger than 2/√F″, which the bands alone may cause.
+fn caused(own: &Curves, others: &Curves, bands: [f64; 2]) -> Option<f64> {
+    let place = own.place(others, bands);
+    (place.best < CAUSE * place.here && place.shift.abs() > place.sure.max(TAU / 1440.0))
         .then_some(place.shift)
 }
 
@@ -130,19 +126,28 @@ pub fn against_design(found: &mut Identified, designed: &[[f64; 2]]) {
         Curves::of(&found.curves),
         Curves::new(designed.iter().copied()),
     );
+    let bands = bands(found.curves.iter());
     let reversed = found
         .faults
         .iter()
         .position(|fault| matches!(fault, Fault::Reversed { .. }));
     if let Some(at) = reversed {
-        let torque = own.scaled(-1.0).place(&design).best;
-        let position = own.mirrored([-1.0, 1.0]).place(&design).best;
+        let torque = own.scaled(-1.0).place(&design, bands);
+        let position = own.mirrored([-1.0, 1.0]).place(&design, bands);
+        // Of two that fit alike at some zero, the one that fits at this zero.
+        let alike = torque.best < position.best / CAUSE && position.best < torque.best / CAUSE;
         found.faults[at] = Fault::Reversed {
-            position: position < torque,
+            position: if alike {
+                position.here < torque.here
+            } else {
+                position.best < torque.best
+            },
         };
-    } else if own.mirrored([1.0, -1.0]).place(&design).best < CAUSE * own.place(&design).best {
+    } else if own.mirrored([1.0, -1.0]).place(&design, bands).best
+        < CAUSE * own.place(&design, bands).best
+    {
         found.faults.push(Fault::Mirrored);
-    } else if let Some(by) = caused(&own, &design, &found.curves, 0.0) {
+    } else if let Some(by) = caused(&own, &design, bands) {
         found.faults.push(Fault::Zero { by });
     }
 }

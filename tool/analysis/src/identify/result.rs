@@ -45,7 +45,7 @@ pub struct CurvePoint {
     pub inertia: Estimate,
     /// J′ (kg·m²/rad).
     pub inertia_slope: f64,
-    /// V′, and a mean load (N·m).
+    /// V′ of weight and springs, without a mean (N·m).
     pub potential_slope: Estimate,
 }
 
@@ -178,15 +178,11 @@ pub(super) fn identified(
             let phi = k as f64 * TAU / GRID as f64;
             let mut waves = Vec::new();
             basis.harmonics_at(phi, &mut waves);
-            let mut load = basis.potential_row(phi);
-            if basis.mean {
-                load.push(1.0);
-            }
             CurvePoint {
                 phi,
                 inertia: sum(0, &basis.inertia_row(phi)),
                 inertia_slope: basis.at(&fit.theta, &waves, phi).inertia_slope,
-                potential_slope: sum(basis.potential(), &load),
+                potential_slope: sum(basis.potential(), &basis.potential_row(phi)),
             }
         })
         .collect();

@@ -141,11 +141,18 @@ pub fn makers(key: Option<&str>) -> Result<Vec<Maker>> {
 }
 
 /// A value as it is typed.
-fn typed(value: f64, decimals: Option<i32>) -> f64 {
+fn typed(value: f64, decimals: Option<i32>, is_limit: bool) -> f64 {
     let typed = match decimals {
         Some(decimals) => {
             let scale = 10.0_f64.powi(decimals);
-            (value * scale).round() / scale
+            let scaled = value * scale;
+            // A limit is never rounded up; only the error of a decimal fraction is.
+            let rounded = if is_limit {
+                (scaled * (1.0 + 1e-9)).floor()
+            } else {
+                scaled.round()
+            };
+            rounded / scale
         }
         None => significant(value, DIGITS).parse().unwrap_or(value),
     };
@@ -166,7 +173,11 @@ impl Parameter {
         let factor = self.factor.unwrap_or(1.0);
         let of = |setting: Option<Setting>| setting.map_or(Ok(1.0), |s| settings.get(s));
         let value = of(self.setting).and_then(|value| Ok(value / of(self.base)? * factor));
-        let value = value.map(|value| typed(value, self.decimals));
+        let is_limit = matches!(
+            self.setting,
+            Some(Setting::TorqueLimit | Setting::PeakCurrent | Setting::SpeedLimit)
+        );
+        let value = value.map(|value| typed(value, self.decimals, is_limit));
         self.beyond = value.is_ok_and(|value| !(least..=largest).contains(&value));
         self.remark = match value {
             Err(missing) => missing.to_owned(),
@@ -243,8 +254,8 @@ impl DriveView<'_> {
         }
         if get(Setting::Direction) < 0.0 {
             warnings.push(
-                "the drive train reverses: the motor turns against the drive link; positions and torques have the motor's sign, \
-                 so reverse the polarity (CiA 402: 192 in 0x607E) only where the controller gives those of the drive link"
+                "the drive train reverses: the motor turns against the drive link; positions and torques have the motor's sign; \
+                 where the controller gives positions of the drive link, reverse the polarity (CiA 402: 192 in 0x607E), which leaves torques as they are"
                     .to_owned(),
             );
         }
@@ -267,7 +278,9 @@ impl DriveView<'_> {
         let figures = data.figures.into_iter().map(|figure| {
             let (unit, factor) = figure.unit;
             let decimals = (unit == "counts").then_some(0);
-            let value = figure.value.map(|value| typed(value * factor, decimals));
+            let value = figure
+                .value
+                .map(|value| typed(value * factor, decimals, false));
             let remark = figure.remark.into();
             vec![figure.name.into(), whole(value), unit.into(), remark]
         });

@@ -109,8 +109,11 @@ impl IdentifyView<'_> {
     /// Whether a fault spoils a result.
     pub fn has_fault(&self) -> bool {
         let all = self.logs.iter().flat_map(|log| &log.found.faults);
-        all.into_iter()
-            .any(|fault| !matches!(fault, Fault::Spikes { .. }))
+        let other = self.deviation(&self.curves(), |p| p.inertia.value, |d| d.inertia);
+        other.share.abs() > OTHER
+            || all
+                .into_iter()
+                .any(|fault| !matches!(fault, Fault::Spikes { .. }))
     }
 
     /// Refuses logs whose mean says nothing.

@@ -39,7 +39,9 @@ fn a_word_that_no_parameter_has_is_refused() {
 
 #[test]
 fn values_are_rounded_as_typed() {
-    assert_eq!(typed(3269.23, Some(0)).to_string(), "3269");
-    assert_eq!(typed(0.012_345_6, None).to_string(), "0.01235");
-    assert_eq!(typed(-0.2, Some(0)).to_string(), "0");
+    assert_eq!(typed(3269.23, Some(0), false).to_string(), "3269");
+    assert_eq!(typed(2072.86, Some(0), true).to_string(), "2072");
+    assert_eq!(typed(0.3 * 1e4, Some(0), true).to_string(), "3000");
+    assert_eq!(typed(0.012_345_6, None, false).to_string(), "0.01235");
+    assert_eq!(typed(-0.2, Some(0), false).to_string(), "0");
 }

@@ -1,5 +1,6 @@
 //! The identified curves as the file of a machine of the type reduced-curves.
 
+use std::f64::consts::TAU;
 use std::fmt::Write as _;
 
 use jred_analysis::identify::CurvePoint;
@@ -8,7 +9,7 @@ use jred_file::number::rounding::short;
 use super::IdentifyView;
 use crate::answer::Answer;
 
-/// What a file of reduced curves has beside J and V′.
+/// The loads of a file of reduced curves beside V′.
 struct Loads {
     mean_load: f64,
     viscous: f64,
@@ -27,8 +28,17 @@ impl IdentifyView<'_> {
         Loads {
             mean_load: mean_load + direction.unwrap_or_default() * c.min(0.0),
             viscous: b.max(0.0),
-            coulomb: c.max(0.0),
+            coulomb: (c + b.min(0.0) * self.mean_speed()).max(0.0),
         }
+    }
+
+    /// The mean speed of the logs (rad/s), at which friction that falls with the speed is kept as Coulomb friction.
+    fn mean_speed(&self) -> f64 {
+        let each = self.logs.iter().map(|log| &log.found.excitation);
+        let [turns, time] = each.fold([0.0, 0.0], |[turns, time], one| {
+            [turns + one.turns, time + one.duration]
+        });
+        TAU * turns / time
     }
 
     /// Warnings of friction that is negative.
@@ -36,7 +46,7 @@ impl IdentifyView<'_> {
         let [b, c] = [self.mean(|f| f.viscous), self.mean(|f| f.coulomb)];
         if b.value < 0.0 {
             answer.warning(format!(
-                "viscous friction is negative ({} ± {} N m s/rad); the CSV has 0: record higher and lower speeds",
+                "viscous friction is negative ({} ± {} N m s/rad); the CSV has 0, and c at the mean speed: record higher and lower speeds",
                 short(b.value),
                 short(b.band)
             ));
@@ -72,7 +82,7 @@ impl IdentifyView<'_> {
                 short(point.phi.to_degrees()),
                 point.inertia.value,
                 -mean_load,
-                mean_load - point.potential_slope.value,
+                -point.potential_slope.value,
                 viscous,
                 coulomb
             );
