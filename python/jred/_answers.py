@@ -421,7 +421,8 @@ class Check(Result):
     violations: tuple[str, ...]
     """Violated checks; empty: every check is satisfied."""
 
-class DriveFigureData(Item):
+class DriveFigure(Item):
+    """A figure that a drive asks for."""
     setting: DriveSetting
     """The figure."""
     name: str
@@ -433,17 +434,19 @@ class DriveFigureData(Item):
 
 DriveSetting: TypeAlias = "Literal['bandwidth'] | Literal['brake-closing'] | Literal['brake-opening'] | Literal['coulomb-friction'] | Literal['counts-per-turn'] | Literal['cycle-peak-speed'] | Literal['cycle-peak-torque'] | Literal['cycle-rms-torque'] | Literal['direction'] | Literal['inertia-ratio'] | Literal['largest-load-inertia'] | Literal['largest-position'] | Literal['least-load-inertia'] | Literal['least-position'] | Literal['load-inertia'] | Literal['motor-time'] | Literal['motor-turns'] | Literal['peak-current'] | Literal['rated-current'] | Literal['rated-torque'] | Literal['resistance'] | Literal['resistor-power'] | Literal['rotor-inertia'] | Literal['shaft-turns'] | Literal['speed-gain'] | Literal['speed-limit'] | Literal['standstill-current'] | Literal['standstill-torque'] | Literal['torque-constant'] | Literal['torque-limit'] | Literal['total-inertia'] | Literal['viscous-friction'] | Literal['weight-torque'] | Literal['winding-time']"
 
-class DriveMakerData(Item):
+class DriveMaker(Item):
+    """A maker of drives, or a profile."""
     key: str
     """Word of the maker on the command line."""
     name: str
     """Name of the maker or profile."""
     source: str
     """Source of names, units and ranges."""
-    parameters: tuple[DriveParameterData, ...]
+    parameters: tuple[DriveParameter, ...]
     """The parameters."""
 
-class DriveParameterData(Item):
+class DriveParameter(Item):
+    """A parameter: as the table gives it, and with its value for a drive."""
     number: str
     """Number, as the maker writes it."""
     name: str
@@ -465,9 +468,9 @@ class Drive(Result):
     """The machine, and what was computed."""
     drive: str
     """Name of the drive."""
-    figures: tuple[DriveFigureData, ...]
+    figures: tuple[DriveFigure, ...]
     """The figures at the motor shaft."""
-    makers: tuple[DriveMakerData, ...]
+    makers: tuple[DriveMaker, ...]
     """The parameters of each maker."""
     warnings: tuple[str, ...]
     """Warnings."""
