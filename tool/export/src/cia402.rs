@@ -68,8 +68,8 @@ impl TorqueOffsets<'_> {
             "# {}\n\
              # base: 0x6076 = {base} m{unit}; 1 per mille = {} {unit}\n\
              # largest torque {} {unit}; rounded to half of a per mille\n\
-             # frame: the input of the machine file's drive train, or the drive link without one; a gearbox that is not in the file is not in the figures\n\
-             # positive counts and torque are those of that shaft; a negative ratio turns both\n\
+             # frame: the input of the machine file's drive train, or the drive link without one; a gearbox that is not in the file is not in the figures; \
+             positive counts and torque are those of that shaft; a negative ratio turns both\n\
              # inertia of rotor and gearbox in the torque: {} kg m^2\n\
              # write the torque to 0x60B2 (torque offset) in position and velocity modes, to 0x6071 (target torque) in torque mode\n\
              t [s],{}0x60B2 [per mille]\n",
