@@ -8,7 +8,8 @@
  * It takes what `jred export --format c` writes with --layout spline (--type f32 or i32) and --type i16. phase is in units of 2^-32 of the range, the
  * numbers are in the units of the table: SI, or shares of its bases. Coulomb friction has the sign of the last argument, a speed: the set-point's. It
  * needs int32_t and int64_t, and for the same bits no fused multiplication and addition: -ffp-contract=off, or a compiler that obeys the pragma;
- * and FLT_EVAL_METHOD 0, so that float is evaluated as float. NaN in gives NaN out. A table must not be loaded while it is ticked.
+ * and FLT_EVAL_METHOD 0, so that float is evaluated as float. NaN of speed or acceleration
+ * gives NaN; friction of a NaN speed is that of a positive one, as in the library. A table must not be loaded while it is ticked.
  *
  * Checked: header, length, CRC, set, and that the rows fit. That the numbers are those of a machine, the command has checked before it wrote the CRC. */
 #ifndef JRED99_H
@@ -164,7 +165,7 @@ static inline float jred99_f32_sum_(const jred99_table *table, uint32_t phase, f
     if ((table->set & 1u) != 0u) sum -= load;
     if ((table->set & 36u) != 0u && friction != 0.0f) {
         const float c = fabsf((table->set & 4u) != 0u ? jred99_f32_curve_(table, cell, column, u, NULL) : jred99_float_(table->coulomb));
-        sum += friction < 0.0f ? -c : friction > 0.0f ? c : friction; /* NaN stays NaN. */
+        sum += friction < 0.0f ? -c : c;
     }
     return sum;
 }
