@@ -208,7 +208,7 @@ fn machine(text: &str) -> bool {
 
 /// Seeds of profiles: recorded speeds of a drive, positions, and states.
 fn profiles() -> Vec<Vec<u8>> {
-    let mut seeds = files(&["machines"], "log.csv");
+    let mut seeds = files(&["machines"], "drive-log.csv");
     seeds.extend(files(&["tests/fuzz/corpus/profile"], ""));
     seeds
 }
