@@ -8,8 +8,8 @@
  * It takes what `jred export --format c` writes with --layout spline (--type f32 or i32) and --type i16. phase is in units of 2^-32 of the range, the
  * numbers are in the units of the table: SI, or shares of its bases. Coulomb friction has the sign of the last argument, a speed: the set-point's. It
  * needs int32_t and int64_t, and for the same bits no fused multiplication and addition: -ffp-contract=off, or a compiler that obeys the pragma;
- * and FLT_EVAL_METHOD 0, so that float is evaluated as float. NaN of speed or acceleration
- * gives NaN; friction of a NaN speed is that of a positive one, as in the library. A table must not be loaded while it is ticked.
+ * and FLT_EVAL_METHOD 0, so that float is evaluated as float. NaN of speed or acceleration gives NaN; friction of a NaN speed is that of a positive one,
+ * as in the library. A table must not be loaded while it is ticked.
  *
  * Checked: header, length, CRC, set, and that the rows fit. That the numbers are those of a machine, the command has checked before it wrote the CRC. */
 #ifndef JRED99_H

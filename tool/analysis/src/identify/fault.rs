@@ -33,7 +33,7 @@ const SLIP: f64 = 4.5;
 pub enum Obstacle {
     /// Too few samples, or independent rows.
     Short {
-        /// Samples, or rows that are left: one for every 4 ms of faultless motion.
+        /// Samples, or rows that are left; 4 ms of motion without a fault give one row.
         rows: usize,
         /// How many are needed.
         needed: usize,
@@ -190,21 +190,15 @@ pub(super) fn outliers(fit: &Fit) -> Vec<usize> {
     let median = sizes.get(sizes.len() / 2).copied().unwrap_or_default();
     let limit = OUTLIER * 1.4826 * median;
     let each = fit.residuals.iter().zip(&fit.kept).enumerate();
-    let mut outliers: Vec<usize> = Vec::new();
-    let mut last = 0;
-    for (i, (e, _)) in each.filter(|(_, (e, kept))| **kept && e.abs() > limit) {
-        let size = |row: usize| fit.residuals.get(row).map_or(0.0, |e| e.abs());
-        match outliers.last_mut() {
-            Some(largest) if i - last <= DIAGONALS => {
-                if e.abs() > size(*largest) {
-                    *largest = i;
-                }
-            }
-            _ => outliers.push(i),
-        }
-        last = i;
-    }
-    outliers
+    let far = each.filter(|(_, (e, kept))| **kept && e.abs() > limit);
+    let far: Vec<usize> = far.map(|(i, _)| i).collect();
+    let size = |row: usize| fit.residuals.get(row).map_or(0.0, |e| e.abs());
+    far.chunk_by(|a, b| b - a <= DIAGONALS)
+        .filter_map(|group| {
+            let rows = group.iter().copied();
+            rows.max_by(|a, b| size(*a).total_cmp(&size(*b)))
+        })
+        .collect()
 }
 
 /// A slip of the encoder: the place that separates two offsets of the position best.

@@ -175,16 +175,18 @@ impl IdentifyView<'_> {
         (0..count).map(curve).collect()
     }
 
+    /// The largest J of the design (kg·m²).
+    fn largest_inertia(&self) -> f64 {
+        let each = self.designed.iter().map(|design| design.inertia);
+        each.fold(0.0, f64::max)
+    }
+
     /// The largest difference of J between two logs, as a share of the maximum.
     fn repeatability(&self) -> Option<f64> {
         if self.logs.len() < 2 {
             return None;
         }
-        let most = self
-            .designed
-            .iter()
-            .map(|design| design.inertia)
-            .fold(0.0, f64::max);
+        let most = self.largest_inertia();
         let spread = (0..self.designed.len()).map(|k| {
             let all = self.logs.iter().filter_map(|log| log.found.curves.get(k));
             let [least, most] = all.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], point| {
@@ -277,11 +279,7 @@ impl IdentifyView<'_> {
             .iter()
             .map(|point| point.inertia.band)
             .fold(0.0, f64::max);
-        let most = self
-            .designed
-            .iter()
-            .map(|design| design.inertia)
-            .fold(0.0, f64::max);
+        let most = self.largest_inertia();
         let [found, designed] = [
             curves
                 .get(deviation.at)
