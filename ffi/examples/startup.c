@@ -8,9 +8,12 @@ void initialise_monitor_handles(void); /* newlib: printf by semihosting */
 void reset(void);
 
 static void fault(void) { abort(); }
+/* A program that starts the timer has its own. */
+__attribute__((weak)) void systick(void) { abort(); }
 
 __attribute__((section(".vectors"), used)) static const void *const vectors[16] = {
     &stack_top, (const void *)reset, (const void *)fault, (const void *)fault, (const void *)fault, (const void *)fault,
+    [15] = (const void *)systick,
 };
 
 void reset(void) {

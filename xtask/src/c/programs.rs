@@ -17,7 +17,7 @@ struct Program {
     example: Option<&'static str>,
 }
 
-const PROGRAMS: [Program; 8] = [
+const PROGRAMS: [Program; 9] = [
     Program {
         source: "ffi/examples/press.c",
         language: Language::C,
@@ -65,6 +65,13 @@ const PROGRAMS: [Program; 8] = [
         source: "ffi/tests/refused.c",
         language: Language::C,
         name: "refused",
+        example: None,
+    },
+    // A table exchanged in mid-tick, by an interrupt.
+    Program {
+        source: "ffi/tests/exchange.c",
+        language: Language::C,
+        name: "exchange",
         example: None,
     },
 ];
