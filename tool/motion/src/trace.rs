@@ -7,6 +7,7 @@ use jred::machine::motion::State;
 use jred_file::model::axis::Axis;
 use jred_file::model::coordinate::Coordinate;
 use jred_file::model::motion::step_at;
+use jred_file::number::rounding::position;
 
 pub use jred_file::model::motion::Node;
 
@@ -234,8 +235,9 @@ impl Trace {
                 state.alpha / (speed * speed),
             ];
             // Avoids -0.
-            let [position, first, second] = values.map(|value| self.coordinate.shown(value) + 0.0);
-            [turn * (t / self.duration()), position, first, second]
+            let [place, first, second] = values.map(|value| self.coordinate.shown(value) + 0.0);
+            let at = turn * (t / self.duration());
+            [position(at), position(place), first, second]
         });
         rows.collect()
     }

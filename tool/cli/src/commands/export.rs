@@ -148,10 +148,17 @@ pub(super) fn run(options: &options::export::Export) -> Result<Completion> {
     if options.format == OutputForm::Cia402 {
         return cia402::run(options, &file);
     }
-    if options.rated_torque.is_some() {
+    let of_drive = [
+        ("--rated-torque", options.rated_torque.is_some()),
+        ("--drive", options.drive.is_some()),
+    ];
+    let of_drive = of_drive
+        .into_iter()
+        .filter_map(|(name, given)| given.then_some(name));
+    if let Some(name) = of_drive.chain(options.catalogue.given()).next() {
         return Err(miette!(
-            help = "remove --rated-torque, or use --format cia402",
-            "--rated-torque applies to --format cia402; --format {} is a table over the position",
+            help = format!("remove {name}, or use --format cia402"),
+            "{name} applies to --format cia402; --format {} is a table over the position",
             options.format
         ));
     }
