@@ -15,7 +15,7 @@ use crate::terminal;
 use jred::machine::Reducible as _;
 use jred_analysis::duty::Duty;
 use jred_export::{
-    BLOCK_NAMES, Choice, Export, Failure, LayoutChoice, Name, Number, OutputForm, ProofResult, Task,
+    BLOCK_NAMES, Choice, Export, Failure, LayoutChoice, Name, Number, OutputForm, Task,
 };
 use jred_file::argument::{self, Argument};
 use jred_file::model::axis::Axis;
@@ -283,7 +283,7 @@ fn show(options: &options::export::Export, export: &Export) -> Result<Completion
 /// Whether the error of the table is proven and within the allowed one; otherwise reports why not.
 fn proof_holds(export: &Export) -> bool {
     let (words, cure) = match (export.proof(), export.excess()) {
-        (Some(ProofResult::Open(why)), _) => (
+        (Some(Err(why)), _) => (
             format!("the error of the table is not proven: {why}"),
             "without --prove it is estimated",
         ),
