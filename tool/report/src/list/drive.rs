@@ -201,10 +201,7 @@ fn table<const N: usize>(columns: [&str; N], rows: Vec<Vec<Cell>>) -> Reading {
     };
     Reading {
         kinds: columns.iter().map(kind).collect(),
-        columns: columns.map(str::to_owned).into(),
-        rows,
-        whole: 3,
-        ..Reading::default()
+        ..Reading::new(columns, rows, 3)
     }
 }
 
