@@ -5,9 +5,13 @@ use std::collections::BTreeMap;
 use super::faults::refused;
 use jred_file::read::{DriveLog, LogLayout, drive_log};
 
-fn read(csv: &str, layout: &LogLayout) -> Result<DriveLog, String> {
+fn read(csv: &str, layout: LogLayout) -> Result<DriveLog, String> {
     let files = BTreeMap::from([("log.csv".to_owned(), csv.to_owned())]);
-    drive_log("log.csv", files, layout).map_err(|problem| {
+    let layout = LogLayout {
+        skipped: 1,
+        ..layout
+    };
+    drive_log("log.csv", files, &layout).map_err(|problem| {
         let cure = problem.cure().unwrap_or_default();
         format!("{problem}; {cure}")
     })
@@ -21,7 +25,7 @@ fn named(columns: &[(&str, &str)]) -> LogLayout {
             .collect(),
         counts_per_turn: Some(4),
         torque_constant: Some(2.0),
-        skipped: 1,
+        ..LogLayout::default()
     }
 }
 
@@ -33,7 +37,7 @@ fn options_name_the_columns_of_a_log() {
         ("position", "ActPos [counts]"),
         ("current", "Iq,RMS [A]"),
     ];
-    let log = read(csv, &named(&columns)).unwrap();
+    let log = read(csv, named(&columns)).unwrap();
     assert_eq!(log.time, [0.0, 0.25]);
     // Three of four counts.
     let quarter = std::f64::consts::FRAC_PI_2;
@@ -44,7 +48,7 @@ fn options_name_the_columns_of_a_log() {
 #[test]
 fn an_option_that_names_no_column_is_refused() {
     let csv = "drive 7\nt [s],pos,M [N m]\n0,0,1\n1,1,1\n";
-    let wrong = |column| read(csv, &named(&[("time", "t"), column]));
+    let wrong = |column| read(csv, named(&[("time", "t"), column]));
     refused(
         wrong(("position", "Place [rad]")),
         &["`position` in --columns is \"Place [rad]\"", "its titles: "],
