@@ -228,7 +228,8 @@ impl Trace {
     pub fn cam(&self, rows: usize, master: Master) -> Vec<[f64; 4]> {
         let turn = master.turn();
         let speed = turn / self.duration();
-        let rows = self.rows(rows).map(|(t, state)| {
+        let last = rows.max(2) - 1;
+        let rows = self.rows(rows).enumerate().map(|(k, (_, state))| {
             let values = [
                 state.phi,
                 state.omega / speed,
@@ -236,8 +237,12 @@ impl Trace {
             ];
             // Avoids -0.
             let [place, first, second] = values.map(|value| self.coordinate.shown(value) + 0.0);
-            let at = turn * (t / self.duration());
-            [position(at), position(place), first, second]
+            [
+                turn * k as f64 / last as f64,
+                position(place),
+                first,
+                second,
+            ]
         });
         rows.collect()
     }

@@ -110,9 +110,14 @@ pub fn percent(share: f64) -> String {
     format!("{:.1} %", (share * 1e3).round() / 10.0 + 0.0)
 }
 
-/// A position for a table, to 12 decimals, from 1000 on to 9: 6.999999999999999, from radians, is 7.
+/// A position for a table, to 14 or 15 digits: 6.999999999999999, from radians, is 7.
 pub fn position(x: f64) -> f64 {
-    let decimals = if x.abs() < 1e3 { 1e12 } else { 1e9 };
+    let decimals = match x.abs() {
+        ..10.0 => 1e14,
+        ..1e3 => 1e12,
+        ..1e5 => 1e10,
+        _ => 1e8,
+    };
     let scaled = (x * decimals).round();
     // Beyond, a number has no such decimals. Avoids -0.
     if scaled.abs() < 9e15 {
