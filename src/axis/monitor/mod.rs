@@ -95,7 +95,7 @@ pub struct Monitor<N, const BINS: usize> {
     /// Payload of a mean product of e − mean and weight, and the friction of a payload.
     payload_scale: f32,
     payload_mean: f32,
-    /// With w, the payload's torque without its mean: the means over the ticks of 1/σ², w/σ² and w²/σ², in counts.
+    /// With w, the payload's torque without its mean: the means over the ticks of 1/σ², 2·w/σ² and w²/σ², in counts.
     precision: f32,
     payload_cross: f32,
     payload_square: f32,
@@ -292,8 +292,8 @@ impl<N: Number, const BINS: usize> Monitor<N, BINS> {
         // In σ².
         let squares = sums.squares as f32 / ticks / 65_536.0;
         // ((off + payload·w)/σ)²: where σ varies over the range, both share a part.
-        let shared = 2.0 * off * self.payload_cross + payload * self.payload_square;
-        let explained = off * off * self.precision + payload * shared;
+        let explained = off * (off * self.precision + payload * self.payload_cross)
+            + payload * payload * self.payload_square;
         let left = if squares > explained {
             squares - explained
         } else {
@@ -338,7 +338,7 @@ impl<N: Number, const BINS: usize> Monitor<N, BINS> {
         let squared = |share: f32| share * share;
         let square = self.mean(|bin| squared(bin.weight as f32));
         self.precision = self.mean(|bin| squared(bin.precision()));
-        self.payload_cross = self.mean(|bin| bin.weight as f32 * squared(bin.precision()));
+        self.payload_cross = 2.0 * self.mean(|bin| bin.weight as f32 * squared(bin.precision()));
         self.payload_square = self.mean(|bin| squared(bin.weight as f32 * bin.precision()));
         self.payload_mean = self.count.si(payload);
         if square > 0.0 {
