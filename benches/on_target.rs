@@ -234,7 +234,8 @@ mod target {
             cycles: 10_000,
             false_alarm: 0.001,
         };
-        let mut monitor = Monitor::<F::Number, 64>::new(watch, |_| 1.0, &model).ok()?;
+        let carried = |at: Phase| (at.to_bits() >> 26) as f32;
+        let mut monitor = Monitor::<F::Number, 64>::new(watch, carried, &model).ok()?;
         for _ in 0..2 * REFERENCE {
             for k in 0..TICKS {
                 monitor.tick(place(k), torque);

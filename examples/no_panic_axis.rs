@@ -150,7 +150,7 @@ fn every_observer<F: Format, const SET: CurveSet>(
         false_alarm: 0.001,
     });
     let mut monitor: Result<Monitor<F::Number, 16>, _> =
-        Monitor::new(watch, |_| black_box(1.0), model);
+        Monitor::new(watch, |at| black_box(at.to_bits() as f32), model);
     if let Ok(monitor) = &mut monitor {
         black_box(Monitor::tick(monitor, seen.motion.phase, seen.load));
         black_box(Monitor::end_cycle(monitor));

@@ -180,7 +180,6 @@ const TOOL: [(&str, &[&str]); 8] = [
             "directions",
             "reference",
             "ticks",
-            "proof_result",
             "candidate",
             "search",
             "harmonic",

@@ -71,11 +71,8 @@ static inline int32_t jred_high_(int32_t a, int32_t b) {
 }
 
 static inline jred_f32_outcome jred_f32_times_(jred_f32 x, const jred_factor *factor) {
-    float product = x * factor->ratio;
-    jred_f32_outcome found;
-    JRED_ROUNDED_(product);
-    found.value = product;
-    found.limited = false;
+    jred_f32_outcome found = {x * factor->ratio, false};
+    JRED_ROUNDED_(found.value);
     return found;
 }
 static inline jred_q31_outcome jred_q31_times_(jred_q31 x, const jred_factor *factor) {
@@ -90,9 +87,7 @@ static inline jred_q31_outcome jred_q31_times_(jred_q31 x, const jred_factor *fa
 }
 static inline jred_q15_outcome jred_q15_times_(jred_q15 x, const jred_factor *factor) {
     const jred_q31_outcome wide = jred_q31_times_((int32_t)x * 65536, factor);
-    jred_q15_outcome found;
-    found.value = (int16_t)(wide.value >= 0x7fff8000 ? INT16_MAX : (wide.value + 0x8000) >> 16);
-    found.limited = wide.limited;
+    const jred_q15_outcome found = {(int16_t)(wide.value >= 0x7fff8000 ? INT16_MAX : (wide.value + 0x8000) >> 16), wide.limited};
     return found;
 }
 
@@ -102,9 +97,7 @@ static inline jred_f32_outcome jred_f32_of_count_(int32_t count, const jred_fact
 static inline jred_q31_outcome jred_q31_of_count_(int32_t count, const jred_factor *factor) { return jred_q31_times_(count, factor); }
 static inline jred_q15_outcome jred_q15_of_count_(int32_t count, const jred_factor *factor) {
     const jred_q31_outcome wide = jred_q31_times_(count, factor);
-    jred_q15_outcome found;
-    found.value = (int16_t)(wide.value >> 16);
-    found.limited = wide.limited;
+    const jred_q15_outcome found = {(int16_t)(wide.value >> 16), wide.limited};
     return found;
 }
 
@@ -115,9 +108,7 @@ static inline int32_t jred_q15_to_count_(jred_q15 x, const jred_factor *factor) 
 }
 
 static inline jred_f32_outcome jred_f32_plus_(jred_f32 a, jred_f32 b) {
-    jred_f32_outcome found;
-    found.value = a + b;
-    found.limited = false;
+    const jred_f32_outcome found = {a + b, false};
     return found;
 }
 static inline jred_q31_outcome jred_q31_plus_(jred_q31 a, jred_q31 b) {
@@ -192,12 +183,8 @@ static inline bool jred_correct_(jred_tracker *tracker, int32_t residual) {
 
 static inline jred_tracked jred_tracked_(const jred_tracker *tracker, int32_t residual, bool lost) {
     const uint32_t size = residual < 0 ? 0u - (uint32_t)residual : (uint32_t)residual;
-    jred_tracked tracked;
-    tracked.phase = (uint32_t)((uint64_t)tracker->phase >> 32);
-    tracked.speed = (int32_t)(tracker->speed >> 32);
-    tracked.acceleration = jred_upper_(tracker->acceleration);
-    tracked.residual = residual;
-    tracked.jumped = lost || size > tracker->largest;
+    const jred_tracked tracked = {(uint32_t)((uint64_t)tracker->phase >> 32), (int32_t)(tracker->speed >> 32),
+                                  jred_upper_(tracker->acceleration), residual, lost || size > tracker->largest};
     return tracked;
 }
 
@@ -361,9 +348,8 @@ typedef struct {
     }                                                                                                                              \
     static inline jred_##n##_limited jred_##n##_torque_limits_limited(const jred_##n##_torque_limits *limits, jred_##n torque) {   \
         const jred_##n least = limits->least, greatest = limits->greatest;                                                         \
-        jred_##n##_limited limited;                                                                                                \
-        limited.torque = torque > greatest ? greatest : torque >= least ? torque : torque < least ? least : 0;                     \
-        limited.clipped = jred_##n##_minus_(torque, limited.torque);                                                               \
+        const jred_##n within = torque > greatest ? greatest : torque >= least ? torque : torque < least ? least : 0;              \
+        const jred_##n##_limited limited = {within, jred_##n##_minus_(torque, within)};                                            \
         return limited;                                                                                                            \
     }
 JRED_AXIS_(f32)

@@ -430,9 +430,9 @@ class DriveFigure(Item):
     value: float | None
     """Its value in SI; null if it is not given."""
     remark: str
-    """Where to read a value that is not given, or the part that sets the torque limit."""
+    """Where to read a value that is not given, or the part that sets a limit."""
 
-DriveSetting: TypeAlias = "Literal['bandwidth'] | Literal['brake-closing'] | Literal['brake-opening'] | Literal['coulomb-friction'] | Literal['counts-per-turn'] | Literal['cycle-peak-speed'] | Literal['cycle-peak-torque'] | Literal['cycle-rms-torque'] | Literal['direction'] | Literal['inertia-ratio'] | Literal['largest-load-inertia'] | Literal['largest-position'] | Literal['least-load-inertia'] | Literal['least-position'] | Literal['load-inertia'] | Literal['motor-time'] | Literal['motor-turns'] | Literal['peak-current'] | Literal['rated-current'] | Literal['rated-torque'] | Literal['resistance'] | Literal['resistor-power'] | Literal['rotor-inertia'] | Literal['shaft-turns'] | Literal['speed-gain'] | Literal['speed-limit'] | Literal['standstill-current'] | Literal['standstill-torque'] | Literal['torque-constant'] | Literal['torque-limit'] | Literal['total-inertia'] | Literal['viscous-friction'] | Literal['weight-torque'] | Literal['winding-time']"
+DriveSetting: TypeAlias = "Literal['bandwidth'] | Literal['brake-closing'] | Literal['brake-opening'] | Literal['coulomb-friction'] | Literal['counts-per-turn'] | Literal['cycle-peak-speed'] | Literal['cycle-peak-torque'] | Literal['cycle-rms-torque'] | Literal['direction'] | Literal['inertia-ratio'] | Literal['integral-time'] | Literal['largest-load-inertia'] | Literal['largest-position'] | Literal['least-load-inertia'] | Literal['least-position'] | Literal['load-inertia'] | Literal['motor-time'] | Literal['motor-turns'] | Literal['peak-current'] | Literal['peak-torque'] | Literal['position-gain'] | Literal['rated-current'] | Literal['rated-torque'] | Literal['resistance'] | Literal['resistor-power'] | Literal['rotor-inertia'] | Literal['shaft-turns'] | Literal['speed-gain'] | Literal['speed-limit'] | Literal['standstill-current'] | Literal['standstill-torque'] | Literal['torque-constant'] | Literal['torque-limit'] | Literal['total-inertia'] | Literal['viscous-friction'] | Literal['weight-torque'] | Literal['winding-time']"
 
 class DriveMaker(Item):
     """A maker of drives, or a profile."""
@@ -458,7 +458,7 @@ class DriveParameter(Item):
     range: str
     """Range of the parameter as text, empty if it is not known."""
     remark: str
-    """Where to read a value that is not given, or the fault of one beyond the range."""
+    """Where to read a value that is not given, the fault of one beyond the range, or the part that sets a limit."""
 
 class Drive(Result):
     """The JSON of `jred drive`."""

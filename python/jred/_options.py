@@ -106,7 +106,9 @@ class ExportOptions(TypedDict, total=False):
     name: Option
     """Name of the table in the program, for --format c, rust, st and plcopen: a prefix of the names in C, a module in Rust, the function block in a PLC; if not given, C and PLC use the name of the file to write."""
     rated_torque: Option
-    """For --format cia402: the motor's rated torque as set in object 0x6076 of the drive, e.g. "4.2 N m"; torques are thousandths of it."""
+    """For --format cia402: the motor's rated torque as set in object 0x6076 of the drive, e.g. "4.2 N m"; torques are thousandths of it. If not given, that of --drive."""
+    drive: Option
+    """For --format cia402: the drive whose motor has the torque, MOTOR+GEARBOX, or MOTOR for a direct drive, with its inertia, losses and friction; if not given, the torque is that of the input of the machine."""
     counts_per_turn: Option
     """For --format cia402: increments of object 0x6064 in a turn of the motor, for a column of positions."""
     rows: Option
@@ -115,6 +117,14 @@ class ExportOptions(TypedDict, total=False):
     """Prove the torque error over every position, by interval arithmetic, with all roundings of the ticks; takes some seconds. The image then contains the proven error. Exit code 1 if that is larger than --torque-error, or if it cannot be proven."""
     units: Literal['si', 'imperial'] | None
     """Units in which quantities are printed: SI if not given. Files and options may have either."""
+    catalogue: Option
+    """Folder or file of motors, gearboxes, servo amplifiers and brake resistors to use instead of the built-in catalogue, in jred's own format or that of the Motor-Gearbox Database; may be repeated; "built-in" adds the built-in catalogue."""
+    motors: Option
+    """Motors from this CSV file instead of the built-in ones."""
+    gearboxes: Option
+    """Gearboxes from this CSV file instead of the built-in ones."""
+    skip_broken_rows: bool
+    """Skip rows of the catalogue that cannot be used, and report their number."""
 
 class FastestOptions(TypedDict, total=False):
     from_: Option

@@ -54,8 +54,13 @@ impl<N: Number> TorqueCount<N> {
         counts * self.unit
     }
 
-    /// From N·m to counts, limited as [`of`](Self::of); 0 for NaN.
+    /// From N·m to the nearest count; 0 for NaN.
     pub(super) fn of_si(&self, torque: f32) -> i32 {
-        ((torque / self.unit) as i32).clamp(-(1 << 21), 1 << 21)
+        nearest(torque / self.unit)
     }
+}
+
+/// The nearest count; 0 for NaN.
+pub(super) fn nearest(counts: f32) -> i32 {
+    (counts + if counts < 0.0 { -0.5 } else { 0.5 }) as i32
 }

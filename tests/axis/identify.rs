@@ -524,4 +524,18 @@ fn settings_that_cannot_be_are_refused() {
     assert!(Identification::<f32, OF_PRESS, 256, SET>::new(&good, &[]).is_err());
     assert!(Identification::<f32, OF_PRESS, 64, SET>::new(&good, &[ORDER]).is_err());
     assert!(Identification::<f32, 34, 256, VARYING>::new(&good, &[]).is_err());
+    // Cogging of an order that is 0, one of the load's six, or given twice.
+    let cogging =
+        |orders: [u32; 2]| Identification::<f32, { OF_PRESS + 2 }, 256, SET>::new(&good, &orders);
+    assert!(cogging([7, 36]).is_ok());
+    for orders in [[0, 36], [36, 1], [6, 36], [36, 36]] {
+        let error = cogging(orders).unwrap_err().to_string();
+        let value = orders[usize::from(orders[0] == 36)];
+        assert_eq!(
+            error,
+            format!(
+                "an order of the cogging is {value}, but must be above the harmonics of the load, and given once"
+            )
+        );
+    }
 }

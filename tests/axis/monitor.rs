@@ -170,6 +170,57 @@ fn faults_are_told_apart() {
     faults_are_told::<Spline<Q31>>(bases());
 }
 
+/// A monitor of 16 ticks a bin, after a reference of torques that are `noise` or its opposite.
+fn after_reference(
+    payload: impl Fn(u32) -> f32,
+    noise: impl Fn(u32) -> f32,
+) -> impl FnMut(f32, f32) -> Cycle {
+    let mut made = None;
+    with_model_of::<Spline<f32>, SET>(&CRANK, Scale::SI, |model| {
+        let torque = |phase: Phase| payload(phase.to_bits() >> 26);
+        made = Some(Monitor::<f32, BINS>::new(WATCH, torque, &model).unwrap());
+    });
+    let mut monitor = made.unwrap();
+    let mut turn = move |carried: f32, friction: f32| {
+        for k in 0..16 * BINS as u32 {
+            let (bin, sign) = (k / 16, if k % 2 == 0 { 1.0 } else { -1.0 });
+            let torque = carried * payload(bin) + friction + sign * noise(bin);
+            monitor.tick(Phase::from_bits((k << 22) + (1 << 21)), torque);
+        }
+        monitor.end_cycle()
+    };
+    for _ in 0..2 * WATCH.reference {
+        turn(0.0, 0.0);
+    }
+    turn
+}
+
+/// The payload's torque has 70 counts and a mean: truncated, the payload would be 1 % too large.
+#[test]
+fn the_payloads_torque_is_rounded() {
+    let unit = 70.0 * WATCH.largest / 1_048_576.0;
+    let wave = |bin: u32| unit * (0.3 + ((f64::from(bin) + 0.5) * TAU / 64.0).sin() as f32);
+    let cycle = after_reference(wave, |_| 0.0)(100.0, 0.0);
+    assert_near("payload", cycle.payload.into(), 100.0, 0.1);
+}
+
+/// Where σ varies over the range, friction and payload together leave the spread as it is: with the σ of a bin at least that of the mean variance,
+/// (8·1 + 56·0.0001/0.0013375)/64 of σ².
+#[test]
+fn friction_and_payload_are_no_spread() {
+    let is_rough = |bin: u32| bin < 8;
+    let payload = |bin| if is_rough(bin) { 1.0 } else { 0.0 };
+    let noise = |bin| if is_rough(bin) { 0.1 } else { 0.01 };
+    let mut turn = after_reference(payload, noise);
+    for carried in [0.05, -0.05] {
+        let cycle = turn(carried, 0.05);
+        // Each share of σ is rounded down, to 1/256.
+        assert_near("spread", cycle.spread.into(), 0.436_4, 0.007);
+        assert_near("payload", cycle.payload.into(), carried.into(), 1e-4);
+        assert_near("friction", cycle.friction.into(), 0.05, 1e-4);
+    }
+}
+
 #[test]
 fn what_is_unknown_is_reported() {
     with_reference::<Spline<f32>>(Scale::SI, 4, |mut watched| {
@@ -234,6 +285,26 @@ fn monitors_that_cannot_be_are_refused() {
             );
         }
         assert!(Monitor::<f32, 0>::new(WATCH, |_| 0.0, &model).is_err());
-        assert!(Monitor::<f32, BINS>::new(WATCH, |_| f32::NAN, &model).is_err());
+        let with = |payload: fn(f32) -> f32| {
+            let torque = |phase: Phase| payload((phase.radians() / TAU) as f32);
+            Monitor::<f32, BINS>::new(WATCH, torque, &model).map_err(|error| error.to_string())
+        };
+        // Places from 1/128 to 127/128, and a largest torque of 50 N·m: the least slope is 64/63·50/8192 = 0.006200.
+        assert!(with(|place| 1.0 + place * 0.006_21).is_ok() && with(|_| 0.0).is_ok());
+        for small in [|place| 1.0 + place * 0.006_19, |_| 1.0, |_| 1e-30] {
+            let error = with(small).unwrap_err();
+            assert!(error.starts_with("the variation of the payload's torque over the range is "));
+            assert!(error.contains("must be at least 1/8192 of the largest torque, unless"));
+        }
+        assert!(with(|place| place * 99.0).is_ok());
+        assert_eq!(
+            with(|place| place * -128.0).unwrap_err(),
+            "the payload's torque is -101, but must be at most twice the largest torque, in either direction"
+        );
+        assert_eq!(
+            with(|_| f32::NAN).unwrap_err(),
+            "the payload's torque is not a finite number"
+        );
+        assert!(with(|_| f32::INFINITY).is_err());
     });
 }

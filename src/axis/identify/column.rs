@@ -8,7 +8,7 @@ use crate::curve::{Circular, Coefficient, Curve, CurveSet, Kind};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Column<T> {
     pub(super) effect: Effect,
-    order: u32,
+    pub(super) order: u32,
     sine: bool,
     number: T,
     inverse: T,
@@ -55,6 +55,12 @@ impl<T: Circular> Column<T> {
             Kind::Cosine(k) => Self::new(effect, k, false),
             Kind::Sine(k) => Self::new(effect, k, true),
         })
+    }
+
+    /// Whether both are torques of the same harmonic of φ.
+    pub(super) fn acts_as(&self, other: &Self) -> bool {
+        let is_torque = matches!(self.effect, Effect::Load | Effect::Cogging);
+        is_torque && self.order == other.order && self.sine == other.sine
     }
 
     /// Its harmonic at a place, and the derivative with respect to kφ.

@@ -15,7 +15,7 @@ use crate::Phase;
 use crate::curve::{Circular, CurveSet};
 use column::Column;
 use filter::Filter;
-use settings::{Plan, columns, wrong_length};
+use settings::{Plan, columns};
 use weight::{MOST_TICKS, WINDOWS, Weights};
 
 /// Share of the squared residual that a row keeps: a mean over 4 s.
@@ -149,9 +149,10 @@ impl<T: Circular, const N: usize, const RING: usize, const SET: CurveSet>
     ///
     /// # Errors
     /// [`AxisError::OutOfRange`]: `N` is not the number of words of a [`Harmonic`](crate::Harmonic) of this set and two for each order; the set has
-    /// friction that varies with φ, or both kinds of Coulomb friction; `RING` is too short; or a setting is out of its range.
+    /// friction that varies with φ, or both kinds of Coulomb friction; an order of cogging is 0, one of the load, or given twice; `RING` is too
+    /// short; or a setting is out of its range.
     pub fn new(settings: &IdentificationSettings, cogging: &[u32]) -> Result<Self, AxisError> {
-        let columns = columns::<T, N>(SET, cogging).ok_or(wrong_length(N))?;
+        let columns = columns(SET, cogging)?;
         let (plan, weights, filter) = settings.plan(RING, N)?;
         let [zero, ..] = T::CONSTANTS;
         let none = [zero; N];

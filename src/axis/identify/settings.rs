@@ -157,8 +157,32 @@ impl IdentificationSettings {
     }
 }
 
-/// The columns of a set with these orders of cogging; `None` if their number is another one, or the set has what cannot be identified.
+/// The columns of a set with these orders of cogging.
 pub(super) fn columns<T: Circular, const N: usize>(
+    set: CurveSet,
+    cogging: &[u32],
+) -> Result<[Column<T>; N], AxisError> {
+    let made = all_columns(set, cogging).ok_or(AxisError::OutOfRange {
+        what: "the number of coefficients",
+        value: N as f32,
+        range: "the number of words of a set with constant friction, and two for each order of cogging",
+    })?;
+    for (k, column) in made.iter().enumerate() {
+        let mut earlier = made.iter().take(k);
+        // The load is a torque over φ as cogging is; of order 0 it is Coulomb friction.
+        let is_new = column.order > 0 && !earlier.any(|other| other.acts_as(column));
+        within(
+            "an order of the cogging",
+            column.order as f32,
+            column.effect != Effect::Cogging || is_new,
+            "above the harmonics of the load, and given once",
+        )?;
+    }
+    Ok(made)
+}
+
+/// The columns; `None` if their number is another one, or the set has what cannot be identified.
+fn all_columns<T: Circular, const N: usize>(
     set: CurveSet,
     cogging: &[u32],
 ) -> Option<[Column<T>; N]> {
@@ -176,13 +200,4 @@ pub(super) fn columns<T: Circular, const N: usize>(
         };
     }
     Some(made)
-}
-
-/// The error of [`columns`].
-pub(super) fn wrong_length(given: usize) -> AxisError {
-    AxisError::OutOfRange {
-        what: "the number of coefficients",
-        value: given as f32,
-        range: "the number of words of a set with constant friction, and two for each order of cogging",
-    }
 }

@@ -1,5 +1,6 @@
 //! The torque that is usual in one part of the range.
 
+use super::super::torque_count::nearest;
 use crate::number::Real;
 
 /// Sums of the reference cycles in a bin, then what is usual there; torques in counts.
@@ -59,7 +60,7 @@ impl Bin {
         let [mean, variance] = self.moments();
         let variance = if variance > least { variance } else { least };
         let deviation = Real::sqrt(variance) + 1.0;
-        self.mean += (mean + if mean < 0.0 { -0.5 } else { 0.5 }) as i32;
+        self.mean += nearest(mean);
         self.limit = (multiple * deviation) as i32;
         self.inverse = (16_777_216.0 / deviation) as i32;
     }

@@ -54,7 +54,7 @@ pub use figures::{Cycle, Seen, Watch};
 
 use super::AxisError;
 use super::error::within;
-use super::torque_count::TorqueCount;
+use super::torque_count::{TorqueCount, nearest};
 use crate::Phase;
 use crate::number::{Number, Real};
 use crate::tick::MachineUnits;
@@ -95,8 +95,9 @@ pub struct Monitor<N, const BINS: usize> {
     /// Payload of a mean product of e − mean and weight, and the friction of a payload.
     payload_scale: f32,
     payload_mean: f32,
-    /// Mean over the ticks of 1/σ², per count, and of the payload's torque without its mean over σ, squared.
+    /// With w, the payload's torque without its mean: the means over the ticks of 1/σ², 2·w/σ² and w²/σ², in counts.
     precision: f32,
+    payload_cross: f32,
     payload_square: f32,
     /// Limit of the sums of the drifts.
     limit: f32,
@@ -117,8 +118,11 @@ impl<N: Number, const BINS: usize> Monitor<N, BINS> {
     /// A monitor of torques of this model; `payload` is the torque (N·m) on the drive link, in +φ, by which one more unit of payload changes e at
     /// this phase, in the motion of the reference: `|_| 0.0` without one.
     ///
+    /// A payload is told from friction by how u varies: over the range by 1/8192 of the largest torque or more, so that rounding to counts is at most
+    /// 1 % of it; |u| is at most twice the largest torque.
+    ///
     /// # Errors
-    /// A figure outside the range stated for it; no bin, or more than 65535; a payload's torque that is NaN or infinite.
+    /// A figure outside the range stated for it; no bin, or more than 65535.
     pub fn new(
         watch: Watch,
         mut payload: impl FnMut(Phase) -> f32,
@@ -150,15 +154,26 @@ impl<N: Number, const BINS: usize> Monitor<N, BINS> {
             "from 1 to 65535",
         )?;
         let mut bins = [Bin::default(); BINS];
+        let [mut least, mut most] = [f32::INFINITY, f32::NEG_INFINITY];
         for (k, bin) in (0u64..).zip(&mut bins) {
             // The middle of the bin.
             let middle = ((2 * k + 1) << 31) / BINS as u64;
             let torque = payload(Phase::from_bits(middle as u32));
-            if !torque.is_finite() {
-                return Err(AxisError::NotFinite("the payload's torque"));
-            }
+            within(
+                "the payload's torque",
+                torque,
+                torque.abs() <= 2.0 * watch.largest,
+                "at most twice the largest torque, in either direction",
+            )?;
             bin.weight = count.of_si(torque);
+            [least, most] = [least.min(torque), most.max(torque)];
         }
+        within(
+            "the variation of the payload's torque over the range",
+            most - least,
+            most - least >= watch.largest / 8192.0 || (least == 0.0 && most == 0.0),
+            "at least 1/8192 of the largest torque, unless the payload has no torque anywhere",
+        )?;
         let cycles = 6.0 * watch.cycles as f32;
         Ok(Self {
             count,
@@ -171,6 +186,7 @@ impl<N: Number, const BINS: usize> Monitor<N, BINS> {
             payload_scale: 0.0,
             payload_mean: 0.0,
             precision: 0.0,
+            payload_cross: 0.0,
             payload_square: 0.0,
             limit: logarithm(cycles / watch.false_alarm) / 1.2,
             friction: Drift::default(),
@@ -275,7 +291,9 @@ impl<N: Number, const BINS: usize> Monitor<N, BINS> {
         let mean = self.count.si(off);
         // In σ².
         let squares = sums.squares as f32 / ticks / 65_536.0;
-        let explained = off * off * self.precision + payload * payload * self.payload_square;
+        // ((off + payload·w)/σ)²: where σ varies over the range, both share a part.
+        let explained = off * (off * self.precision + payload * self.payload_cross)
+            + payload * payload * self.payload_square;
         let left = if squares > explained {
             squares - explained
         } else {
@@ -315,11 +333,12 @@ impl<N: Number, const BINS: usize> Monitor<N, BINS> {
         let payload = self.mean(|bin| bin.weight as f32);
         for bin in self.bins.iter_mut().filter(|bin| bin.is_known()) {
             bin.finish(variance, 1.5 * multiple);
-            bin.weight = (bin.weight as f32 - payload) as i32;
+            bin.weight = nearest(bin.weight as f32 - payload);
         }
         let squared = |share: f32| share * share;
         let square = self.mean(|bin| squared(bin.weight as f32));
         self.precision = self.mean(|bin| squared(bin.precision()));
+        self.payload_cross = 2.0 * self.mean(|bin| bin.weight as f32 * squared(bin.precision()));
         self.payload_square = self.mean(|bin| squared(bin.weight as f32 * bin.precision()));
         self.payload_mean = self.count.si(payload);
         if square > 0.0 {

@@ -44,6 +44,7 @@ pub const COMMANDS: &[&str] = &[
     "export MACHINE --torque-error 5_N_m --pieces auto --format c --out OUT --max-cells 200",
     "export MACHINE --torque-error 5_N_m --format plcopen --out OUT --max-cells 200",
     "export MACHINE --format cia402 --rated-torque 5_N_m --rows 20 --out OUT",
+    "export MACHINE --format cia402 --drive sgm7a-25a+tp004mf-4 --rows 20 --out OUT",
 ];
 
 /// One of the commands.

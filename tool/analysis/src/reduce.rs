@@ -10,6 +10,7 @@ use jred_file::model::machine::{MachineFile, Machines};
 use jred_file::model::mechanism::AnyMechanism;
 use jred_file::model::schedule::ScheduleInstant;
 use jred_file::number::columns::{Column, ColumnQuantity, Columns};
+use jred_file::number::rounding::position;
 
 mod carriages;
 mod curves;
@@ -184,7 +185,7 @@ fn columns(
     let mut columns = Columns::new(heads);
     for row in rows {
         let mut cells: Vec<Option<f64>> = row.time.into_iter().map(Some).collect();
-        cells.push(Some(source.coordinate.shown(row.phi)));
+        cells.push(Some(position(source.coordinate.shown(row.phi))));
         cells.extend(values(&source, &sets, &row)?);
         columns.push(cells);
     }

@@ -64,6 +64,12 @@ pub enum Completion {
     Stopped,
 }
 
+impl Completion {
+    const fn of(holds: bool) -> Self {
+        if holds { Self::Holds } else { Self::Violated }
+    }
+}
+
 /// Runs a command.
 ///
 /// # Errors
@@ -143,11 +149,7 @@ fn run_check(options: &options::Check) -> Result<Completion> {
     let file = checked::read(&options.file)?;
     let findings = Findings::of(&file).map_err(core_report)?;
     print_answer(&inspection::answer(&findings), options.format.into())?;
-    Ok(if findings.holds() {
-        Completion::Holds
-    } else {
-        Completion::Violated
-    })
+    Ok(Completion::of(findings.holds()))
 }
 
 /// Prints to stdout.

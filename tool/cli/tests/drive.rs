@@ -15,9 +15,9 @@ fn figure(json: &Value, setting: &str) -> Option<f64> {
     found.expect(setting)["value"].as_f64()
 }
 
-fn limited_by(json: &Value) -> &str {
+fn remark<'a>(json: &'a Value, setting: &str) -> &'a str {
     let figures = json["figures"].as_array().unwrap();
-    let limit = figures.iter().find(|f| f["setting"] == "torque-limit");
+    let limit = figures.iter().find(|f| f["setting"] == setting);
     limit.unwrap()["remark"].as_str().unwrap()
 }
 
@@ -48,7 +48,9 @@ fn parameters_of_a_named_drive_follow_its_data_sheet() {
     let cycle = figure(&json, "cycle-peak-torque").unwrap();
     let limit = 23.9_f64.min(16.5_f64.max(cycle));
     near("limit", figure(&json, "torque-limit").unwrap(), limit, 1e-9);
-    assert_eq!(limited_by(&json), "T2B/i of the gearbox");
+    let by = "T2B/i of the gearbox";
+    assert_eq!(remark(&json, "torque-limit"), by);
+    assert_eq!(parameter(&json, "cia402", "0x6072")["remark"], by);
     let per_mille = (limit / 7.96 * 1000.0).floor();
     assert_eq!(value("cia402", "0x6072"), Some(per_mille));
     assert_eq!(
@@ -56,6 +58,15 @@ fn parameters_of_a_named_drive_follow_its_data_sheet() {
         Some((limit / 7.96 * 100.0).floor())
     );
     assert_eq!(value("sigma-7", "Pn100"), Some(400.0));
+    // 4000/(2π·40) ms, in hundredths; 2π·40/4 in tenths.
+    assert_eq!(value("sigma-7", "Pn101"), Some(1592.0));
+    assert_eq!(value("sigma-7", "Pn102"), Some(628.0));
+    // 6000 rpm are 0.1 turns in a millisecond; 16.5 N m of 23.9 N m.
+    assert_eq!(value("ax5000", "S-0-0091"), Some(107_374_182.0));
+    assert_eq!(value("ax5000", "S-0-0092"), Some(69.0));
+    assert_eq!(value("akd", "VL.THRESH"), Some(6000.0));
+    let hardware = "limit of the motor, not of the machine";
+    assert_eq!(remark(&json, "speed-limit"), hardware);
     // A data sheet without the torque at standstill.
     let unknown = parameter(&json, "ax8000", "0x6072");
     assert_eq!(unknown["value"], Value::Null);
@@ -63,6 +74,33 @@ fn parameters_of_a_named_drive_follow_its_data_sheet() {
         unknown["remark"],
         "not given; read it from the motor's data sheet"
     );
+}
+
+/// A ram that goes up and down needs no constant torque: none is typed in.
+#[test]
+fn a_weight_that_changes_its_sign_is_left_out() {
+    let line = format!("drive {{}} --drive {NAMED} --format json");
+    let json = jred_of(&line, [&shipped("press.toml")]).json();
+    assert_eq!(figure(&json, "weight-torque"), None);
+    let typed = parameter(&json, "ax8000", "0x3140:05");
+    assert_eq!(typed["value"], Value::Null);
+    let remark = typed["remark"].as_str().unwrap();
+    assert!(remark.contains("changes its sign"), "{remark}");
+}
+
+/// Parameters and figures that are not given come last.
+#[test]
+fn rows_without_a_value_come_last() {
+    let line = format!("drive {{}} --drive {NAMED} --format json");
+    let json = jred_of(&line, [&shipped("press.toml")]).json();
+    let makers = json["makers"].as_array().unwrap();
+    let lists = makers.iter().map(|maker| &maker["parameters"]);
+    for list in lists.chain([&json["figures"]]) {
+        let given = list.as_array().unwrap().iter();
+        let given: Vec<bool> = given.map(|row| !row["value"].is_null()).collect();
+        assert!(given.is_sorted_by(|a, b| a >= b), "{list}");
+        assert!(given.contains(&true));
+    }
 }
 
 /// A vertical screw, directly coupled: J = J_s + m·(h/2π)², T_g = m·g·h/2π, T_f = F·h/2π + T_s.

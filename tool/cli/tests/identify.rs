@@ -111,6 +111,9 @@ fn from_the_example_log_to_a_firmware_table() {
         [&shipped("four-bar-log.csv"), &shipped("four-bar.toml")];
     let run = jred_of(&line, files);
     assert_eq!(run.code, 0, "{}", run.err);
+    for words in ["no cogging above the order 24: add (", "·cos 36φ + ("] {
+        assert!(run.out.contains(words), "{}", run.out);
+    }
     let answer = jred_of(&format!("{line} --format json"), files).json();
     // The rocker has 3.5 kg instead of 3.2 kg; the largest difference of J is that mass on the path of its centre.
     let deviation = answer["deviation"].as_f64().unwrap();

@@ -5,7 +5,7 @@
 use jred::{Image, Spline};
 use jred_analysis::checked;
 
-use crate::support::{Folder, edited, jred_of, press_text, shipped};
+use crate::support::{Folder, edited, jred_of, near, press_text, shipped};
 
 /// The numbers of a text, one column after the other.
 fn numbers(text: &str, separators: &[char]) -> Vec<f64> {
@@ -29,6 +29,9 @@ fn a_cam_has_the_same_numbers_in_every_form() {
     let csv = numbers(&written("csv"), &[',', '\n']);
     assert_eq!(csv.len(), 4 * 121);
     let rows: Vec<&[f64]> = csv.chunks(4).collect();
+    let masters: Vec<f64> = rows.iter().map(|row| row[0]).collect();
+    let degrees: Vec<f64> = (0..=120).map(|k| f64::from(3 * k)).collect();
+    assert_eq!(masters, degrees);
     let codesys = written("codesys");
     let array = codesys
         .split_once(":= [")
@@ -230,24 +233,31 @@ fn what_a_plc_does_not_take_is_refused() {
     ]);
 }
 
+/// A disc of this inertia (kg·m²) behind a ratio of 2, turned by 90° in 0.2 s.
+fn disc(inertia: f64) -> String {
+    format!(
+        "title = \"disc\"\ngravity = [\"0 m/s^2\", \"0 m/s^2\"]\n[mechanism]\ntype = \"rotary-table\"\n\
+         [mechanism.table]\ninertia = \"{inertia} kg m^2\"\n\
+         [[drive_train]]\ntype = \"gear-train\"\n[[drive_train.stage]]\n\
+         driver = {{ teeth = 20, inertia = \"0 kg m^2\" }}\ndriven = {{ teeth = 40, inertia = \"0 kg m^2\" }}\n\
+         [motion]\ntype = \"cycle\"\n[[motion.segment]]\nlaw = \"polynomial-345\"\nmove = \"90 deg\"\nduration = \"0.2 s\"\n"
+    )
+}
+
+/// Time, counts and per mille of a table for a drive.
+fn offsets(text: &str) -> Vec<Vec<f64>> {
+    let rows = text.lines().filter(|line| !line.starts_with(['#', 't']));
+    rows.map(|line| numbers(line, &[','])).collect()
+}
+
 /// A disc on the motor's shaft: the torque is inertia times the acceleration that the second differences of the counts give.
 #[test]
 fn torque_offsets_follow_newtons_law_in_their_own_columns() {
     let folder = Folder::new();
-    let disc = folder.file(
-        "disc.toml",
-        "title = \"disc\"\ngravity = [\"0 m/s^2\", \"0 m/s^2\"]\n[mechanism]\ntype = \"rotary-table\"\n\
-         [mechanism.table]\ninertia = \"0.01 kg m^2\"\n\
-         [[drive_train]]\ntype = \"gear-train\"\n[[drive_train.stage]]\n\
-         driver = { teeth = 20, inertia = \"0 kg m^2\" }\ndriven = { teeth = 40, inertia = \"0 kg m^2\" }\n\
-         [motion]\ntype = \"cycle\"\n[[motion.segment]]\nlaw = \"polynomial-345\"\nmove = \"90 deg\"\nduration = \"0.2 s\"\n",
-    );
+    let disc = folder.file("disc.toml", disc(0.01));
     let line = "export {} --format cia402 --rated-torque '0.05 N m' --counts-per-turn 1000000000 --rows 201 --rotor-inertia '5 kg cm^2'";
     let run = jred_of(line, [&disc]).ends(0);
-    let rows: Vec<Vec<f64>> = (run.out.lines())
-        .filter(|line| !line.starts_with(['#', 't']))
-        .map(|line| numbers(line, &[',']))
-        .collect();
+    let rows = offsets(&run.out);
     assert_eq!(rows.len(), 201);
     // Of the disc behind a ratio of 2, and of the rotor.
     let inertia = 0.01 / 4.0 + 5e-4;
@@ -281,4 +291,44 @@ fn torque_offsets_follow_newtons_law_in_their_own_columns() {
             .iter()
             .any(|line| line.contains("frame: the input of the machine file's drive train"))
     );
+}
+
+/// At the motor of a drive: Yaskawa SGM7A-25A (7.96 N m, 3.19 kg cm²) behind Beckhoff TP004 MF i=4 (0.57 kg cm², 97 %), while it accelerates.
+#[test]
+fn torque_offsets_of_a_drive_are_those_of_its_motor() {
+    let folder = Folder::new();
+    let disc = folder.file("disc.toml", disc(2.0));
+    let line = "export {} --format cia402 --drive sgm7a-25a+tp004mf-4 --counts-per-turn 100000000 --rows 201";
+    let run = jred_of(line, [&disc]).ends(0);
+    let rows = offsets(&run.out);
+    // A quarter of a turn, times 2, which reverses, times 4.
+    assert_eq!(rows[200][1], -2e8);
+    let inertia = 2.0 / 4.0 / 16.0 / 0.97 + 3.19e-4 + 0.57e-4;
+    let mut largest = 0.0f64;
+    for three in rows[..95].windows(3) {
+        let [before, here, after] = [&three[0], &three[1], &three[2]];
+        let counts = after[1] - 2.0 * here[1] + before[1];
+        let alpha = counts / 1e8 * std::f64::consts::TAU / 1e-6;
+        let torque = here[2] * 7.96e-3;
+        largest = largest.max(torque.abs());
+        // h²/12 of the fourth derivative is 2.5e-4 of the largest acceleration.
+        assert!((torque - inertia * alpha).abs() < 0.005 + 1e-3 * largest);
+    }
+    // Of the law, 10/√3 of the way over the square of the time.
+    let alpha = 10.0 / 3.0f64.sqrt() * 2.0 * std::f64::consts::TAU / 0.04;
+    near("largest", largest, inertia * alpha, 1e-3);
+    assert!(run.out.contains("0x6076 = 7960 mN m"), "{}", run.out);
+    let frame = "# frame: the motor of sgm7a-25a + tp004mf-4";
+    assert!(run.out.contains(frame), "{}", run.out);
+    let both = "export {} --format cia402 --drive sgm7a-25a --rated-torque '10 N m' --rows 3";
+    let run = jred_of(both, [&disc]).ends(0);
+    assert!(run.out.contains("0x6076 = 10000 mN m"), "{}", run.out);
+    let run = jred_of("export {} --drive sgm7a-25a", [&disc]).ends(2);
+    run.says(&["--drive applies to --format cia402", "remove --drive"]);
+    let run = jred_of("export {} --max-bytes 900 --motors m.csv", [&disc]).ends(2);
+    run.says(&["--motors applies to --format cia402"]);
+    let wrong = "export {} --format cia402 --drive sgm7a-25a --rotor-inertia '1 kg cm^2'";
+    jred_of(wrong, [&disc]).ends(2).says(&["--rotor-inertia"]);
+    let wrong = "export {} --format cia402 --drive nothing";
+    jred_of(wrong, [&disc]).ends(2).says(&["nothing"]);
 }

@@ -48,6 +48,13 @@ pub struct Proof {
     pub stretches: u64,
 }
 
+impl Proof {
+    /// The bound that an image states: of the ticks, or of the table if the tick's arithmetic is not proven.
+    pub fn stated(&self) -> f64 {
+        self.ticked.unwrap_or(self.bound)
+    }
+}
+
 /// Initial number of stretches.
 const STRETCHES: u32 = 64;
 /// Greatest number of stretches.

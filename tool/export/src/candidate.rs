@@ -4,9 +4,9 @@ use jred::error::Error;
 use jred::table::Usage;
 use jred::tabulate::TableFigures;
 use jred::{CurveSet, Scale};
+use jred_enclosure::{Proof, ProofError};
 
 use crate::choice::{LayoutName, Number};
-use crate::proof_result::ProofResult;
 use crate::ticks::Ticks;
 
 /// The table of one range, with its image.
@@ -31,7 +31,7 @@ pub struct RangeTable {
     /// Bytes of its rows.
     pub row_bytes: usize,
     /// The proof of its error, if requested.
-    pub proof: Option<ProofResult>,
+    pub proof: Option<Result<Proof, ProofError>>,
     /// The image.
     pub words: Vec<u32>,
 }
@@ -130,19 +130,25 @@ pub enum SearchResult<T = Candidate> {
 
 impl SearchResult<RangeTable> {
     /// The result of all pieces together: a failure of one piece is a failure of all.
-    pub(crate) fn together(pieces: Vec<Self>, number: Number, layout: LayoutName) -> SearchResult {
-        let mut tables = Vec::with_capacity(pieces.len());
-        let mut meets = true;
+    ///
+    /// # Errors
+    /// Those of a piece.
+    pub(crate) fn together(
+        pieces: impl Iterator<Item = Result<Self, Error>>,
+        number: Number,
+        layout: LayoutName,
+    ) -> Result<SearchResult, Error> {
+        let (mut tables, mut meets) = (Vec::new(), true);
         for piece in pieces {
-            match piece {
+            match piece? {
                 Self::Meets(made) => tables.push(*made),
                 Self::Misses(made) => {
                     meets = false;
                     tables.push(*made);
                 }
-                Self::Refused(error) => return SearchResult::Refused(error),
-                Self::TooCoarse(error, cells) => return SearchResult::TooCoarse(error, cells),
-                Self::TooLarge(bytes) => return SearchResult::TooLarge(bytes),
+                Self::Refused(error) => return Ok(SearchResult::Refused(error)),
+                Self::TooCoarse(error, cells) => return Ok(SearchResult::TooCoarse(error, cells)),
+                Self::TooLarge(bytes) => return Ok(SearchResult::TooLarge(bytes)),
             }
         }
         let all = Box::new(Candidate {
@@ -150,10 +156,10 @@ impl SearchResult<RangeTable> {
             layout,
             tables,
         });
-        if meets {
+        Ok(if meets {
             SearchResult::Meets(all)
         } else {
             SearchResult::Misses(all)
-        }
+        })
     }
 }

@@ -32,8 +32,10 @@ pub struct TorqueOffsets<'a> {
     pub rated: f64,
     /// Increments of a turn of the shaft, for a column of positions.
     pub counts_per_turn: Option<u32>,
-    /// Inertia of the rotor in the torques (kg·m²).
+    /// Inertia of rotor and gearbox in the torques (kg·m²).
     pub rotor: f64,
+    /// Name of the drive whose motor has the shaft; without one it is the input of the drive train.
+    pub drive: Option<&'a str>,
     /// Unit of torques: "N m", or "N".
     pub unit: &'static str,
 }
@@ -64,12 +66,15 @@ impl TorqueOffsets<'_> {
             .iter()
             .map(|i| i.torque.abs())
             .fold(0.0, f64::max);
+        let frame = match self.drive {
+            Some(drive) => format!("the motor of {drive}, with its gearbox and friction"),
+            None => "the input of the machine file's drive train, or the drive link without one; a gearbox that is not in the file is not in the figures".to_owned(),
+        };
         let mut text = format!(
             "# {}\n\
              # base: 0x6076 = {base} m{unit}; 1 per mille = {} {unit}\n\
              # largest torque {} {unit}; rounded to half of a per mille\n\
-             # frame: the input of the machine file's drive train, or the drive link without one; a gearbox that is not in the file is not in the figures; \
-             positive counts and torque are those of that shaft; a negative ratio turns both\n\
+             # frame: {frame}; positive counts and torque are those of that shaft; a negative ratio turns both\n\
              # inertia of rotor and gearbox in the torque: {} kg m^2\n\
              # write the torque to 0x60B2 (torque offset) in position and velocity modes, to 0x6071 (target torque) in torque mode\n\
              t [s],{}0x60B2 [per mille]\n",
@@ -88,7 +93,7 @@ impl TorqueOffsets<'_> {
                 let least = (largest * 1e6 / MOST).ceil() * 1e-3;
                 return Err(problem!(
                     help = format!(
-                        "is --rated-torque that of the motor? From {} {unit} the motion fits; set the same in object 0x6076",
+                        "is the rated torque that of the motor? From {} {unit} the motion fits; set the same in object 0x6076",
                         rounded(least)
                     ),
                     "the torque {} {unit} at t = {} s is {} per mille of the rated torque: objects 0x60B2 and 0x6071 are INTEGER16, up to {MOST}",

@@ -193,9 +193,8 @@ fn choose(task: &Task, answers: &[(Number, LayoutName, SearchResult)]) -> Option
         let (number, layout, SearchResult::Meets(candidate)) = answer else {
             return None;
         };
-        let asked = *number == task.number && task.layout.allows(*layout);
         let cost = task.core.instructions(*number, *layout);
-        asked.then(|| (k, candidate, cost.unwrap_or(u32::MAX)))
+        (task.asks(*number, *layout)).then(|| (k, candidate, cost.unwrap_or(u32::MAX)))
     });
     let own: Vec<_> = own.collect();
     let by_cost = task.torque_error.is_some() && task.max_bytes.is_none();

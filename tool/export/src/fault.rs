@@ -28,14 +28,7 @@ pub(crate) struct SearchFailure<'f> {
 
 impl SearchFailure<'_> {
     pub(crate) fn failure(&self) -> Result<Failure, Error> {
-        let own: Vec<&SearchResult> = self
-            .answers
-            .iter()
-            .filter(|(number, layout, _)| {
-                *number == self.task.number && self.task.layout.allows(*layout)
-            })
-            .map(|(_, _, answer)| answer)
-            .collect();
+        let own: Vec<&SearchResult> = self.own().map(|(_, answer)| answer).collect();
         // Harmonics have their own messages.
         if let [
             SearchResult::Refused(
@@ -74,17 +67,21 @@ impl SearchFailure<'_> {
         Ok(Failure::NotReached(NotReached::Inaccurate(inaccuracy)))
     }
 
+    /// The layouts that were requested, and their results.
+    fn own(&self) -> impl Iterator<Item = (LayoutName, &SearchResult)> {
+        let all = self.answers.iter();
+        all.filter(|(number, layout, _)| self.task.asks(*number, *layout))
+            .map(|(_, layout, answer)| (*layout, answer))
+    }
+
     fn too_coarse(&self) -> Option<NotReached> {
-        let layouts = self.answers.iter().filter_map(|(number, layout, answer)| {
-            let asked = *number == self.task.number && self.task.layout.allows(*layout);
-            match answer {
-                SearchResult::TooCoarse(error, cells) if asked => Some(CoarseLayout {
-                    layout: *layout,
-                    error: *error,
-                    cells: *cells,
-                }),
-                _ => None,
-            }
+        let layouts = self.own().filter_map(|(layout, answer)| match *answer {
+            SearchResult::TooCoarse(error, cells) => Some(CoarseLayout {
+                layout,
+                error,
+                cells,
+            }),
+            _ => None,
         });
         let layouts: Vec<_> = layouts.collect();
         (!layouts.is_empty()).then(|| NotReached::TooCoarse {

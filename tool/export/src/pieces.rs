@@ -99,8 +99,14 @@ impl<'m> Searches<'m> {
     /// Result of the search for a number type and one of its layouts.
     pub(crate) fn answer(&self, number: Number, layout: LayoutName) -> Result<SearchResult, Error> {
         match (number, layout) {
-            (Number::F32, LayoutName::Harmonic) => self.harmonics(),
-            (Number::F32, LayoutName::SliderCrank) => self.slider_crank(),
+            (Number::F32, LayoutName::Harmonic) => {
+                SearchResult::together(self.ranges.iter().map(Search::harmonics), number, layout)
+            }
+            (Number::F32, LayoutName::SliderCrank) => {
+                let ranges = self.ranges.iter().zip(&self.crank);
+                let answers = ranges.map(|(range, crank)| range.slider_crank(crank));
+                SearchResult::together(answers, number, layout)
+            }
             (Number::F32, LayoutName::Cubic) => self.run::<Cubic<f32>>(number, layout),
             (Number::F32, LayoutName::Quadratic) => self.run::<Quadratic<f32>>(number, layout),
             (Number::F32, _) => self.run::<Spline<f32>>(number, layout),
@@ -141,37 +147,7 @@ impl<'m> Searches<'m> {
         }
         let ranges = self.ranges.iter().zip(steps);
         let answers = ranges.map(|(range, step)| range.run::<F>(set, scale, step));
-        let answers = answers.collect::<Result<_, Error>>()?;
-        Ok(SearchResult::together(answers, number, layout))
-    }
-
-    /// The harmonics of each range.
-    ///
-    /// # Errors
-    /// Errors of the machine.
-    pub(crate) fn harmonics(&self) -> Result<SearchResult, Error> {
-        let answers = self.ranges.iter().map(Search::harmonics);
-        let answers = answers.collect::<Result<_, Error>>()?;
-        Ok(SearchResult::together(
-            answers,
-            Number::F32,
-            LayoutName::Harmonic,
-        ))
-    }
-
-    /// The closed form, if the machine has one.
-    ///
-    /// # Errors
-    /// Errors of the machine.
-    pub(crate) fn slider_crank(&self) -> Result<SearchResult, Error> {
-        let ranges = self.ranges.iter().zip(&self.crank);
-        let answers = ranges.map(|(range, crank)| range.slider_crank(crank));
-        let answers = answers.collect::<Result<_, Error>>()?;
-        Ok(SearchResult::together(
-            answers,
-            Number::F32,
-            LayoutName::SliderCrank,
-        ))
+        SearchResult::together(answers, number, layout)
     }
 }
 

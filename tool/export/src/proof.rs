@@ -12,7 +12,6 @@ use crate::choice::{LayoutName, Number};
 use crate::enclose::EnclosedMachine;
 use crate::export::Export;
 use crate::failure::Failure;
-use crate::proof_result::ProofResult;
 use crate::search::rounded_up;
 use crate::task::Task;
 use crate::ticks;
@@ -62,7 +61,7 @@ impl Export {
 
     /// Ratio of the proven and the allowed error, if larger than 1.
     pub fn excess(&self) -> Option<f64> {
-        let above = self.proof()?.bound()? / self.task.torque_error?;
+        let above = self.proof()?.ok()?.stated() / self.task.torque_error?;
         (above > 1.0).then_some(above)
     }
 
@@ -81,7 +80,7 @@ impl Export {
             if let Some((_, _, SearchResult::Meets(candidate))) = self.answers.get_mut(self.chosen)
             {
                 for made in &mut candidate.tables {
-                    made.proof = Some(ProofResult::Open(ProofError::Part(why.to_owned())));
+                    made.proof = Some(Err(ProofError::Part(why.to_owned())));
                 }
             }
             return Ok(());
@@ -113,43 +112,35 @@ impl Export {
                 Ok(enclosed) => of_type(number, layout, made, &goal, enclosed, &mut of_all)?,
                 Err(why) => Err(why.clone()),
             };
-            made.proof = Some(match found {
-                Ok(proof) => ProofResult::Bounded(proof),
-                Err(why) => ProofResult::Open(why),
-            });
-            if let Some(bound) = made.proof.as_ref().and_then(ProofResult::bound) {
-                state(number, layout, made, bound)?;
+            if found.is_ok() {
                 identify(&mut made.words, id).map_err(ticks::refusal)?;
             }
+            made.proof = Some(found);
         }
         Ok(())
     }
 
     /// The proof of all tables together: the largest bounds, or the reason for their absence.
-    pub fn proof(&self) -> Option<ProofResult> {
+    pub fn proof(&self) -> Option<Result<Proof, ProofError>> {
         let all = self.chosen().tables.iter().map(|table| table.proof.clone());
-        all.reduce(|a, b| {
-            Some(match (a?, b?) {
-                (ProofResult::Bounded(a), ProofResult::Bounded(b)) => {
-                    let worse = if b.bound > a.bound { b } else { a };
-                    ProofResult::Bounded(Proof {
-                        ticked: a.ticked.zip(b.ticked).map(|(a, b)| a.max(b)),
-                        least: a.least.max(b.least),
-                        stretches: a.stretches + b.stretches,
-                        ..worse
-                    })
-                }
-                (open @ ProofResult::Open(_), _) | (_, open) => open,
+        let all: Option<Result<Vec<Proof>, ProofError>> = all.collect();
+        let all = all?.map(|proofs| {
+            proofs.into_iter().reduce(|a, b| Proof {
+                ticked: a.ticked.zip(b.ticked).map(|(a, b)| a.max(b)),
+                least: a.least.max(b.least),
+                stretches: a.stretches + b.stretches,
+                ..if b.bound > a.bound { b } else { a }
             })
-        })?
+        });
+        all.transpose()
     }
 }
 
-/// The error of a table of this type and layout.
+/// The error of a table of this type and layout, which its image then states.
 fn of_type(
     number: Number,
     layout: LayoutName,
-    made: &RangeTable,
+    made: &mut RangeTable,
     goal: &Goal<'_>,
     enclosed: &EnclosedMachine<'_>,
     watch: &mut dyn FnMut(f64) -> bool,
@@ -169,9 +160,9 @@ fn of_type(
     }
 }
 
-/// The error of a table of this format, as contained in its image.
+/// The error of a table of this format, as contained in its image, which then states it.
 fn of<F: Format>(
-    made: &RangeTable,
+    made: &mut RangeTable,
     goal: &Goal<'_>,
     enclosed: &EnclosedMachine<'_>,
     watch: &mut dyn FnMut(f64) -> bool,
@@ -185,38 +176,16 @@ fn of<F: Format>(
         known: (goal.known - rounding).max(0.0),
         ..*goal
     };
-    Ok(prove(&table, &goal, &curves, watch))
-}
-
-/// Writes the proven error into the image.
-fn state(
-    number: Number,
-    layout: LayoutName,
-    made: &mut RangeTable,
-    error: f64,
-) -> Result<(), Error> {
-    match (number, layout) {
-        (Number::F32, LayoutName::Cubic) => stated::<Cubic<f32>>(made, error),
-        (Number::F32, LayoutName::Quadratic) => stated::<Quadratic<f32>>(made, error),
-        (Number::F32, _) => stated::<Spline<f32>>(made, error),
-        (Number::I32, LayoutName::Spline16) => stated::<Spline16>(made, error),
-        (Number::I32, LayoutName::Cubic) => stated::<Cubic<Q31>>(made, error),
-        (Number::I32, LayoutName::Quadratic) => stated::<Quadratic<Q31>>(made, error),
-        (Number::I32, _) => stated::<Spline<Q31>>(made, error),
-        (Number::I16, _) => stated::<Rows16>(made, error),
+    let found = prove(&table, &goal, &curves, watch);
+    if let Ok(proof) = &found {
+        let validity = Validity {
+            torque_error: rounded_up(proof.stated()),
+            ..image.validity()
+        };
+        let mut words = vec![0; made.words.len()];
+        let written = encode(&table, validity, &mut words)?.len();
+        words.truncate(written);
+        made.words = words;
     }
-}
-
-fn stated<F: Format>(made: &mut RangeTable, error: f64) -> Result<(), Error> {
-    let image = Image::new(&made.words).map_err(ticks::refusal)?;
-    let table = image.table::<F>().map_err(ticks::refusal)?;
-    let validity = Validity {
-        torque_error: rounded_up(error),
-        ..image.validity()
-    };
-    let mut words = vec![0; made.words.len()];
-    let written = encode(&table, validity, &mut words)?.len();
-    words.truncate(written);
-    made.words = words;
-    Ok(())
+    Ok(found)
 }

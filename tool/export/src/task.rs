@@ -3,7 +3,7 @@
 use jred::error::Error;
 use jred::machine::Machine;
 
-use crate::choice::{LayoutChoice, Number};
+use crate::choice::{LayoutChoice, LayoutName, Number};
 use crate::cost::Core;
 use jred_file::model::machine::MachineFile;
 use jred_file::model::mechanism::AnyMechanism;
@@ -40,6 +40,11 @@ pub struct Task {
 }
 
 impl Task {
+    /// Whether this type and layout are requested.
+    pub(crate) fn asks(&self, number: Number, layout: LayoutName) -> bool {
+        number == self.number && self.layout.allows(layout)
+    }
+
     /// The machine with its drive train and with the rotor.
     pub(crate) fn whole_machine(&self, file: &MachineFile) -> Result<Machine<AnyMechanism>, Error> {
         let ratio = file.drive_train.ratio();

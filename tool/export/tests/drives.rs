@@ -34,6 +34,7 @@ fn offsets(
         rated,
         counts_per_turn,
         rotor: 1e-4,
+        drive: None,
         unit: "N m",
     }
 }

@@ -5,7 +5,7 @@ use jred::machine::{Machine, Reducible};
 use jred::table::Format;
 use jred::tabulate::{Request, torque_between};
 use jred::{Cubic, Image, Phase, Q31, Rows16, Spline};
-use jred_export::{Export, LayoutChoice, Number, ProofResult, Task};
+use jred_export::{Export, LayoutChoice, Number, Task};
 use jred_file::model::machine::MachineFile;
 use jred_file::model::mechanism::AnyMechanism;
 use rand::rngs::ChaCha8Rng;
@@ -131,7 +131,7 @@ fn no_place_errs_more_than_is_proven() {
         let machine = with_train(&file);
         let found = searched(&machine, &table.words);
         match export.proof().unwrap() {
-            ProofResult::Open(why) => {
+            Err(why) => {
                 // Where a linkage lies flat, the joints alone do not say where its links are.
                 let flat = ["parallel-lift", "elliptic-drive"].contains(&name.as_str())
                     && why.to_string().contains("dead point");
@@ -141,7 +141,7 @@ fn no_place_errs_more_than_is_proven() {
                 );
                 open.push(name);
             }
-            ProofResult::Bounded(proof) => {
+            Ok(proof) => {
                 let ticked = proof.ticked.unwrap();
                 println!("{name}: {found:?} {proof:?}");
                 // The tick's arithmetic within the cell is part of what is read.
@@ -199,7 +199,7 @@ fn pieces_and_a_torque_error_are_proven() {
             ..task(Number::I32, LayoutChoice::Spline)
         };
         let export = Export::proven(file, &task, &mut |_| true).unwrap();
-        let Some(ProofResult::Bounded(proof)) = export.proof() else {
+        let Some(Ok(proof)) = export.proof() else {
             panic!("{:?}", export.proof());
         };
         let ticked = proof.ticked.unwrap();

@@ -2,6 +2,7 @@
 
 mod cams;
 mod curves;
+mod drive_logs;
 mod faults;
 mod forms;
 mod link_table;

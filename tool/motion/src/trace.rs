@@ -7,6 +7,7 @@ use jred::machine::motion::State;
 use jred_file::model::axis::Axis;
 use jred_file::model::coordinate::Coordinate;
 use jred_file::model::motion::step_at;
+use jred_file::number::rounding::position;
 
 pub use jred_file::model::motion::Node;
 
@@ -227,15 +228,21 @@ impl Trace {
     pub fn cam(&self, rows: usize, master: Master) -> Vec<[f64; 4]> {
         let turn = master.turn();
         let speed = turn / self.duration();
-        let rows = self.rows(rows).map(|(t, state)| {
+        let last = rows.max(2) - 1;
+        let rows = self.rows(rows).enumerate().map(|(k, (_, state))| {
             let values = [
                 state.phi,
                 state.omega / speed,
                 state.alpha / (speed * speed),
             ];
             // Avoids -0.
-            let [position, first, second] = values.map(|value| self.coordinate.shown(value) + 0.0);
-            [turn * (t / self.duration()), position, first, second]
+            let [place, first, second] = values.map(|value| self.coordinate.shown(value) + 0.0);
+            [
+                turn * k as f64 / last as f64,
+                position(place),
+                first,
+                second,
+            ]
         });
         rows.collect()
     }

@@ -23,7 +23,7 @@ pub struct Figure {
     /// The unit for reading.
     #[serde(skip)]
     pub unit: Unit,
-    /// Where to read a value that is not given, or the part that sets the torque limit.
+    /// Where to read a value that is not given, or the part that sets a limit.
     pub remark: String,
 }
 
@@ -42,6 +42,7 @@ const ENCODER: &str = "read it from the encoder's data sheet, and give --counts-
 const COUNTS_PER_TURN: &str = "give --counts-per-turn";
 const TURNS: &str = "the drive link slides, or no fraction up to 10000 is exact: then count the teeth of the stages";
 const BANDWIDTH: &str = "give --bandwidth";
+const WEIGHT: &str = "left out; it changes its sign, so that a constant torque would harm as much as help; `jred export --format cia402` has the whole torque";
 const BRAKE: &str = "read it from the motor's data sheet, if the motor has a brake";
 const RESISTOR: &str = "read it from the amplifier's manual, if it has a brake resistor";
 
@@ -98,10 +99,9 @@ settings! {
         let turns = (file.machine.mechanism().coordinate() == Coordinate::Angle)
             .then(|| fraction(ratio.abs()))
             .flatten();
-        let [dry, viscous, weight] = losses(duty);
+        let ([dry, viscous], weight) = losses(duty);
         let dry = dry / ratio.abs() + gearbox.map_or(0.0, |gearbox| gearbox.no_load_torque);
         let cycle = context.cycle.motor_duty(&context.drive);
-        let speeds = [motor.max_speed, gearbox.and_then(|gearbox| gearbox.max_speed)];
         let positions = duty.figures(|i| i.phi * ratio);
         let counted = |angle: f64| choices.counts_per_turn.map(|counts| angle / TAU * counts);
         let resistor = context.site.supply.brake_resistor.map(|r| [r.resistance, r.power]);
@@ -115,6 +115,7 @@ settings! {
     TotalInertia "total inertia, best constant value" ["kg m^2" KG_CM2] = Some(rotor + load);
     InertiaRatio "inertia ratio, load to rotor" [] = Some(load / rotor);
     RatedTorque "rated torque of the motor" ["N m"] or NAME_PLATE = motor.rated_torque;
+    PeakTorque "peak torque of motor and amplifier" ["N m"] or PEAK_TORQUE = Some(context.motor.envelope.peak_torque(1.0, 0.0));
     StandstillTorque "S1 torque at standstill" ["N m"] or DATA_SHEET = motor.standstill_torque;
     /// the peak torque, and T2B/i of the gearbox unless the cycle takes more
     TorqueLimit "torque limit" ["N m"] or PEAK_TORQUE = Some(limit);
@@ -124,7 +125,7 @@ settings! {
     StandstillCurrent "current at standstill" ["A RMS"] or DATA_SHEET = winding.standstill_current;
     PeakCurrent "peak current of the motor" ["A RMS"] or DATA_SHEET = winding.peak_current;
     TorqueConstant "torque constant" ["N m/A RMS"] or DATA_SHEET = winding.torque_constant;
-    SpeedLimit "speed limit of motor and gearbox" ["rad/s" RPM] or DATA_SHEETS = speeds.into_iter().flatten().reduce(f64::min);
+    SpeedLimit "speed limit of motor and gearbox" ["rad/s" RPM] or DATA_SHEETS = speed_limit(context).0;
     CyclePeakSpeed "largest speed of the cycle" ["rad/s" RPM] = Some(cycle.speed.peak());
     CountsPerTurn "encoder counts in a turn of the motor" ["counts"] or ENCODER = choices.counts_per_turn;
     MotorTurns "gear ratio: turns of the motor" [] or TURNS = turns.map(|[motor, _]| motor);
@@ -136,11 +137,13 @@ settings! {
     CoulombFriction "dry friction, mean while moving" ["N m"] = Some(motor.friction[0] + dry);
     /// takes the power of that of the cycle, ∫b·ω² dt/∫ω² dt
     ViscousFriction "viscous friction" ["N m s/rad"] = Some(motor.friction[1] + viscous / ratio.powi(2));
-    /// without losses
-    WeightTorque "torque against the weight, mean" ["N m"] = Some(weight / ratio);
+    /// without losses; null if it changes its sign
+    WeightTorque "torque against the weight, mean" ["N m"] = weight.map(|weight| weight / ratio);
     Bandwidth "bandwidth of the speed loop" ["Hz"] or BANDWIDTH = choices.bandwidth;
     /// with the total inertia
     SpeedGain "proportional gain of the speed loop, 2π·f·J" ["N m s/rad"] or BANDWIDTH = choices.bandwidth.map(|f| TAU * f * (rotor + load));
+    IntegralTime "integral time of the speed loop, 4/(2π·f)" ["s" MS] or BANDWIDTH = choices.bandwidth.map(|f| 4.0 / (TAU * f));
+    PositionGain "proportional gain of the position loop, 2π·f/4" ["1/s"] or BANDWIDTH = choices.bandwidth.map(|f| TAU * f / 4.0);
     BrakeOpening "opening time of the holding brake" ["s" MS] or BRAKE = brake.and_then(|brake| brake.opening_time);
     BrakeClosing "closing time of the holding brake" ["s" MS] or BRAKE = brake.and_then(|brake| brake.closing_time);
     WindingTime "thermal time constant of the winding" ["s"] or DATA_SHEET = motor.thermal.winding_time;
@@ -157,12 +160,13 @@ impl Settings {
         for figure in &mut figures {
             // An unknown limit is infinite.
             figure.value = figure.value.filter(|value| value.is_finite());
-            if figure.value.is_some() {
-                figure.remark = match figure.setting {
-                    Setting::TorqueLimit => limited_by.clone(),
-                    _ => String::new(),
-                };
-            }
+            figure.remark = match (figure.setting, figure.value) {
+                (Setting::WeightTorque, None) => WEIGHT.to_owned(),
+                (_, None) => continue,
+                (Setting::TorqueLimit, _) => limited_by.clone(),
+                (Setting::SpeedLimit, _) => speed_limit(context).1.to_owned(),
+                _ => String::new(),
+            };
         }
         Self(figures)
     }
@@ -172,13 +176,12 @@ impl Settings {
         &self.0
     }
 
-    /// The value of a figure in SI.
-    ///
-    /// # Errors
-    /// The data do not give it: where to read it.
-    pub fn get(&self, setting: Setting) -> Result<f64, &str> {
+    /// The value of a figure in SI, and its remark; NaN and where to read it if the data do not give it.
+    pub fn get(&self, setting: Setting) -> (f64, &str) {
         let found = self.0.iter().find(|figure| figure.setting == setting);
-        found.map_or(Err(""), |figure| figure.value.ok_or(&figure.remark))
+        found.map_or((f64::NAN, ""), |figure| {
+            (figure.value.unwrap_or(f64::NAN), &figure.remark)
+        })
     }
 }
 
@@ -205,6 +208,18 @@ fn torque_limit(context: &Context) -> (f64, String) {
     (limit, format!("{by}{unknown}"))
 }
 
+/// The largest speed of the hardware, and the part that sets it.
+fn speed_limit(context: &Context) -> (Option<f64>, &'static str) {
+    let motor = context.drive.motor.max_speed;
+    let gearbox = context.drive.gearbox.and_then(|gearbox| gearbox.max_speed);
+    match gearbox {
+        Some(speed) if motor.is_none_or(|motor| speed < motor) => {
+            (gearbox, "limit of the gearbox, not of the machine")
+        }
+        _ => (motor, "limit of the motor, not of the machine"),
+    }
+}
+
 /// Mean of a figure with a weight over the cycle, if the weight is anywhere.
 fn mean(
     duty: &Duty,
@@ -215,18 +230,23 @@ fn mean(
     (whole > 0.0).then(|| duty.integral(|i| of(i) * weight(i)) / whole)
 }
 
-/// Means at the drive link: dry friction while moving, viscous friction by its power, and the torque against the weight.
-fn losses(duty: &Duty) -> [f64; 3] {
+/// Means at the drive link: dry friction while moving, and viscous friction by its power; and the torque against the weight, if its sign is the same everywhere.
+fn losses(duty: &Duty) -> ([f64; 2], Option<f64>) {
     let moving = |i: &Instant| f64::from(u8::from(i.omega != 0.0));
     let dry = mean(duty, |i| i.terms.coulomb.abs(), moving);
     let square = duty.integral(|i| i.omega.powi(2));
     let viscous = duty.integral(|i| i.terms.viscous * i.omega) / square;
     let viscous = if square > 0.0 { viscous } else { 0.0 };
-    let weight = duty.integral(|i| i.terms.potential);
-    // The mean over whole turns is zero up to rounding.
-    let rounding = 1e-9 * duty.integral(|i| i.terms.potential.abs());
-    let weight = if weight.abs() > rounding { weight } else { 0.0 };
-    [dry.unwrap_or(0.0), viscous, weight / duty.duration]
+    let weight = duty.figures(|i| i.terms.potential);
+    // A balanced machine has a rest by rounding.
+    let rounding = 1e-9 * duty.figures(|i| i.terms.total()).peak();
+    let one_sign = weight.min >= -rounding || weight.max <= rounding;
+    let weight = if weight.peak() > rounding {
+        weight.mean
+    } else {
+        0.0
+    };
+    ([dry.unwrap_or(0.0), viscous], one_sign.then_some(weight))
 }
 
 /// The fraction with the least denominator, up to 10000, that equals a positive ratio up to rounding.

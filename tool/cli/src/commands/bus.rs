@@ -75,11 +75,7 @@ pub fn run(options: &Options) -> Result<Completion> {
     let answer = BusAnalysis::new(axes, options.in_step, &own.supply, &catalogue, &Bar(&bar))?;
     bar.finish_and_clear();
     print_answer(&list::bus::answer(&answer, options.format)?, options.format)?;
-    Ok(if answer.holds() {
-        Completion::Holds
-    } else {
-        Completion::Violated
-    })
+    Ok(Completion::of(answer.holds()))
 }
 
 /// Largest number of time steps of all axes together, about 150 bytes each.

@@ -48,11 +48,7 @@ pub(super) fn run(options: &parts::Catalogue) -> Result<Completion> {
                 ..Sources::default()
             })?;
             print_answer(&checked(&catalogue), options.format.into())?;
-            Ok(if catalogue.warnings.is_empty() {
-                Completion::Holds
-            } else {
-                Completion::Violated
-            })
+            Ok(Completion::of(catalogue.warnings.is_empty()))
         }
         parts::Catalogue::New(options) => new(options),
     }

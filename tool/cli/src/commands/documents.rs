@@ -4,10 +4,12 @@ use miette::Result;
 
 use crate::browser;
 use crate::busy;
+use crate::commands::{Completion, print_answer};
 use crate::options::documents::Documents;
 use crate::output::Files;
 use jred_file::plain;
 use jred_report::answer::Answer;
+use jred_report::table::output::Format;
 
 /// Writes the requested documents with the other files of a result. Returns sentences about them, and the error if no browser prints the page: the
 /// other files are written nevertheless, and the answer is printed before the error.
@@ -46,4 +48,23 @@ pub(super) fn write<'a>(
         Some(format!("{what} written to {path}"))
     });
     Ok((written.collect(), printed))
+}
+
+/// Writes the requested documents of an answer, and prints it with sentences about them; then the error if no browser prints the page.
+///
+/// # Errors
+/// As [`write`]; no browser prints the page.
+pub(super) fn finish(
+    options: &Documents,
+    mut answer: Answer,
+    page: impl FnOnce() -> Result<String>,
+    format: Format,
+) -> Result<Completion> {
+    let workbook = || Ok(answer.clone());
+    let (lines, printed) = write(options, Files::default(), page, workbook)?;
+    for line in lines {
+        answer.sentence(line);
+    }
+    let done = print_answer(&answer, format)?;
+    printed.map(|()| done)
 }

@@ -3,9 +3,9 @@
 use miette::{Result, miette};
 
 use crate::commands::core_error::duty_report;
-use crate::commands::{Completion, documents, print_answer, read_warned};
+use crate::commands::{Completion, documents, read_warned};
 use crate::options::drive::Drive;
-use crate::output::{self, Files};
+use crate::output;
 use jred_analysis::duty::Duty;
 use jred_file::model::variator;
 use jred_report::list::drive::{self, DriveView};
@@ -59,18 +59,7 @@ pub(super) fn run(options: &Drive) -> Result<Completion> {
         settings: &settings,
         makers: &makers,
     };
-    let mut answer = shown.answer();
     let page = || Ok(page::drive_page(&file, &shown));
-    let workbook = || Ok(answer.clone());
-    let (lines, printed) = documents::write(&options.documents, Files::default(), page, workbook)?;
-    for line in lines {
-        answer.sentence(line);
-    }
-    print_answer(&answer, options.format)?;
-    printed?;
-    Ok(if holds {
-        Completion::Holds
-    } else {
-        Completion::Violated
-    })
+    documents::finish(&options.documents, shown.answer(), page, options.format)?;
+    Ok(Completion::of(holds))
 }

@@ -15,7 +15,7 @@ use crate::terminal;
 use jred::machine::Reducible as _;
 use jred_analysis::duty::Duty;
 use jred_export::{
-    BLOCK_NAMES, Choice, Export, Failure, LayoutChoice, Name, Number, OutputForm, ProofResult, Task,
+    BLOCK_NAMES, Choice, Export, Failure, LayoutChoice, Name, Number, OutputForm, Task,
 };
 use jred_file::argument::{self, Argument};
 use jred_file::model::axis::Axis;
@@ -148,10 +148,17 @@ pub(super) fn run(options: &options::export::Export) -> Result<Completion> {
     if options.format == OutputForm::Cia402 {
         return cia402::run(options, &file);
     }
-    if options.rated_torque.is_some() {
+    let of_drive = [
+        ("--rated-torque", options.rated_torque.is_some()),
+        ("--drive", options.drive.is_some()),
+    ];
+    let of_drive = of_drive
+        .into_iter()
+        .filter_map(|(name, given)| given.then_some(name));
+    if let Some(name) = of_drive.chain(options.catalogue.given()).next() {
         return Err(miette!(
-            help = "remove --rated-torque, or use --format cia402",
-            "--rated-torque applies to --format cia402; --format {} is a table over the position",
+            help = format!("remove {name}, or use --format cia402"),
+            "{name} applies to --format cia402; --format {} is a table over the position",
             options.format
         ));
     }
@@ -276,7 +283,7 @@ fn show(options: &options::export::Export, export: &Export) -> Result<Completion
 /// Whether the error of the table is proven and within the allowed one; otherwise reports why not.
 fn proof_holds(export: &Export) -> bool {
     let (words, cure) = match (export.proof(), export.excess()) {
-        (Some(ProofResult::Open(why)), _) => (
+        (Some(Err(why)), _) => (
             format!("the error of the table is not proven: {why}"),
             "without --prove it is estimated",
         ),

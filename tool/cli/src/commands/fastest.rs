@@ -168,11 +168,7 @@ pub fn fastest(options: &Options) -> Result<Completion> {
 
 /// The exit status: also a part of the file's motion that exceeds a limit violates it.
 fn completion(cycle: &Cycle, violated: bool) -> Completion {
-    if violated || cycle.kept.iter().any(KeptPart::exceeds) {
-        Completion::Violated
-    } else {
-        Completion::Holds
-    }
+    Completion::of(!(violated || cycle.kept.iter().any(KeptPart::exceeds)))
 }
 
 fn reserve(options: &Options, file: &MachineFile) -> Reserve {

@@ -107,11 +107,7 @@ pub fn gentlest(options: &Gentlest) -> Result<Completion> {
         .iter()
         .filter(|check| check.verdict == RuleVerdict::Fail && check.id.follows_motion());
     let exceeds = violated.next().is_some() || broken.is_some();
-    Ok(if exceeds {
-        Completion::Violated
-    } else {
-        Completion::Holds
-    })
+    Ok(Completion::of(!exceeds))
 }
 
 /// The share of a move's time in which the acceleration rises.

@@ -122,11 +122,7 @@ pub(super) fn run(options: &Options) -> Result<Completion> {
         None => print(&environment(shown.axes.iter().map(sized)))?,
     };
     printed?;
-    Ok(if shown.holds() {
-        Completion::Holds
-    } else {
-        Completion::Violated
-    })
+    Ok(Completion::of(shown.holds()))
 }
 
 fn sized<'a>(view: &'a AxisView<'a>) -> SizedAxis<'a> {

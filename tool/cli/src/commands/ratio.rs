@@ -58,9 +58,5 @@ pub fn ratio(options: &Ratio) -> Result<Completion> {
     let any = rows.iter().any(|row| row.found.is_ok());
     let top = options.top.map(|top| top as usize);
     print_answer(&sheet(&study, rows, top).answer(), options.format)?;
-    Ok(if any {
-        Completion::Holds
-    } else {
-        Completion::Violated
-    })
+    Ok(Completion::of(any))
 }

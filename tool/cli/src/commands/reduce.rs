@@ -3,9 +3,9 @@
 use miette::{Result, miette};
 
 use crate::commands::core_error::core_report;
-use crate::commands::{Completion, documents, print_answer, quantity, warn};
+use crate::commands::{Completion, documents, quantity, warn};
 use crate::options;
-use crate::output::{self, Files};
+use crate::output;
 use crate::terminal;
 use jred::machine::Reducible as _;
 use jred_analysis::checked;
@@ -94,18 +94,12 @@ pub(super) fn run(options: &options::Reduce) -> Result<Completion> {
         is_at_positions: at.is_some(),
         not_contained: &missing,
     };
-    let mut answer = view.answer();
+    let answer = view.answer();
     let page = || {
         let name = read::name(&options.file);
         page::mechanism_page(&name, &file, state).map_err(core_report)
     };
-    let workbook = || Ok(answer.clone());
-    let (lines, printed) = documents::write(&options.documents, Files::default(), page, workbook)?;
-    for line in lines {
-        answer.sentence(line);
-    }
-    let done = print_answer(&answer, options.format)?;
-    printed.map(|()| done)
+    documents::finish(&options.documents, answer, page, options.format)
 }
 
 /// Largest number of values in memory: 320 MB.

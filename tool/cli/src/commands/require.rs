@@ -5,9 +5,9 @@ use std::path::Path;
 use miette::{Result, miette};
 
 use crate::commands::core_error::duty_report;
-use crate::commands::{Completion, documents, print_answer, read_warned};
+use crate::commands::{Completion, documents, read_warned};
 use crate::options::require::Require;
-use crate::output::{self, Files};
+use crate::output;
 use crate::terminal;
 use jred_analysis::duty::Duty;
 use jred_file::model::variator;
@@ -59,20 +59,11 @@ pub(super) fn run(options: &Require) -> Result<Completion> {
         inquiry: &inquiry,
         requirements: &requirements,
     };
-    let mut answer = shown.answer();
     let page = || Ok(page::require_page(&shown));
-    let workbook = || Ok(answer.clone());
-    let (lines, printed) = documents::write(&options.documents, Files::default(), page, workbook)?;
-    for line in lines {
-        answer.sentence(line);
-    }
-    print_answer(&answer, options.format)?;
-    printed?;
-    Ok(if requirements.iter().any(|found| found.possible) {
-        Completion::Holds
-    } else {
-        Completion::Violated
-    })
+    documents::finish(&options.documents, shown.answer(), page, options.format)?;
+    Ok(Completion::of(
+        requirements.iter().any(|found| found.possible),
+    ))
 }
 
 /// The ratios that are asked for.

@@ -37,9 +37,5 @@ pub fn sensitivity(options: &Options) -> Result<Completion> {
     bar.finish_and_clear();
     let sheet = sheet(&study, &one, &sensitivity, reach);
     print_answer(&sheet.answer(), options.format)?;
-    Ok(if sensitivity.is_broken() {
-        Completion::Violated
-    } else {
-        Completion::Holds
-    })
+    Ok(Completion::of(!sensitivity.is_broken()))
 }

@@ -135,11 +135,7 @@ pub fn size(options: &Size) -> Result<Completion> {
     }
     print_answer(&answer, format)?;
     printed?;
-    Ok(if selection.fit.is_empty() {
-        Completion::Violated
-    } else {
-        Completion::Holds
-    })
+    Ok(Completion::of(!selection.fit.is_empty()))
 }
 
 /// The document; `None` without a drive.
@@ -177,11 +173,7 @@ fn aas(options: &Size, shown: listing::Listing, parts: &Catalogue) -> Result<Com
         judged: &judged,
     };
     print(&environment([axis]))?;
-    Ok(if judged.holds() {
-        Completion::Holds
-    } else {
-        Completion::Violated
-    })
+    Ok(Completion::of(judged.holds()))
 }
 
 /// Extent of the listing.
@@ -238,11 +230,7 @@ fn pareto(
         )
     })?;
     print_answer(&list::front::answer(&front, &title), format)?;
-    Ok(if front.points.is_empty() {
-        Completion::Violated
-    } else {
-        Completion::Holds
-    })
+    Ok(Completion::of(!front.points.is_empty()))
 }
 
 /// Why there is no drive.

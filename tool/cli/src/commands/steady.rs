@@ -3,9 +3,9 @@
 use miette::{Result, miette};
 
 use crate::commands::simulate::{read_all, starts};
-use crate::commands::{Completion, documents, print_answer, rate};
+use crate::commands::{Completion, documents, rate};
 use crate::options;
-use crate::output::{self, Files};
+use crate::output;
 use jred_analysis::checked;
 use jred_analysis::simulate::CoupledMachines;
 use jred_analysis::steady::{self, Level, MeanSpeed, SteadyRequest};
@@ -50,7 +50,7 @@ pub fn steady(options: &options::Steady) -> Result<Completion> {
         found.map_err(|why| list::steady::problem(&why))
     };
     let steady = solve(&request)?;
-    let mut answer = list::steady::answer(&machines, &steady);
+    let answer = list::steady::answer(&machines, &steady);
     let page = || {
         let finer = SteadyRequest {
             positions: request.positions.max(DRAWN),
@@ -58,13 +58,7 @@ pub fn steady(options: &options::Steady) -> Result<Completion> {
         };
         Ok(page::steady_page(&machines, &solve(&finer)?))
     };
-    let workbook = || Ok(answer.clone());
-    let (lines, printed) = documents::write(&options.documents, Files::default(), page, workbook)?;
-    for line in lines {
-        answer.sentence(line);
-    }
-    let done = print_answer(&answer, options.format)?;
-    printed.map(|()| done)
+    documents::finish(&options.documents, answer, page, options.format)
 }
 
 /// The requested mean speed.

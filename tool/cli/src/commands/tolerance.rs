@@ -71,11 +71,7 @@ pub fn tolerance(options: &Options) -> Result<Completion> {
     if !ended.is_complete() {
         return Ok(stopped(ended, &plan));
     }
-    Ok(if summary.hold == summary.machines {
-        Completion::Holds
-    } else {
-        Completion::Violated
-    })
+    Ok(Completion::of(summary.hold == summary.machines))
 }
 
 /// A tolerance of the command line.

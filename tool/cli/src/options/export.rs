@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::{ArgGroup, Args};
 
+use super::catalogue::CatalogueFiles;
 use super::output_file;
 use super::word::word;
 use jred_export::{Choice, Core, LayoutChoice, Number, OutputForm};
@@ -13,8 +14,8 @@ use jred_export::{Choice, Core, LayoutChoice, Number, OutputForm};
 #[command(
     after_help = "Exit codes: 0 done; 1 no table meets the error, or its proof fails; 2 bad input."
 )]
-#[command(group = ArgGroup::new("target").required(true).multiple(true).args(["torque_error", "max_bytes", "rated_torque"]))]
-#[command(group = ArgGroup::new("of_drives").multiple(true).args(["rated_torque", "counts_per_turn", "rows"])
+#[command(group = ArgGroup::new("target").required(true).multiple(true).args(["torque_error", "max_bytes", "rated_torque", "drive"]))]
+#[command(group = ArgGroup::new("of_drives").multiple(true).args(["rated_torque", "drive", "counts_per_turn", "rows"])
     .conflicts_with_all(["torque_error", "max_bytes", "omega", "alpha", "pieces", "prove", "forward"]))]
 pub struct Export {
     /// Machine file.
@@ -77,9 +78,14 @@ pub struct Export {
     /// PLC; if not given, C and PLC use the name of the file to write.
     #[arg(long, value_name = "NAME")]
     pub name: Option<String>,
-    /// For --format cia402: the motor's rated torque as set in object 0x6076 of the drive, e.g. "4.2 N m"; torques are thousandths of it.
+    /// For --format cia402: the motor's rated torque as set in object 0x6076 of the drive, e.g. "4.2 N m"; torques are thousandths of it. If not
+    /// given, that of --drive.
     #[arg(long, allow_hyphen_values = true)]
     pub rated_torque: Option<String>,
+    /// For --format cia402: the drive whose motor has the torque, MOTOR+GEARBOX, or MOTOR for a direct drive, with its inertia, losses and friction; if
+    /// not given, the torque is that of the input of the machine.
+    #[arg(long, value_name = "MOTOR+GEARBOX", conflicts_with = "rotor_inertia")]
+    pub drive: Option<String>,
     /// For --format cia402: increments of object 0x6064 in a turn of the motor, for a column of positions.
     #[arg(long, value_name = "COUNTS", value_parser = clap::value_parser!(u32).range(1..))]
     pub counts_per_turn: Option<u32>,
@@ -93,6 +99,9 @@ pub struct Export {
     /// File to write; if not given, only a summary is printed (as JSON with --format json).
     #[arg(long, short, value_parser = output_file())]
     pub out: Option<PathBuf>,
+    /// Parts of drives.
+    #[command(flatten)]
+    pub catalogue: CatalogueFiles,
 }
 
 /// A number of 32 bits, decimal or hexadecimal.

@@ -112,6 +112,23 @@ pub fn percent(share: f64) -> String {
     format!("{:.1} %", (share * 1e3).round() / 10.0 + 0.0)
 }
 
+/// A position for a table, to 14 or 15 digits: 6.999999999999999, from radians, is 7.
+pub fn position(x: f64) -> f64 {
+    let decimals = match x.abs() {
+        ..10.0 => 1e14,
+        ..1e3 => 1e12,
+        ..1e5 => 1e10,
+        _ => 1e8,
+    };
+    let scaled = (x * decimals).round();
+    // Beyond, a number has no such decimals. Avoids -0.
+    if scaled.abs() < 9e15 {
+        scaled / decimals + 0.0
+    } else {
+        x
+    }
+}
+
 /// A number with six significant digits, plain between 1e-4 and 1e6, else with an exponent.
 pub fn rounded(x: f64) -> String {
     if x == 0.0 {
@@ -161,7 +178,19 @@ pub fn figure(value: f64) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{of_terms, told_apart};
+    use super::{of_terms, position, told_apart};
+
+    #[test]
+    fn positions_have_no_digits_of_rounding() {
+        for k in -7200..7200 {
+            let half = f64::from(k) * 0.5;
+            let turned = half.to_radians().to_degrees();
+            assert_eq!(position(turned).to_string(), half.to_string());
+        }
+        assert_eq!(position(-1e-17).to_string(), "0");
+        let far = 123_456_789.123_456_7;
+        assert_eq!(position(far).to_bits(), f64::to_bits(far));
+    }
 
     #[test]
     fn what_is_left_of_large_terms_is_nothing() {

@@ -7,8 +7,6 @@ use crate::problem;
 use crate::text::columns::{self, ColumnSpec, CsvFault, Format, Layout, known};
 use crate::text::file::Files;
 use crate::text::problem::{Problem, Result};
-use crate::text::section::Section;
-use crate::text::tree;
 use crate::units::kind::{ANGLE, CURRENT, TIME, TORQUE};
 
 /// The largest log (bytes).
@@ -90,11 +88,8 @@ pub fn drive_log(name: &str, files: impl Files, layout: &LogLayout) -> Result<Dr
     } else {
         layout.columns.clone()
     };
-    let options = options_as_table(&named, layout);
-    let table = tree::parse(&options).map_err(|problem| problem.in_text("--columns", &options))?;
-    let section = Section::new("--columns".to_owned(), 0..0, table.get_ref());
     let read = || -> std::result::Result<DriveLog, CsvFault> {
-        let own = Layout::read(&section).map_err(CsvFault::InMachine)?;
+        let own = Layout::of_options(&named, layout.counts_per_turn, layout.skipped);
         let format = Format {
             known: &COLUMNS,
             ignored: |_| true,
@@ -139,26 +134,6 @@ pub fn drive_log(name: &str, files: impl Files, layout: &LogLayout) -> Result<Dr
     };
     read().map_err(|fault| match fault {
         CsvFault::InFile(problem) => cured(problem).in_file(&shown, &text.into()),
-        CsvFault::InMachine(problem) => cured(problem).in_text("--columns", &options),
+        CsvFault::InMachine(problem) => cured(problem),
     })
-}
-
-/// The options as the table of a machine file, whose reader is used.
-fn options_as_table(named: &[(String, String)], layout: &LogLayout) -> String {
-    let mut table = toml::Table::new();
-    if let Some(counts) = layout.counts_per_turn {
-        table.insert("counts_per_turn".to_owned(), i64::from(counts).into());
-    }
-    if layout.skipped > 0 {
-        table.insert("skip_rows".to_owned(), i64::from(layout.skipped).into());
-    }
-    if !named.is_empty() {
-        let entries = named.iter().cloned();
-        let entries = entries.map(|(name, title)| (name, title.into()));
-        table.insert(
-            "columns".to_owned(),
-            entries.collect::<toml::Table>().into(),
-        );
-    }
-    table.to_string()
 }

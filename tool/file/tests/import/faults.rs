@@ -15,7 +15,7 @@ fn curves(header: &str, row: impl Fn(i32) -> String) -> String {
 }
 
 #[track_caller]
-fn refused<T>(result: Result<T, String>, words: &[&str]) {
+pub(super) fn refused<T>(result: Result<T, String>, words: &[&str]) {
     let Err(report) = result else {
         panic!("accepted; expected {words:?}");
     };

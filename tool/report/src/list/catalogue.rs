@@ -114,11 +114,8 @@ pub fn list(
         _ => ColumnKind::Quantity,
     });
     let reading = Reading {
-        columns: titles.collect(),
         kinds: kinds.collect(),
-        rows: picked.collect(),
-        whole: read.len(),
-        ..Reading::default()
+        ..Reading::new(titles, picked, read.len())
     };
     let shown = match rows.len() {
         0 => format!("no {} of {all} match", parts.name()),
@@ -228,12 +225,7 @@ fn of_part(
     if !gaps.is_empty() {
         answer.heading(MISSING);
         let row = |gap: &Gap| vec![names(gap).into(), cost(gap).into()];
-        answer.table(Reading {
-            columns: ["column", "cost"].map(str::to_owned).to_vec(),
-            rows: gaps.iter().map(row).collect(),
-            whole: 1,
-            ..Reading::default()
-        });
+        answer.table(Reading::new(["column", "cost"], gaps.iter().map(row), 1));
     }
     answer
 }
@@ -325,14 +317,11 @@ pub fn checked(catalogue: &Catalogue) -> Answer<'static> {
             .map(Cell::from)
             .to_vec()
     });
-    answer.table(Reading {
-        columns: ["table", "column", "without it", "cost"]
-            .map(str::to_owned)
-            .to_vec(),
-        rows: rows.collect(),
-        whole: 3,
-        ..Reading::default()
-    });
+    answer.table(Reading::new(
+        ["table", "column", "without it", "cost"],
+        rows,
+        3,
+    ));
     answer
 }
 

@@ -65,7 +65,7 @@ struct Parameter {
     #[serde(skip_deserializing)]
     #[schemars(!skip_deserializing)]
     range: String,
-    /// Where to read a value that is not given, or the fault of one beyond the range.
+    /// Where to read a value that is not given, the fault of one beyond the range, or the part that sets a limit.
     #[serde(skip_deserializing)]
     #[schemars(!skip_deserializing)]
     remark: String,
@@ -170,24 +170,26 @@ impl Parameter {
             1 => format!("from {}", rounded(least)),
             _ => format!("{} to {largest}", rounded(least)),
         };
-        let factor = self.factor.unwrap_or(1.0);
-        let of = |setting: Option<Setting>| setting.map_or(Ok(1.0), |s| settings.get(s));
-        let value = of(self.setting).and_then(|value| Ok(value / of(self.base)? * factor));
+        let of = |setting: Option<Setting>| setting.map_or((1.0, ""), |s| settings.get(s));
+        let [(value, remark), (base, of_base)] = [of(self.setting), of(self.base)];
         let is_limit = matches!(
             self.setting,
             Some(Setting::TorqueLimit | Setting::PeakCurrent | Setting::SpeedLimit)
         );
-        let value = value.map(|value| typed(value, self.decimals, is_limit));
-        self.beyond = value.is_ok_and(|value| !(least..=largest).contains(&value));
+        let without_base = base.is_nan() && !value.is_nan();
+        let value = value / base * self.factor.unwrap_or(1.0);
+        let value = value
+            .is_finite()
+            .then(|| typed(value, self.decimals, is_limit));
+        self.value = value.filter(|value| (least..=largest).contains(value));
+        self.beyond = self.value != value;
         self.remark = match value {
-            Err(missing) => missing.to_owned(),
-            Ok(value) if self.beyond => format!(
+            Some(value) if self.beyond => format!(
                 "{value} is beyond the range {}: choose another motor or gear ratio, or set the nearest value and check the motion",
                 self.range
             ),
-            Ok(_) => String::new(),
+            _ => if without_base { of_base } else { remark }.to_owned(),
         };
-        self.value = value.ok().filter(|_| !self.beyond);
     }
 }
 
@@ -199,10 +201,7 @@ fn table<const N: usize>(columns: [&str; N], rows: Vec<Vec<Cell>>) -> Reading {
     };
     Reading {
         kinds: columns.iter().map(kind).collect(),
-        columns: columns.map(str::to_owned).into(),
-        rows,
-        whole: 3,
-        ..Reading::default()
+        ..Reading::new(columns, rows, 3)
     }
 }
 
@@ -214,13 +213,18 @@ fn whole(value: Option<f64>) -> Cell {
 impl DriveView<'_> {
     fn data(&self) -> DriveData {
         let mut makers = self.makers.to_vec();
-        for parameter in makers.iter_mut().flat_map(|maker| &mut maker.parameters) {
-            parameter.fill(self.settings);
+        for Maker { parameters, .. } in &mut makers {
+            for parameter in &mut *parameters {
+                parameter.fill(self.settings);
+            }
+            parameters.sort_by_key(|parameter| parameter.value.is_none());
         }
+        let mut figures = self.settings.figures().to_vec();
+        figures.sort_by_key(|figure| figure.value.is_none());
         DriveData {
             drive: self.drive.to_owned(),
             holds: self.holds,
-            figures: self.settings.figures().to_vec(),
+            figures,
             warnings: self.warnings(&makers),
             makers,
         }
@@ -228,7 +232,7 @@ impl DriveView<'_> {
 
     fn warnings(&self, makers: &[Maker]) -> Vec<String> {
         // No comparison holds for a figure that is not given.
-        let get = |setting| self.settings.get(setting).unwrap_or(f64::NAN);
+        let get = |setting| self.settings.get(setting).0;
         let mut warnings = Vec::new();
         if !self.holds {
             warnings

@@ -122,10 +122,6 @@ fn alternatives(export: &Export) -> Reading {
             row.push(remark(answer).to_owned());
             row.into_iter().map(Cell::Text).collect()
         });
-    Reading {
-        columns: columns.to_vec(),
-        rows: rows.collect(),
-        whole: columns.len(),
-        ..Reading::default()
-    }
+    let whole = columns.len();
+    Reading::new(columns, rows, whole)
 }

@@ -91,12 +91,8 @@ pub fn answer(front: &Front, title: &str) -> Answer<'static> {
         let values = point.values.iter().map(|x| rounded(*x));
         row.chain(figures).chain(values).map(Cell::Text).collect()
     };
-    let all = Reading {
-        columns: named(&["motor", "gearbox", "amplifier"]),
-        rows: front.points.iter().map(full).collect(),
-        whole: 1,
-        ..Reading::default()
-    };
+    let all = named(&["motor", "gearbox", "amplifier"]);
+    let all = Reading::new(all, front.points.iter().map(full), 1);
     answer.csv(all.csv());
     let gaps = front.gaps();
     if front.compared == 0 && gaps.is_empty() {
@@ -104,12 +100,8 @@ pub fn answer(front: &Front, title: &str) -> Answer<'static> {
         return answer;
     }
     let columns = named(&["motor", "made for", "gearbox", "amplifier"]);
-    answer.table(Reading {
-        whole: columns.len(),
-        columns,
-        rows: front.points.iter().map(read).collect(),
-        ..Reading::default()
-    });
+    let whole = columns.len();
+    answer.table(Reading::new(columns, front.points.iter().map(read), whole));
     answer.sentence(format!(
         "{} of {} drives: no other suitable drive is as good in all of these and better in one",
         front.points.len(),

@@ -138,12 +138,7 @@ pub fn answer(shown: &GentlestView) -> Answer<'static> {
             cells
         })
         .collect();
-    answer.table(Reading {
-        columns: heads,
-        rows,
-        whole: 1,
-        ..Reading::default()
-    });
+    answer.table(Reading::new(heads, rows, 1));
     answer
 }
 

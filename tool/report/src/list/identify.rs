@@ -263,6 +263,7 @@ impl IdentifyView<'_> {
         }
         self.friction(&mut answer);
         self.negative_friction(&mut answer);
+        self.cogging_left_out(&mut answer);
         for log in &self.logs {
             if self.logs.len() > 1 {
                 answer.heading(log.name.clone());

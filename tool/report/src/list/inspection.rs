@@ -145,12 +145,7 @@ fn joints(findings: &Findings, answer: &mut Answer) {
         ];
         cells.map(Cell::from).to_vec()
     });
-    answer.table(Reading {
-        columns: columns.map(str::to_owned).to_vec(),
-        rows: rows.collect(),
-        whole: columns.len(),
-        ..Reading::default()
-    });
+    answer.table(Reading::new(columns, rows, columns.len()));
 }
 
 /// The reduced inertia, over the range and over the time of the motion, and the mass.
@@ -273,10 +268,5 @@ fn segments(motion: &MotionFindings, drive: Coordinate, answer: &mut Answer) {
         }
         cells.into_iter().map(Cell::from).collect()
     });
-    answer.table(Reading {
-        columns: columns.map(str::to_owned).to_vec(),
-        rows: rows.collect(),
-        whole: columns.len(),
-        ..Reading::default()
-    });
+    answer.table(Reading::new(columns, rows, columns.len()));
 }

@@ -94,12 +94,11 @@ pub fn sheet(study: &Ratios, mut rows: Vec<MotorRatio>, top: Option<usize>) -> S
             study.file.title
         ),
         columns: COLUMNS.map(str::to_owned).to_vec(),
-        reading: Some(Reading {
-            columns: READING.map(str::to_owned).to_vec(),
-            rows: rows.iter().map(reading).collect(),
-            whole: READING.len() - 1,
-            ..Reading::default()
-        }),
+        reading: Some(Reading::new(
+            READING,
+            rows.iter().map(reading),
+            READING.len() - 1,
+        )),
         rows: rows.iter().map(cells).collect(),
         notes,
         lead: 0,

@@ -52,12 +52,7 @@ pub(crate) fn limits(answer: &mut Answer, set: &RuleSet, words: &Vocabulary) {
 }
 
 fn table<const N: usize>(header: &[&str; N], rows: impl Iterator<Item = [String; N]>) -> Reading {
-    Reading {
-        columns: header.map(str::to_owned).to_vec(),
-        rows: rows.map(|row| row.map(Cell::Text).to_vec()).collect(),
-        whole: N,
-        ..Reading::default()
-    }
+    Reading::new(*header, rows.map(|row| row.map(Cell::Text).to_vec()), N)
 }
 
 /// Limits are numbers with a unit; empty for a rule that is off, or whose limit depends on the moves.

@@ -183,12 +183,7 @@ fn reading(study: &Study, found: &Sensitivity, words: &Vocabulary) -> Reading {
         cells
     };
     let moving = found.dependences.iter().filter(|d| !d.is_idle());
-    Reading {
-        columns: columns.map(str::to_owned).to_vec(),
-        rows: moving.map(row).collect(),
-        whole: 2,
-        ..Reading::default()
-    }
+    Reading::new(columns, moving.map(row), 2)
 }
 
 /// The same as text; a note tells why the machine file becomes invalid.

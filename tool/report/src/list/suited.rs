@@ -205,12 +205,7 @@ fn tried(suited: &CoDesign) -> Option<Reading> {
             rules.into(),
         ]
     };
-    Some(Reading {
-        columns: heads.to_vec(),
-        rows: suited.tried.iter().map(row).collect(),
-        whole: 1,
-        ..Reading::default()
-    })
+    Some(Reading::new(heads, suited.tried.iter().map(row), 1))
 }
 
 fn saving(tried: &DriveWithMotion) -> f64 {

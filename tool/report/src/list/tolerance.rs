@@ -123,12 +123,7 @@ pub fn sheet(samples: &Samples, summary: &Summary, rules: &RuleSet) -> Sheet {
             counted(summary.machines as usize, "machine", "machines"),
             samples.seed
         ),
-        reading: Some(Reading {
-            columns: READING.map(str::to_owned).to_vec(),
-            rows: rows.clone(),
-            whole: 1,
-            ..Reading::default()
-        }),
+        reading: Some(Reading::new(READING, rows.clone(), 1)),
         columns: COLUMNS.map(str::to_owned).to_vec(),
         rows,
         notes,

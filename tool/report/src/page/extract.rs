@@ -43,12 +43,7 @@ pub(super) fn largest_forces(source: &Source) -> Result<Option<Section>, Error> 
 fn section(heading: &str, columns: Vec<String>, rows: Vec<Vec<Cell>>) -> Section {
     let whole = 1;
     Section::read(heading, |answer| {
-        answer.table(Reading {
-            columns,
-            rows,
-            whole,
-            ..Reading::default()
-        });
+        answer.table(Reading::new(columns, rows, whole));
     })
 }
 

@@ -53,6 +53,20 @@ pub struct Reading {
 }
 
 impl Reading {
+    /// A table with these columns and rows, whose first `whole` columns are not wrapped.
+    pub(crate) fn new(
+        columns: impl IntoIterator<Item = impl Into<String>>,
+        rows: impl IntoIterator<Item = Vec<Cell>>,
+        whole: usize,
+    ) -> Self {
+        Self {
+            columns: columns.into_iter().map(Into::into).collect(),
+            rows: rows.into_iter().collect(),
+            whole,
+            ..Self::default()
+        }
+    }
+
     /// The table in the units of results. A row without units in the header may have one in its first cell.
     pub(crate) fn shown(&self) -> Cow<'_, Self> {
         if units::is_si() {

@@ -11,6 +11,7 @@ use crate::simulate::run::OutputRow;
 use jred_file::model::coordinate::Coordinate;
 use jred_file::model::motor::Motor;
 use jred_file::number::columns::{Column, ColumnQuantity};
+use jred_file::number::rounding::position;
 
 impl<M: Motor> Plant<'_, M> {
     /// The motor at a state, with a torque at its shaft; `asked` is the controller's request.
@@ -99,7 +100,7 @@ impl<M: Motor> Plant<'_, M> {
         } = self.stored(moment, DriveState { phi, omega })?;
         let shown = self.axis.state(&State { phi, omega, alpha });
         let own = [
-            self.axis.shown(phi),
+            position(self.axis.shown(phi)),
             shown.omega,
             shown.alpha,
             torque,
@@ -108,7 +109,7 @@ impl<M: Motor> Plant<'_, M> {
         let beside = self.machines.beside().iter();
         let positions = beside.map(|machine| {
             let [phi, ..] = machine.state([phi, omega, alpha]);
-            machine.file.axis().shown(phi)
+            position(machine.file.axis().shown(phi))
         });
         Ok(OutputRow {
             figures: own.into_iter().chain(positions).collect(),

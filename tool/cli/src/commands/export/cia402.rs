@@ -3,7 +3,7 @@
 use miette::{Result, miette};
 
 use crate::commands::core_error::duty_report;
-use crate::commands::{Completion, print, quantity, warn};
+use crate::commands::{Completion, drive_asked, print, quantity, warn};
 use crate::options::export::Export;
 use crate::output;
 use crate::terminal;
@@ -14,6 +14,8 @@ use jred_file::model::coordinate::Coordinate;
 use jred_file::model::machine::MachineFile;
 use jred_file::plain;
 use jred_file::text::key::EFFORT;
+use jred_sizing::catalogue::Drive;
+use jred_sizing::study::chosen::ChosenDrive;
 
 /// Writes or prints the table.
 ///
@@ -29,7 +31,11 @@ pub(super) fn run(options: &Export, file: &MachineFile) -> Result<Completion> {
     };
     let rated = options.rated_torque.as_deref();
     let positive = Argument::positive(EFFORT);
-    let Some(rated) = quantity("rated-torque", rated, positive, coordinate)? else {
+    let rated = quantity("rated-torque", rated, positive, coordinate)?;
+    let chosen = drive_asked(options.drive.as_deref(), &options.catalogue, file)?;
+    let drive = chosen.as_ref().map(ChosenDrive::drive);
+    let of_motor = drive.as_ref().and_then(|drive| drive.motor.rated_torque);
+    let Some(rated) = rated.or(of_motor) else {
         return Err(miette!(
             help = "give --rated-torque, the motor's rated torque as set in object 0x6076 of the drive, such as \"4.2 N m\"",
             "--format cia402 counts thousandths of the rated torque, which is not given"
@@ -53,17 +59,26 @@ pub(super) fn run(options: &Export, file: &MachineFile) -> Result<Completion> {
     let times = (0..=last).map(|k| motion.duration() * f64::from(k) / f64::from(last));
     let course = duty::course(file, motion, times).map_err(duty_report)?;
     let rotor = options.rotor_inertia.unwrap_or(0.0);
+    let rotor = drive.as_ref().map_or(rotor, |drive| {
+        drive.rotor() + drive.gearbox.map_or(0.0, |gearbox| gearbox.inertia)
+    });
+    let gear = drive.as_ref().map_or(1.0, Drive::ratio);
     let instants = course.iter().map(|instant| ShaftInstant {
         t: instant.t,
-        position: instant.phi * file.drive_train.ratio(),
-        torque: instant.input_torque + rotor * instant.input_alpha,
+        position: instant.phi * file.drive_train.ratio() * gear,
+        torque: match &drive {
+            Some(drive) => drive.motor_point(instant).torque,
+            None => instant.input_torque + rotor * instant.input_alpha,
+        },
     });
+    let name = drive.as_ref().map(Drive::name);
     let table = TorqueOffsets {
         title: &file.title,
         instants: &instants.collect::<Vec<_>>(),
         rated,
         counts_per_turn: options.counts_per_turn,
         rotor,
+        drive: name.as_deref(),
         unit: coordinate.effort_unit(),
     };
     let text = table.csv()?;

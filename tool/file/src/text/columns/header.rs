@@ -37,7 +37,8 @@ pub(super) fn columns(
         if let (Some(mapping), Some(_)) = (mapping, stated)
             && let Err(fault) = layout.scale(unit, known.kind)
         {
-            return Err(CsvFault::InMachine(mapping.item.fault(fault)));
+            let problem = mapping.problem(&fault.message, &fault.label);
+            return Err(CsvFault::InMachine(problem.help(fault.help)));
         }
         let scale = table.unit(at, &[known.kind], |_| {
             let scale = layout.scale(unit, known.kind);
@@ -64,7 +65,7 @@ fn mapped<'l>(
     let mut found: Indices = titles.iter().map(|_| None).collect();
     for mapped in layout.mapped.iter().flatten() {
         let fault = |what: &str, label: &str, help: String| {
-            CsvFault::InMachine(mapped.item.problem(what, label).help(help))
+            CsvFault::InMachine(mapped.problem(what, label).help(help))
         };
         let known = format.known.iter();
         let Some(index) = known.clone().position(|known| known.is(mapped.name)) else {

@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 use super::ColumnSpec;
 use crate::text::csv;
 use crate::text::item::Item;
-use crate::text::problem::Result;
+use crate::text::problem::{Problem, Result};
 use crate::text::section::Section;
 use crate::units::kind::{
     ACCELERATION, ANGLE, ANGULAR_ACCELERATION, ANGULAR_SPEED, CAM_ACCELERATION, CAM_TURNING,
@@ -36,7 +36,17 @@ pub(crate) struct Layout<'a> {
 pub(super) struct ColumnMapping<'a> {
     pub(super) name: &'a str,
     pub(super) title: Title,
-    pub(super) item: Item<'a>,
+    /// Without one an option of the command line names the column.
+    item: Option<Item<'a>>,
+}
+
+impl ColumnMapping<'_> {
+    pub(super) fn problem(&self, what: &str, label: &str) -> Problem {
+        match &self.item {
+            Some(item) => item.problem(what, label),
+            None => Problem::new(format!("`{}` in --columns {what}", self.name)),
+        }
+    }
 }
 
 impl<'a> Layout<'a> {
@@ -56,6 +66,7 @@ impl<'a> Layout<'a> {
                 let entries = table.entries().into_iter();
                 let mapped = entries.map(|(name, item)| {
                     let title = Title::of(item.text("Time (sec)")?);
+                    let item = Some(item);
                     Ok(ColumnMapping { name, title, item })
                 });
                 Some(mapped.collect::<Result<Vec<_>>>()?)
@@ -73,6 +84,25 @@ impl<'a> Layout<'a> {
             count,
             speed: None,
         })
+    }
+
+    /// Titles of columns, counts of a turn and lines above the header, as options of the command line give them.
+    pub(crate) fn of_options(
+        columns: &'a [(String, String)],
+        counts: Option<u32>,
+        skipped: u32,
+    ) -> Self {
+        let mapped = columns.iter().map(|(name, title)| ColumnMapping {
+            name,
+            title: Title::of(title),
+            item: None,
+        });
+        Self {
+            skipped: skipped as usize,
+            mapped: (!columns.is_empty()).then(|| mapped.collect()),
+            count: counts.map(|count| TAU / f64::from(count)),
+            ..Self::default()
+        }
     }
 
     /// The layout of a table over the angle of a master, whose speed (rad/s) is the value of `key`.

@@ -5,7 +5,7 @@ use serde::Serialize;
 
 use super::{headroom, left_out, remark};
 use crate::answer::schema;
-use jred_export::{Candidate, Export, ProofResult, RangeTable, SearchResult};
+use jred_export::{Candidate, Export, Proof, ProofError, RangeTable, SearchResult};
 use jred_file::model::coordinate::Coordinate;
 
 /// The JSON of `jred export`, with every digit (SI units).
@@ -226,7 +226,7 @@ pub(super) fn data(export: &Export) -> ExportData {
             torque: headroom(chosen.usage(|u| u.torque)),
         }),
         error_between_places: match export.proof() {
-            Some(ProofResult::Bounded(_)) => "proven",
+            Some(Ok(_)) => "proven",
             _ => "estimated",
         },
         proof: export.proof().as_ref().map(proof),
@@ -269,12 +269,12 @@ fn piece(export: &Export, table: &RangeTable) -> PieceData {
     }
 }
 
-fn proof(proven: &ProofResult) -> ProofData {
+fn proof(proven: &Result<Proof, ProofError>) -> ProofData {
     match proven {
-        ProofResult::Open(why) => ProofData::Open {
+        Err(why) => ProofData::Open {
             not_proven: why.to_string(),
         },
-        ProofResult::Bounded(proof) => ProofData::Bounded {
+        Ok(proof) => ProofData::Bounded {
             table_torque_error: proof.bound,
             tick_torque_error: proof.ticked,
             worst: proof.worst,

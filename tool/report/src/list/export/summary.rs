@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use jred::{CurveSet, curves};
 
 use super::{effort_name, headroom};
-use jred_export::{Candidate, Export, LayoutChoice, LayoutName, Number, ProofResult};
+use jred_export::{Candidate, Export, LayoutChoice, LayoutName, Number};
 use jred_file::model::coordinate::Coordinate;
 use jred_file::number::rounding::{bound, rounded, short};
 
@@ -207,8 +207,8 @@ fn proof_text(export: &Export) -> String {
     let effort = coordinate.effort_unit();
     match export.proof() {
         None => String::new(),
-        Some(ProofResult::Open(why)) => format!("not proven: {why}\n"),
-        Some(ProofResult::Bounded(proof)) => {
+        Some(Err(why)) => format!("not proven: {why}\n"),
+        Some(Ok(proof)) => {
             let ticks = match proof.ticked {
                 Some(ticked) => format!("ticks within {} {effort}", bound(ticked)),
                 None => "the arithmetic of its ticks is not proven".to_owned(),
@@ -228,10 +228,10 @@ pub fn exceeded(export: &Export) -> String {
     let coordinate = export.coordinate;
     let effort = coordinate.effort_unit();
     match (export.proof(), export.task.torque_error) {
-        (Some(found @ ProofResult::Bounded(proof)), Some(allowed)) => format!(
+        (Some(Ok(proof)), Some(allowed)) => format!(
             "the proven {} error, {} {effort} near {} {}, is above the {} {effort} allowed",
             effort_name(export.coordinate),
-            bound(found.bound().unwrap_or(proof.bound)),
+            bound(proof.stated()),
             rounded(coordinate.shown(proof.worst)),
             coordinate.unit(),
             rounded(allowed)

@@ -86,12 +86,8 @@ impl FastestView<'_> {
             cells
         };
         let rows: Vec<Vec<Cell>> = phases.iter().map(|phase| row(phase)).collect();
-        answer.table(Reading {
-            whole: columns.len(),
-            columns,
-            rows,
-            ..Reading::default()
-        });
+        let whole = columns.len();
+        answer.table(Reading::new(columns, rows, whole));
         unlimited(made, &phases, answer);
         for cost in &made.costs {
             let saved = made.fastest.time - cost.time;

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
 
-use jred_analysis::identify::CurvePoint;
+use jred_analysis::identify::{Cogging, CurvePoint, Estimate};
 use jred_file::number::rounding::short;
 
 use super::IdentifyView;
@@ -61,6 +61,26 @@ impl IdentifyView<'_> {
                 "Coulomb friction is negative ({} ± {} N m); {written}: record both directions",
                 short(c.value),
                 short(c.band)
+            ));
+        }
+    }
+
+    /// A warning of cogging that the points of the file are too few for.
+    pub(super) fn cogging_left_out(&self, answer: &mut Answer) {
+        let orders = self.logs.first().map_or(&[][..], |log| &log.found.cogging);
+        let terms = orders.iter().enumerate().map(|(k, Cogging { order, .. })| {
+            let part = |of: fn(&Cogging) -> Estimate| {
+                let part = self.mean(|found| found.cogging.get(k).map(of).unwrap_or_default());
+                short(part.value)
+            };
+            let [cosine, sine] = [part(|c| c.cosine), part(|c| c.sine)];
+            format!("({cosine})·cos {order}φ + ({sine})·sin {order}φ")
+        });
+        let terms: Vec<String> = terms.collect();
+        if !terms.is_empty() {
+            answer.warning(format!(
+                "the CSV, and a table exported from it, has no cogging above the order 24: add {} N m to the torque of each tick",
+                terms.join(" + ")
             ));
         }
     }
