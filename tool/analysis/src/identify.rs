@@ -13,12 +13,14 @@ mod fault;
 mod fit;
 mod likelihood;
 mod matrix;
+mod order;
 mod place;
 mod record;
 mod result;
 mod shaft;
 mod smooth;
 mod solution;
+mod visits;
 mod weak;
 
 use basis::Basis;
@@ -40,6 +42,10 @@ const FEWEST: usize = 5;
 
 /// Share of samples in the other direction from which on the mean load is apart from Coulomb friction.
 const BOTH_WAYS: f64 = 0.02;
+
+/// Highest harmonic of c that is tried, and the share of samples in the other direction that it needs.
+const FRICTION: usize = 8;
+const BOTH_OFTEN: f64 = 0.2;
 
 /// Rounds in which the samples of outliers are left out.
 const CLEANING: usize = 4;
@@ -86,8 +92,10 @@ pub fn identify(samples: &Samples, options: &Options) -> Result<Identified, Obst
         Some(cleaned) if cleaned.torque_noise < FEWER * first.torque_noise => (cleaned, spikes),
         _ => (first, Vec::new()),
     };
-    let order = found.order();
-    let found = found.subset(order).map_err(obstacle)?;
+    let basis = found.order();
+    let found = found
+        .subset(basis)
+        .map_err(|unfit| obstacle(samples, unfit))?;
     Ok(result::identified(&found, samples, options, &spikes))
 }
 
@@ -126,14 +134,17 @@ fn ways(speed: &[f64]) -> [f64; 2] {
 
 /// The unknowns that this log may determine.
 fn basis_of(samples: &Samples, options: &Options) -> Result<Basis, Obstacle> {
-    let [forward, back] = ways(&fault::check(samples)?);
-    let mean = forward.min(back) > BOTH_WAYS * (forward + back);
+    let speed = visits::check(samples)?;
+    let [forward, back] = ways(&speed);
+    let share = forward.min(back) / (forward + back);
+    let varied = share > BOTH_OFTEN && visits::both_ways(samples, &speed);
     let orders = options.cogging.iter();
     let (low, cogging): (Vec<u32>, Vec<u32>) =
         orders.partition(|order| **order as usize <= HARMONICS);
     Ok(Basis {
         harmonics: HARMONICS,
-        mean,
+        mean: share > BOTH_WAYS,
+        friction: if varied { FRICTION } else { 0 },
         cogging,
         least: low.into_iter().max().unwrap_or(0) as usize,
     })
@@ -148,7 +159,11 @@ fn fitted(samples: &Samples, basis: &Basis, options: &Options) -> Result<Fit, Ob
         basis = basis.with_harmonics((basis.harmonics * 3 / 4).max(fewest));
         found = fit(samples, &basis, options, None, None);
     }
-    let found = found.map_err(obstacle)?;
+    if let (Err(Unfit::Singular), 1..) = (&found, basis.friction) {
+        basis = basis.with_friction(0);
+        found = fit(samples, &basis, options, None, None);
+    }
+    let found = found.map_err(|unfit| obstacle(samples, unfit))?;
     if found.delay_step.abs() < DELAY_STEP {
         return Ok(found);
     }
@@ -166,7 +181,8 @@ fn fitted(samples: &Samples, basis: &Basis, options: &Options) -> Result<Fit, Ob
     let Some((start, _)) = best else {
         return Ok(found);
     };
-    let again = fit(samples, &basis, options, Some(start), None).map_err(obstacle)?;
+    let again = fit(samples, &basis, options, Some(start), None)
+        .map_err(|unfit| obstacle(samples, unfit))?;
     Ok(if again.torque_noise < found.torque_noise {
         again
     } else {
@@ -174,9 +190,9 @@ fn fitted(samples: &Samples, basis: &Basis, options: &Options) -> Result<Fit, Ob
     })
 }
 
-fn obstacle(unfit: Unfit) -> Obstacle {
+fn obstacle(samples: &Samples, unfit: Unfit) -> Obstacle {
     match unfit {
-        Unfit::Few { rows, needed } => Obstacle::Short { rows, needed },
+        Unfit::Few { rows, needed } => Obstacle::short(samples, rows, needed),
         Unfit::Singular => Obstacle::NotDetermined,
     }
 }

@@ -1,25 +1,11 @@
 //! Faults of a log, and obstacles to an identification.
 
-use std::f64::consts::TAU;
-
 use schemars::JsonSchema;
 use serde::Serialize;
 
+use super::Samples;
 use super::fit::Fit;
 use super::matrix::{DIAGONALS, Matrix, whiten};
-use super::{Samples, within_turn};
-
-/// Number of angle bins in a turn.
-const BINS: usize = 72;
-
-/// A bin with less than this share of the mean is not visited.
-const VISITED: f64 = 0.1;
-
-/// The least number of samples whose speed is a filtered one.
-const SHORTEST: usize = 500;
-
-/// The least number of samples in a bin from which a variation follows.
-const IN_BIN: usize = 20;
 
 /// Whitened residuals above this many robust standard deviations are outliers.
 const OUTLIER: f64 = 5.0;
@@ -37,6 +23,8 @@ pub enum Obstacle {
         rows: usize,
         /// How many are needed.
         needed: usize,
+        /// Time between two samples (s).
+        step: f64,
     },
     /// Angles that are not visited, the longest range (rad).
     NotVisited {
@@ -44,6 +32,8 @@ pub enum Obstacle {
         from: f64,
         /// Its last angle.
         to: f64,
+        /// Whether the log visits them, with samples that are left out.
+        left_out: bool,
     },
     /// The speed is the same in every turn: share by which ω² varies at an angle.
     SameSpeed {
@@ -52,6 +42,16 @@ pub enum Obstacle {
     },
     /// The unknowns cannot be told apart.
     NotDetermined,
+}
+
+impl Obstacle {
+    pub(super) const fn short(samples: &Samples, rows: usize, needed: usize) -> Self {
+        Self::Short {
+            rows,
+            needed,
+            step: samples.step,
+        }
+    }
 }
 
 /// A fault of the log that was found.
@@ -103,80 +103,6 @@ pub enum Fault {
         /// The last value (s).
         at: f64,
     },
-}
-
-/// Angles, speeds and their variation.
-pub(super) struct Visits {
-    /// Median over the angles of std ω²/mean ω²; `None`: too few samples at each.
-    pub(super) variation: Option<f64>,
-    /// The longest range of empty bins.
-    gap: Option<[usize; 2]>,
-}
-
-/// Which angles are visited, at which speeds.
-pub(super) fn visits(samples: &Samples, speed: &[f64]) -> Visits {
-    let mut bins = vec![Vec::new(); BINS];
-    for ((phi, omega), faulty) in samples.position.iter().zip(speed).zip(&samples.faulty) {
-        if !faulty {
-            let bin = (within_turn(*phi) / TAU * BINS as f64) as usize;
-            bins[bin.min(BINS - 1)].push(omega * omega);
-        }
-    }
-    let mean = bins.iter().map(Vec::len).sum::<usize>() as f64 / BINS as f64;
-    let empty: Vec<bool> = bins
-        .iter()
-        .map(|bin| (bin.len() as f64) < VISITED * mean)
-        .collect();
-    let mut gap: Option<[usize; 2]> = None;
-    let mut length = 0;
-    for k in 0..2 * BINS {
-        length = if empty[k % BINS] { length + 1 } else { 0 };
-        if length > 0 && gap.is_none_or(|[_, longest]| length > longest) && length <= BINS {
-            gap = Some([k + 1 - length, length]);
-        }
-    }
-    let mut each: Vec<f64> = bins
-        .iter()
-        .filter(|bin| bin.len() >= IN_BIN)
-        .map(|bin| {
-            let count = bin.len() as f64;
-            let mean = bin.iter().sum::<f64>() / count;
-            let square = bin.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / count;
-            square.sqrt() / mean.max(1e-9)
-        })
-        .collect();
-    each.sort_by(f64::total_cmp);
-    Visits {
-        variation: each.get(each.len() / 2).copied(),
-        gap,
-    }
-}
-
-/// The smoothed speed; refuses a log that cannot determine a machine, whatever the fit.
-pub(super) fn check(samples: &Samples) -> Result<Vec<f64>, Obstacle> {
-    let count = samples.position.len();
-    let short = Obstacle::Short {
-        rows: count,
-        needed: BINS * IN_BIN,
-    };
-    if count < SHORTEST {
-        return Err(short);
-    }
-    let half = ((0.05 / samples.step) as usize).max(8);
-    let speed = super::smooth::smooth(&samples.position, samples.step, half).speed;
-    let visits = visits(samples, &speed);
-    if let Some([from, length]) = visits.gap {
-        let width = TAU / BINS as f64;
-        return Err(Obstacle::NotVisited {
-            from: (from % BINS) as f64 * width,
-            to: ((from % BINS) + length) as f64 * width,
-        });
-    }
-    let variation = visits.variation.ok_or(short)?;
-    if variation < 0.05 {
-        return Err(Obstacle::SameSpeed { variation });
-    }
-    Ok(speed)
 }
 
 /// Rows whose residual is too large: the largest of those that one sample may cause, whose effect whitening carries on.

@@ -297,66 +297,6 @@ impl Fit {
         self.kept.iter().filter(|kept| **kept).count()
     }
 
-    /// The same rows with fewer harmonics.
-    pub(super) fn subset(mut self, harmonics: usize) -> Result<Self, Unfit> {
-        let mut columns = self.basis.columns_of(harmonics);
-        if self.delay_free {
-            columns.push(self.basis.unknowns());
-        }
-        self.whitened = self.whitened.select(&columns);
-        self.instruments = self.instruments.select(&columns);
-        let used = self.used();
-        let mut found = solve(&self.whitened, &self.instruments, &self.right, used)?;
-        if self.delay_free {
-            self.delay = self.delay_of_rows + found.theta.pop().unwrap_or_default();
-        }
-        self.basis = self.basis.with_harmonics(harmonics);
-        self.theta = found.theta;
-        self.misfit = found.misfit;
-        self.covariances = found.covariances;
-        self.residuals = found.residuals;
-        Ok(self)
-    }
-
-    /// The smallest number of harmonics whose next ones are jointly insignificant (Wald), and two more.
-    pub(super) fn order(&self) -> usize {
-        const NEXT: usize = 4;
-        const FROM: usize = 3;
-        const MORE: usize = 2;
-        let most = self.basis.harmonics;
-        let normal = self.instruments.transposed_product(&self.whitened);
-        let spread = self.instruments.transposed_product(&self.instruments);
-        let right = self.instruments.transposed_times(&self.right);
-        for harmonics in FROM.max(self.basis.least)..most {
-            let next = NEXT.min(most - harmonics);
-            let wide = self.basis.with_harmonics(harmonics + next);
-            let mut columns = self.basis.columns_of(harmonics + next);
-            if self.delay_free {
-                columns.push(self.basis.unknowns());
-            }
-            let Some(inverse) = normal.block(&columns).inverse() else {
-                continue;
-            };
-            let shown: Vec<f64> = columns.iter().map(|&c| right[c]).collect();
-            let theta = inverse.times(&shown);
-            let covariance = inverse.congruence(&spread.block(&columns));
-            let potential = wide.potential();
-            let tested: Vec<usize> = (1 + 2 * harmonics..potential)
-                .chain(potential + 2 * harmonics..wide.mean_load())
-                .collect();
-            let values: Vec<f64> = tested.iter().map(|&i| theta[i]).collect();
-            let Some(weight) = covariance.block(&tested).inverse() else {
-                continue;
-            };
-            let wald = dot(&values, &weight.times(&values)) / self.misfit.max(1.0);
-            let count = tested.len() as f64;
-            if wald < count + 2.5 * (2.0 * count).sqrt() {
-                return (harmonics + MORE).min(most);
-            }
-        }
-        most
-    }
-
     /// Variance of a sum of unknowns, from unknown `from` on with these factors: the larger of the two covariances.
     pub(super) fn variance(&self, from: usize, factors: &[f64]) -> f64 {
         let each = self.covariances.iter().map(|covariance| {

@@ -5,9 +5,10 @@ use std::f64::consts::TAU;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::fault::{Fault, slip, visits};
+use super::fault::{Fault, slip};
 use super::fit::{DELAY_STEP, Fit, GRID, rest};
 use super::matrix::dot;
+use super::visits::speed_variation;
 use super::{Options, Samples, ways};
 
 /// Quantile of the normal distribution for a band of 95 %.
@@ -47,6 +48,8 @@ pub struct CurvePoint {
     pub inertia_slope: f64,
     /// V′ of weight and springs, without a mean (N·m).
     pub potential_slope: Estimate,
+    /// Coulomb friction c (N·m): constant unless both directions show that it depends on the angle.
+    pub coulomb: Estimate,
 }
 
 /// How well the log's motion determines the machine.
@@ -83,8 +86,10 @@ pub struct Identified {
     pub mean_load: Option<Estimate>,
     /// Viscous friction (N·m·s/rad).
     pub viscous: Estimate,
-    /// Coulomb friction (N·m).
+    /// Coulomb friction, the mean over the angle (N·m).
     pub coulomb: Estimate,
+    /// Coefficients of Coulomb friction that depends on the angle: cosine and sine of each harmonic (N·m).
+    pub coulomb_waves: Vec<Estimate>,
     /// Cogging.
     pub cogging: Vec<Cogging>,
     /// Delay of the logged torque (s).
@@ -114,14 +119,19 @@ impl Identified {
             sum += (a * c + b * s) * alpha + order * (b * c - a * s) * half_square;
             sum += v[0].value * c + v[1].value * s;
         }
+        let sign = if omega == 0.0 { 0.0 } else { omega.signum() };
+        let waves = (1..).zip(self.coulomb_waves.chunks(2)).map(|(k, c)| {
+            let (sin, cos) = (f64::from(k) * phi).sin_cos();
+            c[0].value * cos + c[1].value * sin
+        });
+        let coulomb = self.coulomb.value + waves.sum::<f64>();
         let cogging = self.cogging.iter().map(|cog| {
             let (s, c) = (f64::from(cog.order) * phi).sin_cos();
             cog.cosine.value * c + cog.sine.value * s
         });
-        let sign = if omega == 0.0 { 0.0 } else { omega.signum() };
         sum + self.mean_load.map_or(0.0, |load| load.value)
             + self.viscous.value * omega
-            + self.coulomb.value * sign
+            + coulomb * sign
             + cogging.sum::<f64>()
     }
 
@@ -183,6 +193,7 @@ pub(super) fn identified(
                 inertia: sum(0, &basis.inertia_row(phi)),
                 inertia_slope: basis.at(&fit.theta, &waves, phi).inertia_slope,
                 potential_slope: sum(basis.potential(), &basis.potential_row(phi)),
+                coulomb: sum(basis.coulomb(), &basis.friction_row(phi)),
             }
         })
         .collect();
@@ -203,6 +214,7 @@ pub(super) fn identified(
         mean_load: basis.mean.then(|| one(basis.mean_load())),
         viscous: one(basis.viscous()),
         coulomb: one(basis.coulomb()),
+        coulomb_waves: (basis.coulomb() + 1..basis.cog()).map(one).collect(),
         cogging: cogging.collect(),
         delay: Estimate {
             value: options.delay.unwrap_or(fit.delay),
@@ -235,7 +247,7 @@ fn excitation(fit: &Fit, samples: &Samples, curves: &[CurvePoint]) -> Excitation
     Excitation {
         duration: samples.step * samples.position.len() as f64,
         turns: travel / TAU,
-        speed_variation: visits(samples, speed).variation.unwrap_or_default(),
+        speed_variation: speed_variation(samples, speed),
         step: samples.step,
         acceleration: deviation.sqrt() * mean / fit.torque_noise,
         forward: forward / (forward + back).max(1.0),

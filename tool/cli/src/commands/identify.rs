@@ -138,7 +138,8 @@ fn one(
         delay: options.delay,
         encoder_step: counts.map(|counts| TAU / f64::from(counts) / ratio.abs()),
     };
-    let mut found = identify::identify(&samples, &request).map_err(|why| refusal(&name, &why))?;
+    let mut found =
+        identify::identify(&samples, &request).map_err(|why| refusal(&name, &why, &repairs))?;
     if geared {
         identify::without_drive(&mut found, file, rotor);
     }

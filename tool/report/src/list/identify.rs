@@ -171,6 +171,7 @@ impl IdentifyView<'_> {
             })
             .value,
             potential_slope: at(k, |point| point.potential_slope),
+            coulomb: at(k, |point| point.coulomb),
         };
         (0..count).map(curve).collect()
     }
@@ -262,7 +263,8 @@ impl IdentifyView<'_> {
             answer.fact("repeatability", text);
         }
         self.friction(&mut answer);
-        self.negative_friction(&mut answer);
+        self.friction_over_the_turn(&curves, &mut answer);
+        self.negative_friction(&curves, &mut answer);
         for log in &self.logs {
             if self.logs.len() > 1 {
                 answer.heading(log.name.clone());
@@ -314,7 +316,7 @@ impl IdentifyView<'_> {
                 Some(mean(|d| d.viscous)),
             ),
             row(
-                "Coulomb friction c [N m]",
+                "Coulomb friction c, mean [N m]",
                 self.mean(|f| f.coulomb),
                 Some(mean(|d| d.coulomb)),
             ),
@@ -353,6 +355,19 @@ impl IdentifyView<'_> {
             rows,
             ..Reading::default()
         });
+    }
+
+    /// The range of Coulomb friction that depends on the angle.
+    fn friction_over_the_turn(&self, curves: &[CurvePoint], answer: &mut Answer) {
+        let varies = |log: &LogResult| !log.found.coulomb_waves.is_empty();
+        if self.logs.iter().any(varies) {
+            let each = curves.iter().map(|point| point.coulomb.value);
+            let [least, most] = each.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], c| {
+                [a.min(c), b.max(c)]
+            });
+            let text = format!("{} to {} N m over the turn", short(least), short(most));
+            answer.fact("Coulomb friction", text);
+        }
     }
 
     fn table(&self, curves: &[CurvePoint]) -> Reading {

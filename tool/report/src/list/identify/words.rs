@@ -189,18 +189,34 @@ impl Signs {
     }
 }
 
-/// Why a log does not determine a machine.
-pub fn refusal(name: &str, why: &Obstacle) -> Report {
+/// Why a log does not determine a machine, of whose rows these were repaired.
+pub fn refusal(name: &str, why: &Obstacle, repairs: &[Repair]) -> Report {
     match *why {
-        Obstacle::Short { rows, needed } => miette!(
-            help = "record 30 s with the speed varied from turn to turn",
-            "{name} is too short: {rows} independent samples are left, {needed} are needed"
+        Obstacle::Short { rows, needed, step } if step > SLOW => miette!(
+            help = "record 30 s with at least 500 samples a second",
+            "{name} has too few samples: {rows} independent ones are left at {} samples a second, {needed} are needed{}",
+            short(1.0 / step),
+            because(repairs)
         ),
-        Obstacle::NotVisited { from, to } => miette!(
-            help = "let the drive link turn fully in the log",
-            "{name}: the angles from {} to {} deg are not visited",
+        Obstacle::Short { rows, needed, .. } => miette!(
+            help = "record 30 s with the speed varied from turn to turn",
+            "{name} is too short: {rows} independent samples are left, {needed} are needed{}",
+            because(repairs)
+        ),
+        Obstacle::NotVisited { from, to, left_out } => miette!(
+            help = if left_out {
+                "accelerate less, raise the torque limit, or record without pauses"
+            } else {
+                "let the drive link turn fully in the log"
+            },
+            "{name}: the angles from {} to {} deg are not visited{}",
             short(from.to_degrees()),
-            short(to.to_degrees())
+            short(to.to_degrees()),
+            if left_out {
+                because(repairs)
+            } else {
+                String::new()
+            }
         ),
         Obstacle::SameSpeed { variation } => miette!(
             help = "vary the speed from turn to turn, for example 60 to 120 rpm in waves of 0.4 to 3 Hz; a cycle repeated identically determines nothing",
@@ -212,6 +228,19 @@ pub fn refusal(name: &str, why: &Obstacle) -> Report {
             "{name}: the motion does not determine the machine"
         ),
     }
+}
+
+/// The samples that are left out, and why.
+fn because(repairs: &[Repair]) -> String {
+    let words = repairs.iter().filter_map(|repair| match *repair {
+        Repair::Saturated { count, torque, .. } => Some(format!(
+            "{count} samples at the torque limit {} N m are left out",
+            short(torque)
+        )),
+        Repair::Gaps { count, .. } => Some(format!("samples are missing in {count} places")),
+        _ => None,
+    });
+    words.map(|word| format!("; {word}")).collect()
 }
 
 /// Why the rows of a log cannot be used.
