@@ -9,6 +9,8 @@
 use std::f64::consts::TAU;
 
 mod basis;
+mod clock;
+mod cogging;
 mod fault;
 mod fit;
 mod likelihood;
@@ -18,6 +20,7 @@ mod place;
 mod record;
 mod result;
 mod shaft;
+mod slip;
 mod smooth;
 mod solution;
 mod visits;
@@ -29,10 +32,10 @@ use matrix::DIAGONALS;
 use solution::Unfit;
 
 pub use fault::{Fault, Obstacle};
-pub use place::{against_design, shift};
+pub use place::{OTHER, against_design, judge_scale, shift};
 pub use record::{RecordFault, Repair, samples};
 pub use result::{Cogging, CurvePoint, Estimate, Excitation, Identified};
-pub use shaft::{Shaft, referred, without_drive};
+pub use shaft::{Shaft, of_motor, referred, without_drive};
 
 /// Highest harmonic that is tried.
 const HARMONICS: usize = 24;
@@ -50,6 +53,9 @@ const BOTH_OFTEN: f64 = 0.2;
 /// Rounds in which the samples of outliers are left out.
 const CLEANING: usize = 4;
 
+/// With faulty samples, a delay (s) that is further from the one to begin with needs another fit: which rows have them depends on it.
+const FURTHER: f64 = 1e-3;
+
 /// Outliers are faults if the torque's noise without them is less than this share: a coarse encoder has some of its own.
 const FEWER: f64 = 0.9;
 
@@ -65,7 +71,7 @@ pub struct Samples {
     pub position: Vec<f64>,
     /// Torque (N·m).
     pub torque: Vec<f64>,
-    /// Samples that are not used: gaps, duplicates, saturated torques.
+    /// Samples that are not used: long gaps, saturated torques.
     pub faulty: Vec<bool>,
 }
 
@@ -86,7 +92,11 @@ pub struct Options {
 /// Why the log does not determine the machine.
 pub fn identify(samples: &Samples, options: &Options) -> Result<Identified, Obstacle> {
     let basis = basis_of(samples, options)?;
-    let first = fitted(samples, &basis, options)?;
+    let mut first = fitted(samples, &basis, options)?;
+    if samples.faulty.contains(&true) && (first.delay - first.start).abs() > FURTHER {
+        let again = fit(samples, &first.basis, options, Some(first.delay), None);
+        first = again.map_err(|unfit| obstacle(samples, unfit))?;
+    }
     let (cleaned, spikes) = cleaned(samples, &first, options);
     let (found, spikes) = match cleaned {
         Some(cleaned) if cleaned.torque_noise < FEWER * first.torque_noise => (cleaned, spikes),

@@ -5,14 +5,10 @@ use serde::Serialize;
 
 use super::Samples;
 use super::fit::Fit;
-use super::matrix::{DIAGONALS, Matrix, whiten};
+use super::matrix::DIAGONALS;
 
 /// Whitened residuals above this many robust standard deviations are outliers.
 const OUTLIER: f64 = 5.0;
-
-/// Rows in a block of the search for a slip; statistic from which on one is reported.
-const BLOCK: usize = 250;
-const SLIP: f64 = 4.5;
 
 /// Why a log does not determine the machine.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -74,16 +70,28 @@ pub enum Fault {
         /// The first (s).
         first: f64,
     },
+    /// The torque has a part of this order that was not asked for.
+    Cogging {
+        /// Periods in a turn of the drive link.
+        order: u32,
+        /// Its amplitude (N·m).
+        amplitude: f64,
+    },
     /// J is negative at every angle: torque or position is reversed.
     Reversed {
-        /// Whether the design fits a reversed position better.
-        position: bool,
+        /// Whether it is the position; `None`: the design is symmetric and fits both.
+        position: Option<bool>,
     },
     /// The curves are those of the design over −φ: torque and position are both reversed.
     Mirrored,
     /// The curves are those of the design with another zero.
     Zero {
         /// The angle at which they have what the design has at φ = 0 (rad).
+        by: f64,
+    },
+    /// The curves are those of the design if the positions are this many times as large.
+    Scale {
+        /// The factor.
         by: f64,
     },
     /// J is not positive at an angle: what was taken out is more than the log has.
@@ -125,59 +133,4 @@ pub(super) fn outliers(fit: &Fit) -> Vec<usize> {
             rows.max_by(|a, b| size(*a).total_cmp(&size(*b)))
         })
         .collect()
-}
-
-/// A slip of the encoder: the place that separates two offsets of the position best.
-pub(super) fn slip(fit: &Fit) -> Option<Fault> {
-    const CHANGE: f64 = 1e-4;
-    let moved: Vec<f64> = fit.motion.position.iter().map(|phi| phi + CHANGE).collect();
-    let torque = |position: &[f64]| {
-        fit.weak
-            .rows(&fit.basis, position, &fit.motion.speed)
-            .times(&fit.theta)
-    };
-    let (moved, here) = (torque(&moved), torque(&fit.motion.position));
-    let mut effect = Matrix::zeros(here.len(), 1);
-    for (i, row) in effect.rows_mut().enumerate() {
-        if fit.kept[i] {
-            row[0] = (moved[i] - here[i]) / CHANGE;
-        }
-    }
-    whiten(&fit.lower, &mut effect);
-    let sums: Vec<[f64; 2]> = (0..here.len() / BLOCK)
-        .map(|b| {
-            let rows = b * BLOCK..(b + 1) * BLOCK;
-            rows.fold([0.0, 0.0], |[de, dd], i| {
-                let d = effect.at(i, 0);
-                [de + d * fit.residuals[i], dd + d * d]
-            })
-        })
-        .collect();
-    let total = sums
-        .iter()
-        .fold([0.0, 0.0], |[a, b], [x, y]| [a + x, b + y]);
-    let mut before = [0.0, 0.0];
-    let mut best: Option<Fault> = None;
-    let last = sums.len().saturating_sub(2);
-    for (i, [de, dd]) in sums.iter().enumerate().take(last) {
-        before = [before[0] + de, before[1] + dd];
-        let after = [total[0] - before[0], total[1] - before[1]];
-        if i < 2 || before[1] <= 0.0 || after[1] <= 0.0 {
-            continue;
-        }
-        // The model's angle must be moved against the slip.
-        let by = before[0] / before[1] - after[0] / after[1];
-        let spread = fit.misfit.max(1.0) * (1.0 / before[1] + 1.0 / after[1]);
-        let statistic = by.abs() / spread.sqrt();
-        let larger =
-            |known: &Fault| !matches!(known, Fault::Slip { statistic: s, .. } if *s >= statistic);
-        if statistic > SLIP && best.as_ref().is_none_or(larger) {
-            best = Some(Fault::Slip {
-                at: ((i + 1) * BLOCK) as f64 * fit.weak.knots(),
-                by,
-                statistic,
-            });
-        }
-    }
-    best
 }

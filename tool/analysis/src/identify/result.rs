@@ -5,9 +5,11 @@ use std::f64::consts::TAU;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::fault::{Fault, slip};
+use super::cogging::cogging;
+use super::fault::Fault;
 use super::fit::{DELAY_STEP, Fit, GRID, rest};
 use super::matrix::dot;
+use super::slip::slip;
 use super::visits::speed_variation;
 use super::{Options, Samples, ways};
 
@@ -227,7 +229,7 @@ pub(super) fn identified(
         faults: Vec::new(),
         curves,
     };
-    identified.faults = faults(&identified, fit, samples, spikes);
+    identified.faults = faults(&identified, fit, samples, options, spikes);
     identified.judge_inertia();
     identified
 }
@@ -255,15 +257,24 @@ fn excitation(fit: &Fit, samples: &Samples, curves: &[CurvePoint]) -> Excitation
     }
 }
 
-fn faults(found: &Identified, fit: &Fit, samples: &Samples, spikes: &[usize]) -> Vec<Fault> {
+fn faults(
+    found: &Identified,
+    fit: &Fit,
+    samples: &Samples,
+    options: &Options,
+    spikes: &[usize],
+) -> Vec<Fault> {
     let mut faults = Vec::new();
     if found.curves.iter().all(|point| point.inertia.value < 0.0) {
-        faults.push(Fault::Reversed { position: false });
+        faults.push(Fault::Reversed { position: None });
     }
-    let slip = slip(fit);
+    let slip = slip(fit, samples, options);
+    if let Some(slip) = slip.as_ref().filter(|slip| slip.proven) {
+        faults.push(slip.fault());
+        return faults;
+    }
     // The jump of a slip is an outlier itself.
-    let near =
-        |at: f64| matches!(slip, Some(Fault::Slip { at: slip, .. }) if (at - slip).abs() < 1.0);
+    let near = |at: f64| slip.as_ref().is_some_and(|slip| (at - slip.at).abs() < 1.0);
     let spikes = spikes.iter().map(|spike| *spike as f64 * samples.step);
     let spikes: Vec<f64> = spikes.filter(|at| !near(*at)).collect();
     if let Some(first) = spikes.iter().copied().reduce(f64::min) {
@@ -272,7 +283,11 @@ fn faults(found: &Identified, fit: &Fit, samples: &Samples, spikes: &[usize]) ->
             first,
         });
     }
-    faults.extend(slip);
+    faults.extend(cogging(fit));
+    // Outliers and cogging look like a slip.
+    if faults.is_empty() {
+        faults.extend(slip.map(|slip| slip.fault()));
+    }
     let rms = (dot(&samples.torque, &samples.torque) / samples.torque.len() as f64).sqrt();
     let share = found.torque_noise / rms;
     if share > NOISY {

@@ -119,13 +119,20 @@ impl Plant {
         j * alpha + 0.5 * slope * omega * omega + load
     }
 
+    /// J and V′ of the design at the angles of the curves.
+    pub(super) fn design(&self) -> Vec<[f64; 2]> {
+        let each = (0..360).map(|k| self.file.machine.reduction(f64::from(k).to_radians()));
+        let each = each.map(Result::unwrap);
+        each.map(|at| [at.inertia, at.potential_slope]).collect()
+    }
+
     pub(super) fn inertias(&self) -> Vec<f64> {
         let phi = (0..360).map(|k| f64::from(k) * TAU / 360.0);
         phi.map(|phi| self.at(phi, 0.0)[0]).collect()
     }
 }
 
-#[derive(Clone, Copy, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Encoder {
     /// 4096 counts.
     Coarse,

@@ -46,6 +46,8 @@ pub struct LogLayout {
     pub counts_per_turn: Option<u32>,
     /// Torque of a current (N·m/A).
     pub torque_constant: Option<f64>,
+    /// Rated torque of the drive (N·m), for torques that are shares of it.
+    pub rated_torque: Option<f64>,
     /// Lines above the header.
     pub skipped: u32,
 }
@@ -95,6 +97,7 @@ pub fn drive_log(name: &str, files: impl Files, layout: &LogLayout) -> Result<Dr
     let section = Section::new("--columns".to_owned(), 0..0, table.get_ref());
     let read = || -> std::result::Result<DriveLog, CsvFault> {
         let own = Layout::read(&section).map_err(CsvFault::InMachine)?;
+        let own = own.at_rated_torque(layout.rated_torque);
         let format = Format {
             known: &COLUMNS,
             ignored: |_| true,
@@ -107,6 +110,18 @@ pub fn drive_log(name: &str, files: impl Files, layout: &LogLayout) -> Result<Dr
             let values = columns.get(index).map(<[f64]>::to_vec);
             values.ok_or_else(|| columns.lacks(message, &plain, EXAMPLE))
         };
+        let is_share = columns
+            .unit(TORQUE_COLUMN)
+            .and_then(columns::share)
+            .is_some();
+        if layout.rated_torque.is_some() && !is_share {
+            let problem = Problem::new(
+                "--rated-torque is given, but the log has no torque in per mille or % of it",
+            );
+            return Err(problem
+                .help("leave out --rated-torque, or write the unit: torque [per mille]")
+                .into());
+        }
         let torque = match (columns.get(TORQUE_COLUMN), columns.get(CURRENT_COLUMN)) {
             (Some(torque), _) => torque.to_vec(),
             (None, Some(current)) => {
@@ -128,11 +143,13 @@ pub fn drive_log(name: &str, files: impl Files, layout: &LogLayout) -> Result<Dr
         })
     };
     let cured = |problem: Problem| {
-        let counts = problem
-            .cure()
-            .is_some_and(|cure| cure.contains("counts_per_turn"));
-        if counts {
+        let cure = problem.cure().unwrap_or_default().to_owned();
+        if cure.contains("counts_per_turn") {
             problem.help("give the counts of a turn of the encoder: --counts-per-turn 8192")
+        } else if cure.contains("leave no cell empty") {
+            problem.help(format!(
+                "{cure}; or delete the row: a missing sample does no harm"
+            ))
         } else {
             problem
         }
