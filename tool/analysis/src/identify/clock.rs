@@ -97,5 +97,5 @@ fn slope(places: &[usize], time: &[f64]) -> f64 {
         let x = *x as f64 - x0;
         [xx + x * x, xt + x * (t - t0)]
     });
-    xt / xx.max(1.0)
+    xt / xx.max(f64::MIN_POSITIVE)
 }

@@ -104,10 +104,10 @@ pub fn samples(
 ) -> Result<(Samples, Vec<Repair>), RecordFault> {
     let mut repairs = Vec::new();
     let rows = Rows::new(time, position, torque, &mut repairs)?;
-    let clock = Clock::new(&rows.time).ok_or(match rows.time.len() {
-        0..=2 => RecordFault::Empty,
-        _ => RecordFault::Scattered,
-    })?;
+    if rows.time.first() == rows.time.last() {
+        return Err(RecordFault::Empty);
+    }
+    let clock = Clock::new(&rows.time).ok_or(RecordFault::Scattered)?;
     let count = clock.places.last().map_or(0, |last| last.saturating_add(1));
     if count as f64 > (1.0 + MISSING) * rows.time.len() as f64 {
         return Err(RecordFault::Scattered);

@@ -159,6 +159,10 @@ fn a_constant_torque_and_lost_times_are_refused() {
     let position: Vec<f64> = time.iter().map(|t| 9.0 * t).collect();
     let same = samples(&time, &position, &vec![2.5; 1000]).unwrap_err();
     assert_eq!(same, RecordFault::Constant { torque: 2.5 });
+    let two = samples(&time[..2], &position[..2], &[1.0, 2.0]).unwrap().0;
+    assert!(two.position.len() == 2 && (two.step - 1e-3).abs() < 1e-12);
+    let once = samples(&[1.0; 9], &position[..9], &time[..9]).unwrap_err();
+    assert_eq!(once, RecordFault::Empty);
     // Twenty rows at once.
     let torque: Vec<f64> = time.iter().map(|t| (3.0 * t).sin()).collect();
     let late: Vec<f64> = (0..1000).map(|k| f64::from(k - k % 20) * 1e-3).collect();
