@@ -25,7 +25,7 @@ const NEIGHBOURS: usize = 10;
 const MOST: usize = 8;
 
 /// What the unknowns leave of an order.
-struct Order {
+struct Candidate {
     order: u32,
     /// Of the rows: cosine and sine.
     waves: [Vec<f64>; 2],
@@ -33,7 +33,7 @@ struct Order {
     inverse: [f64; 3],
 }
 
-impl Order {
+impl Candidate {
     fn new(order: u32, waves: [Vec<f64>; 2]) -> Option<Self> {
         let [c, s] = &waves;
         let [cc, ss, cs] = [dot(c, c), dot(s, s), dot(c, s)];
@@ -70,7 +70,7 @@ pub(super) fn cogging(fit: &Fit) -> Vec<Fault> {
         else {
             break;
         };
-        let Order { order, waves, .. } = &orders[best];
+        let Candidate { order, waves, .. } = &orders[best];
         let (factors, _) = orders[best].fitted(&residuals);
         for (wave, factor) in waves.iter().zip(factors) {
             for (residual, x) in residuals.iter_mut().zip(wave) {
@@ -96,7 +96,7 @@ fn excess(squares: &[f64], at: usize) -> f64 {
 }
 
 /// What the unknowns leave of each order.
-fn left(fit: &Fit) -> Vec<Order> {
+fn left(fit: &Fit) -> Vec<Candidate> {
     let orders = (fit.basis.harmonics as u32 + 1..=HIGHEST)
         .filter(|order| !fit.basis.cogging.contains(order));
     let basis = Basis {
@@ -119,6 +119,6 @@ fn left(fit: &Fit) -> Vec<Order> {
     waves.subtract_product(&fit.instruments, &explained);
     let column = |k: usize| -> Vec<f64> { waves.rows().map(|row| row[k]).collect() };
     let each = basis.cogging.iter().enumerate();
-    each.filter_map(|(k, order)| Order::new(*order, [column(2 * k), column(2 * k + 1)]))
+    each.filter_map(|(k, order)| Candidate::new(*order, [column(2 * k), column(2 * k + 1)]))
         .collect()
 }

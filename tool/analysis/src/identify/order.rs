@@ -50,17 +50,17 @@ impl Fit {
         let found = (first..most).find(|&harmonics| {
             let wide = basis.with_harmonics((harmonics + NEXT).min(most));
             let potential = wide.potential();
-            let tested = (1 + 2 * harmonics..potential)
+            let tested: Vec<usize> = (1 + 2 * harmonics..potential)
                 .chain(potential + 2 * harmonics..wide.mean_load())
                 .collect();
-            tests.insignificant(&wide, tested)
+            tests.insignificant(&wide, &tested)
         });
         let basis = basis.with_harmonics(found.map_or(most, |k| (k + MORE).min(most)));
         let most = basis.friction;
         let found = (0..most).find(|&friction| {
             let wide = basis.with_friction((friction + NEXT).min(most));
-            let tested = (wide.coulomb() + 1 + 2 * friction..wide.cog()).collect();
-            tests.insignificant(&wide, tested)
+            let tested: Vec<usize> = (wide.coulomb() + 1 + 2 * friction..wide.cog()).collect();
+            tests.insignificant(&wide, &tested)
         });
         basis.with_friction(match found {
             Some(0) => 0,
@@ -89,7 +89,7 @@ impl<'f> Tests<'f> {
     }
 
     /// Whether these unknowns of a basis are jointly insignificant (Wald).
-    fn insignificant(&self, basis: &Basis, tested: Vec<usize>) -> bool {
+    fn insignificant(&self, basis: &Basis, tested: &[usize]) -> bool {
         let columns = self.fit.columns_of(basis);
         let Some(inverse) = self.normal.block(&columns).inverse() else {
             return false;
@@ -98,7 +98,7 @@ impl<'f> Tests<'f> {
         let theta = inverse.times(&shown);
         let covariance = inverse.congruence(&self.spread.block(&columns));
         let values: Vec<f64> = tested.iter().map(|&i| theta[i]).collect();
-        let Some(weight) = covariance.block(&tested).inverse() else {
+        let Some(weight) = covariance.block(tested).inverse() else {
             return false;
         };
         let wald = dot(&values, &weight.times(&values)) / self.fit.misfit.max(1.0);

@@ -154,7 +154,7 @@ impl Rows {
         torque: &[f64],
         repairs: &mut Vec<Repair>,
     ) -> Result<Self, RecordFault> {
-        let row = |k: usize| [time[k], position[k], torque[k]];
+        let row = |k: usize| [time[k], position[k], torque[k]].map(f64::to_bits);
         let twice: Vec<usize> = (1..time.len()).filter(|&k| row(k) == row(k - 1)).collect();
         if let Some(&first) = twice.first() {
             repairs.push(Repair::Duplicates {
@@ -179,7 +179,8 @@ impl Rows {
             torque: of(torque),
             numbers: kept.iter().map(|k| k + 1).collect(),
         };
-        let constant = rows.torque.windows(2).all(|pair| pair[0] == pair[1]);
+        let [least, most] = range(&rows.torque);
+        let constant = most <= least;
         match rows.torque.first() {
             Some(&torque) if constant && rows.torque.len() > EQUAL => {
                 Err(RecordFault::Constant { torque })
@@ -187,6 +188,12 @@ impl Rows {
             _ => Ok(rows),
         }
     }
+}
+
+/// The least and the greatest value.
+fn range(values: &[f64]) -> [f64; 2] {
+    let both = [f64::INFINITY, f64::NEG_INFINITY];
+    values.iter().fold(both, |[a, b], &x| [a.min(x), b.max(x)])
 }
 
 /// Reports missing samples.
@@ -248,11 +255,7 @@ fn resampled(
 /// Positions without the jump of an encoder that counts within one turn; others stay.
 fn unwrapped(rows: &Rows, clock: &Clock) -> Result<Vec<f64>, RecordFault> {
     let mut values = rows.position.clone();
-    let [least, most] = values
-        .iter()
-        .fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], &x| {
-            [a.min(x), b.max(x)]
-        });
+    let [least, most] = range(&values);
     // Rounded positions may exceed a turn.
     if most - least > 1.001 * TAU {
         return Ok(values);
@@ -292,9 +295,7 @@ fn unwrapped(rows: &Rows, clock: &Clock) -> Result<Vec<f64>, RecordFault> {
 /// Which rows are at a limit of the torque.
 fn saturated(rows: &Rows, repairs: &mut Vec<Repair>) -> Vec<bool> {
     let torque = &rows.torque;
-    let values = || torque.iter().copied();
-    let most = values().fold(f64::NEG_INFINITY, f64::max);
-    let least = values().fold(f64::INFINITY, f64::min);
+    let [least, most] = range(torque);
     let size = most.abs().max(least.abs());
     let mut marked = vec![false; torque.len()];
     for limit in [most, least] {

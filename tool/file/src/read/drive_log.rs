@@ -146,6 +146,10 @@ pub fn drive_log(name: &str, files: impl Files, layout: &LogLayout) -> Result<Dr
         let cure = problem.cure().unwrap_or_default().to_owned();
         if cure.contains("counts_per_turn") {
             problem.help("give the counts of a turn of the encoder: --counts-per-turn 8192")
+        } else if cure == columns::IN_NEWTON_METRES {
+            problem.help(
+                "give the rated torque of the drive (CiA 402: object 0x6076): --rated-torque \"2.4 N m\"",
+            )
         } else if cure.contains("leave no cell empty") {
             problem.help(format!(
                 "{cure}; or delete the row: a missing sample does no harm"

@@ -25,7 +25,7 @@ use cell::unquoted;
 use header::check_first_lines;
 use layout::Title;
 
-pub(crate) use layout::{Layout, share};
+pub(crate) use layout::{IN_NEWTON_METRES, Layout, share};
 
 /// The largest CSV file (bytes).
 const MAX_SIZE: u64 = 64 << 20;

@@ -15,6 +15,9 @@ use crate::units::kind::{
 use crate::units::quantity::unit_of;
 use crate::units::{Fault, unit};
 
+/// The cure of a torque that is a share of one that the machine file cannot give.
+pub(crate) const IN_NEWTON_METRES: &str = "write the torque in N m";
+
 /// The layout of a file, as the machine file gives it.
 #[derive(Default)]
 pub(crate) struct Layout<'a> {
@@ -29,7 +32,7 @@ pub(crate) struct Layout<'a> {
     /// Angle of one count (rad).
     count: Option<f64>,
     /// The rated torque (N·m) of the drive whose log this is: the torque may be a share of it.
-    rated: Option<Option<f64>>,
+    rated: Option<f64>,
     /// The key of the speed (rad/s) of a master or cam, and its value: velocities and accelerations of the file may be those at this speed.
     speed: Option<(&'static str, Option<f64>)>,
 }
@@ -88,10 +91,7 @@ impl<'a> Layout<'a> {
 
     /// The layout of a log of a drive with this rated torque (N·m), if it is known.
     pub(crate) fn at_rated_torque(self, rated: Option<f64>) -> Self {
-        Self {
-            rated: Some(rated),
-            ..self
-        }
+        Self { rated, ..self }
     }
 
     /// The text with the lines above the header made comments; all bytes keep their positions. The first of them can be the line with which Excel
@@ -144,13 +144,12 @@ impl<'a> Layout<'a> {
         if text == "1" && kind.dimension == SHARE.dimension {
             return Ok(1.0);
         }
-        if let (Some(rated), Some(share)) = (self.rated, share(text))
-            && kind.dimension == TORQUE.dimension
-        {
-            return rated.map(|rated| share * rated).ok_or_else(|| {
+        if let Some(share) = share(text).filter(|_| kind.dimension == TORQUE.dimension) {
+            let rated = self.rated.map(|rated| share * rated);
+            return rated.ok_or_else(|| {
                 Fault::new(
                     "is a share of the rated torque",
-                    "give the rated torque of the drive (CiA 402: object 0x6076): --rated-torque \"2.4 N m\"".to_owned(),
+                    IN_NEWTON_METRES.to_owned(),
                 )
             });
         }

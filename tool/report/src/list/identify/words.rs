@@ -270,13 +270,13 @@ pub fn refusal(name: &str, why: &Obstacle, repairs: &[Repair]) -> Report {
 fn because(repairs: &[Repair]) -> String {
     let words = repairs.iter().filter_map(|repair| match *repair {
         Repair::Saturated { count, torque, .. } => Some(format!(
-            "{count} samples at the torque limit {} N m are left out",
+            "; {count} samples at the torque limit {} N m are left out",
             short(torque)
         )),
-        Repair::Gaps { count, .. } => Some(format!("samples are missing in {count} places")),
+        Repair::Gaps { count, .. } => Some(format!("; samples are missing in {count} places")),
         _ => None,
     });
-    words.map(|word| format!("; {word}")).collect()
+    words.collect()
 }
 
 /// Why the rows of a log cannot be used.
