@@ -24,7 +24,7 @@ const NEIGHBOURS: usize = 10;
 /// The most orders that are reported.
 const MOST: usize = 8;
 
-/// What the unknowns leave of an order.
+/// An order without the part that the unknowns explain.
 struct Candidate {
     order: u32,
     /// Of the rows: cosine and sine.
@@ -95,7 +95,7 @@ fn excess(squares: &[f64], at: usize) -> f64 {
     (around[around.len() / 2] / MEDIAN).max(1.0)
 }
 
-/// What the unknowns leave of each order.
+/// Each order without the part that the unknowns explain.
 fn left(fit: &Fit) -> Vec<Candidate> {
     let orders = (fit.basis.harmonics as u32 + 1..=HIGHEST)
         .filter(|order| !fit.basis.cogging.contains(order));

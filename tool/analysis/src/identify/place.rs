@@ -147,7 +147,7 @@ fn off(found: &Identified, designed: &[[f64; 2]]) -> f64 {
 }
 
 /// Replaces the faults of another machine, or of an unexplained torque, by that of wrong counts, if positions of another scale give the design. `scaled`
-/// identifies the machine with positions that are so many times as large.
+/// identifies the machine with positions times a factor.
 pub fn judge_scale(
     found: &mut Identified,
     designed: &[[f64; 2]],

@@ -1,4 +1,4 @@
-//! What is found against the exact machine.
+//! The identified machine against the exact one.
 
 use std::f64::consts::TAU;
 use std::fmt::Write as _;

@@ -245,7 +245,7 @@ fn faulty_samples_of_a_late_torque_do_no_harm() {
     let mut late = log(&plant, Encoder::Fine, false, 13, 30.0);
     let samples = &mut late.samples;
     samples.torque.rotate_right(7);
-    // What a drive at its limit writes is not the torque.
+    // A drive at its limit may write another torque than it has.
     for k in (500..29_500).step_by(200) {
         samples.torque[k..k + 10].fill(60.0);
         samples.faulty[k..k + 10].fill(true);

@@ -134,7 +134,7 @@ fn one(
         delay: options.delay,
         encoder_step: counts.map(|counts| TAU / counts / ratio.abs()),
     };
-    // With positions that are so many times as large.
+    // With positions times a factor.
     let found = |scale: f64| {
         let mut samples = samples.clone();
         for position in &mut samples.position {

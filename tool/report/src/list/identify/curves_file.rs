@@ -13,7 +13,7 @@ use crate::answer::Answer;
 struct Loads {
     mean_load: f64,
     viscous: f64,
-    /// What c has beside that of the curves: viscous friction that is negative, at the mean speed.
+    /// Added to c of the curves: viscous friction that is negative, at the mean speed.
     more: f64,
 }
 
