@@ -9,16 +9,21 @@
 use std::f64::consts::TAU;
 
 mod basis;
+mod clock;
+mod cogging;
 mod fault;
 mod fit;
 mod likelihood;
 mod matrix;
+mod order;
 mod place;
 mod record;
 mod result;
 mod shaft;
+mod slip;
 mod smooth;
 mod solution;
+mod visits;
 mod weak;
 
 use basis::Basis;
@@ -27,10 +32,10 @@ use matrix::DIAGONALS;
 use solution::Unfit;
 
 pub use fault::{Fault, Obstacle};
-pub use place::{against_design, shift};
+pub use place::{OTHER, against_design, judge_scale, shift};
 pub use record::{RecordFault, Repair, samples};
 pub use result::{Cogging, CurvePoint, Estimate, Excitation, Identified};
-pub use shaft::{Shaft, referred, without_drive};
+pub use shaft::{Shaft, of_motor, referred, without_drive};
 
 /// Highest harmonic that is tried.
 const HARMONICS: usize = 24;
@@ -41,8 +46,15 @@ const FEWEST: usize = 5;
 /// Share of samples in the other direction from which on the mean load is apart from Coulomb friction.
 const BOTH_WAYS: f64 = 0.02;
 
+/// Highest harmonic of c that is tried, and the share of samples in the other direction that it needs.
+const FRICTION: usize = 8;
+const BOTH_OFTEN: f64 = 0.2;
+
 /// Rounds in which the samples of outliers are left out.
 const CLEANING: usize = 4;
+
+/// With faulty samples, a delay (s) that is further from the one to begin with needs another fit: which rows have them depends on it.
+const FURTHER: f64 = 1e-3;
 
 /// Outliers are faults if the torque's noise without them is less than this share: a coarse encoder has some of its own.
 const FEWER: f64 = 0.9;
@@ -59,7 +71,7 @@ pub struct Samples {
     pub position: Vec<f64>,
     /// Torque (N·m).
     pub torque: Vec<f64>,
-    /// Samples that are not used: gaps, duplicates, saturated torques.
+    /// Samples that are not used: long gaps, saturated torques.
     pub faulty: Vec<bool>,
 }
 
@@ -80,14 +92,20 @@ pub struct Options {
 /// Why the log does not determine the machine.
 pub fn identify(samples: &Samples, options: &Options) -> Result<Identified, Obstacle> {
     let basis = basis_of(samples, options)?;
-    let first = fitted(samples, &basis, options)?;
+    let mut first = fitted(samples, &basis, options)?;
+    if samples.faulty.contains(&true) && (first.delay - first.start).abs() > FURTHER {
+        let again = fit(samples, &first.basis, options, Some(first.delay), None);
+        first = again.map_err(|unfit| obstacle(samples, unfit))?;
+    }
     let (cleaned, spikes) = cleaned(samples, &first, options);
     let (found, spikes) = match cleaned {
         Some(cleaned) if cleaned.torque_noise < FEWER * first.torque_noise => (cleaned, spikes),
         _ => (first, Vec::new()),
     };
-    let order = found.order();
-    let found = found.subset(order).map_err(obstacle)?;
+    let basis = found.order();
+    let found = found
+        .subset(basis)
+        .map_err(|unfit| obstacle(samples, unfit))?;
     Ok(result::identified(&found, samples, options, &spikes))
 }
 
@@ -126,14 +144,17 @@ fn ways(speed: &[f64]) -> [f64; 2] {
 
 /// The unknowns that this log may determine.
 fn basis_of(samples: &Samples, options: &Options) -> Result<Basis, Obstacle> {
-    let [forward, back] = ways(&fault::check(samples)?);
-    let mean = forward.min(back) > BOTH_WAYS * (forward + back);
+    let speed = visits::check(samples)?;
+    let [forward, back] = ways(&speed);
+    let share = forward.min(back) / (forward + back);
+    let varied = share > BOTH_OFTEN && visits::both_ways(samples, &speed);
     let orders = options.cogging.iter();
     let (low, cogging): (Vec<u32>, Vec<u32>) =
         orders.partition(|order| **order as usize <= HARMONICS);
     Ok(Basis {
         harmonics: HARMONICS,
-        mean,
+        mean: share > BOTH_WAYS,
+        friction: if varied { FRICTION } else { 0 },
         cogging,
         least: low.into_iter().max().unwrap_or(0) as usize,
     })
@@ -148,7 +169,11 @@ fn fitted(samples: &Samples, basis: &Basis, options: &Options) -> Result<Fit, Ob
         basis = basis.with_harmonics((basis.harmonics * 3 / 4).max(fewest));
         found = fit(samples, &basis, options, None, None);
     }
-    let found = found.map_err(obstacle)?;
+    if let (Err(Unfit::Singular), 1..) = (&found, basis.friction) {
+        basis = basis.with_friction(0);
+        found = fit(samples, &basis, options, None, None);
+    }
+    let found = found.map_err(|unfit| obstacle(samples, unfit))?;
     if found.delay_step.abs() < DELAY_STEP {
         return Ok(found);
     }
@@ -166,7 +191,8 @@ fn fitted(samples: &Samples, basis: &Basis, options: &Options) -> Result<Fit, Ob
     let Some((start, _)) = best else {
         return Ok(found);
     };
-    let again = fit(samples, &basis, options, Some(start), None).map_err(obstacle)?;
+    let again = fit(samples, &basis, options, Some(start), None)
+        .map_err(|unfit| obstacle(samples, unfit))?;
     Ok(if again.torque_noise < found.torque_noise {
         again
     } else {
@@ -174,9 +200,9 @@ fn fitted(samples: &Samples, basis: &Basis, options: &Options) -> Result<Fit, Ob
     })
 }
 
-fn obstacle(unfit: Unfit) -> Obstacle {
+fn obstacle(samples: &Samples, unfit: Unfit) -> Obstacle {
     match unfit {
-        Unfit::Few { rows, needed } => Obstacle::Short { rows, needed },
+        Unfit::Few { rows, needed } => Obstacle::short(samples, rows, needed),
         Unfit::Singular => Obstacle::NotDetermined,
     }
 }

@@ -1,5 +1,7 @@
 //! `jred identify`: logs that are refused, and the way of a log to a firmware table.
 
+mod causes;
+
 use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
@@ -34,11 +36,9 @@ fn rows(row: usize, change: impl Fn(f64) -> String, omega: impl Fn(f64) -> f64) 
 
 #[test]
 fn a_log_that_cannot_be_used_says_why_and_what_to_do() {
-    let folder = tempfile::tempdir().unwrap();
     let even = |_: f64| 9.0;
     let as_it_is = |t: f64| t.to_string();
     let swing = |t: f64| 2.0 * (3.0 * t).cos();
-    let four_bar = "% Time s, Goal Current mA, Present Current mA, Present Voltage V, Present Position rad, Present Velocity rad/s\n0,1,2,3,4,5\n0.001,1,2,3,4,5\n";
     let cases = [
         (
             rows(0, as_it_is, even),
@@ -64,7 +64,63 @@ fn a_log_that_cannot_be_used_says_why_and_what_to_do() {
         (
             rows(70, |_| "NaN".to_owned(), even),
             "",
-            ["row 70: \"NaN\" in the column", "write plain numbers"],
+            ["row 70: \"NaN\" in the column", "or delete the row"],
+        ),
+        (
+            rows(70, |_| String::new(), even),
+            "",
+            [
+                "row 70: the column \"time [s]\" is empty",
+                "or delete the row",
+            ],
+        ),
+    ];
+    refused(&cases);
+}
+
+#[test]
+fn torques_that_cannot_be_used_say_why() {
+    let four_bar = "% Time s, Goal Current mA, Present Current mA, Present Voltage V, Present Position rad, Present Velocity rad/s\n0,1,2,3,4,5\n0.001,1,2,3,4,5\n";
+    let cases = [
+        (
+            "time [s],position [rad],torque [N m]\n0,0,2.5\n0.001,0.1,2.5\n0.002,0.2,2.5\n0.003,0.3,2.5\n".to_owned(),
+            "",
+            [
+                "the torque is 2.5 N m in every row",
+                "log the torque or the current that acts",
+            ],
+        ),
+        (
+            "time [s],position [rad],torque [per mille]\n0,0,1\n0.001,0.1,1\n".to_owned(),
+            "",
+            [
+                "is a share of the rated torque",
+                "give the rated torque of the drive",
+            ],
+        ),
+        (
+            "time [s],position [rad],torque [N m]\n0,0,1\n0.001,0.1,1\n".to_owned(),
+            "--rated-torque 2.4Nm",
+            [
+                "--rated-torque is given, but the log has no torque in per mille or % of it",
+                "leave out --rated-torque",
+            ],
+        ),
+        (
+            example_every(12),
+            "--counts-per-turn 4096",
+            [
+                "has too few samples",
+                "at least 500 samples a second",
+            ],
+        ),
+        (
+            example(|phi, torque| [phi, torque.clamp(-10.0, 1.0)]),
+            "--counts-per-turn 4096",
+            [
+                "samples at the torque limit 1 N m are left out",
+                "raise the torque limit",
+            ],
         ),
         (
             "time [s],position [rad],torque [N m]\n0,0,1\n0.001,0.1,1\n".to_owned(),
@@ -90,8 +146,14 @@ fn a_log_that_cannot_be_used_says_why_and_what_to_do() {
             ["is in counts", "--counts-per-turn"],
         ),
     ];
+    refused(&cases);
+}
+
+/// Each log, with these options, is refused with these words.
+fn refused(cases: &[(String, &str, [&str; 2])]) {
+    let folder = tempfile::tempdir().unwrap();
     for (text, options, expected) in cases {
-        let run = of_text(folder.path(), &text, options);
+        let run = of_text(folder.path(), text, options);
         assert_eq!(run.code, 2, "{}", run.err);
         // Lines are wrapped.
         let words: Vec<&str> = run.err.split_whitespace().collect();
@@ -151,6 +213,19 @@ fn example(change: impl Fn(f64, f64) -> [f64; 2]) -> String {
         writeln!(changed, "{},{position},{torque}", cells[0]).unwrap();
     }
     changed
+}
+
+/// The example log with every so-manieth row.
+fn example_every(rows: usize) -> String {
+    let text = fs::read_to_string(shipped("four-bar-log.csv")).unwrap();
+    let mut lines = text.lines();
+    let header = lines.next().unwrap();
+    let kept = lines.step_by(rows);
+    [header]
+        .into_iter()
+        .chain(kept)
+        .collect::<Vec<_>>()
+        .join("\n")
 }
 
 const COUNTED: &str = "--counts-per-turn 4096 --cogging 36";

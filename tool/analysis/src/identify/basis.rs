@@ -1,14 +1,16 @@
-//! The unknowns: harmonics of J and of V′, friction and cogging.
+//! The unknowns: harmonics of J, of V′ and of friction, and cogging.
 
 use jred_file::math;
 
-/// Which unknowns there are, in this order: J's mean, cosines and sines; V′'s cosines and sines; a mean load; b; c; cogging.
+/// Which unknowns there are, in this order: J's mean, cosines and sines; V′'s cosines and sines; a mean load; b; c's mean, cosines and sines; cogging.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Basis {
     /// Highest harmonic of J and of V′.
     pub(super) harmonics: usize,
     /// Whether there is a mean load: in one direction it is the same as Coulomb friction.
     pub(super) mean: bool,
+    /// Highest harmonic of c; 0 in one direction, where it is the same as one of V′.
+    pub(super) friction: usize,
     /// Orders of the cogging above the harmonics.
     pub(super) cogging: Vec<u32>,
     /// The highest order of cogging that is a harmonic of V′; 0 without one.
@@ -22,6 +24,8 @@ pub(super) struct AtPosition {
     pub(super) inertia_curvature: f64,
     /// Slope of V′ and of the cogging.
     pub(super) stiffness: f64,
+    /// Slope of c.
+    pub(super) friction_slope: f64,
 }
 
 impl Basis {
@@ -48,7 +52,7 @@ impl Basis {
 
     /// The first of the cogging.
     pub(super) fn cog(&self) -> usize {
-        self.viscous() + 2
+        self.coulomb() + 1 + 2 * self.friction
     }
 
     pub(super) fn unknowns(&self) -> usize {
@@ -69,14 +73,17 @@ impl Basis {
 
     /// Factors of the unknowns in J.
     pub(super) fn inertia_row(&self, phi: f64) -> Vec<f64> {
-        let k = (1..=self.harmonics).map(|k| k as f64 * phi);
-        let waves = k.flat_map(|angle| [math::cos(angle), math::sin(angle)]);
-        [1.0].into_iter().chain(waves).collect()
+        row(self.harmonics, phi)
     }
 
     /// Factors of the unknowns in V′.
     pub(super) fn potential_row(&self, phi: f64) -> Vec<f64> {
         self.inertia_row(phi)[1..].to_vec()
+    }
+
+    /// Factors of the unknowns in c.
+    pub(super) fn friction_row(&self, phi: f64) -> Vec<f64> {
+        row(self.friction, phi)
     }
 
     pub(super) fn at(&self, theta: &[f64], waves: &[[f64; 2]], phi: f64) -> AtPosition {
@@ -85,6 +92,7 @@ impl Basis {
             inertia_slope: 0.0,
             inertia_curvature: 0.0,
             stiffness: 0.0,
+            friction_slope: 0.0,
         };
         let v = &theta[self.potential()..];
         for (k, [c, s]) in waves.iter().enumerate().skip(1) {
@@ -96,6 +104,10 @@ impl Basis {
             at.inertia_curvature -= order * order * value;
             at.stiffness += order * (v[2 * k - 1] * c - v[2 * k - 2] * s);
         }
+        let c = theta[self.coulomb() + 1..].chunks(2).take(self.friction);
+        for ((k, ab), [cos, sin]) in (1..).zip(c).zip(waves.iter().skip(1)) {
+            at.friction_slope += f64::from(k) * (ab[1] * cos - ab[0] * sin);
+        }
         for (q, ab) in self.cogging.iter().zip(theta[self.cog()..].chunks(2)) {
             let order = f64::from(*q);
             let (s, c) = math::sin_cos(order * phi);
@@ -105,19 +117,36 @@ impl Basis {
     }
 
     /// The unknowns of this basis that one with fewer harmonics has too.
-    pub(super) fn columns_of(&self, harmonics: usize) -> Vec<usize> {
-        let potential = self.potential();
-        (0..=2 * harmonics)
-            .chain(potential..potential + 2 * harmonics)
-            .chain(self.mean_load()..self.unknowns())
+    pub(super) fn columns_of(&self, fewer: &Self) -> Vec<usize> {
+        let (potential, coulomb) = (self.potential(), self.coulomb());
+        (0..fewer.inertias())
+            .chain(potential..potential + 2 * fewer.harmonics)
+            .chain(self.mean_load()..=coulomb + 2 * fewer.friction)
+            .chain(self.cog()..self.unknowns())
             .collect()
     }
 
-    /// The same with fewer harmonics.
+    /// The same with fewer harmonics of J and V′; c has no more than they.
     pub(super) fn with_harmonics(&self, harmonics: usize) -> Self {
         Self {
             harmonics,
+            friction: self.friction.min(harmonics),
             ..self.clone()
         }
     }
+
+    /// The same with fewer harmonics of c.
+    pub(super) fn with_friction(&self, friction: usize) -> Self {
+        Self {
+            friction,
+            ..self.clone()
+        }
+    }
+}
+
+/// 1, and cosine and sine of each harmonic.
+fn row(harmonics: usize, phi: f64) -> Vec<f64> {
+    let k = (1..=harmonics).map(|k| k as f64 * phi);
+    let waves = k.flat_map(|angle| [math::cos(angle), math::sin(angle)]);
+    [1.0].into_iter().chain(waves).collect()
 }

@@ -1,32 +1,14 @@
 //! Faults of a log, and obstacles to an identification.
 
-use std::f64::consts::TAU;
-
 use schemars::JsonSchema;
 use serde::Serialize;
 
+use super::Samples;
 use super::fit::Fit;
-use super::matrix::{DIAGONALS, Matrix, whiten};
-use super::{Samples, within_turn};
-
-/// Number of angle bins in a turn.
-const BINS: usize = 72;
-
-/// A bin with less than this share of the mean is not visited.
-const VISITED: f64 = 0.1;
-
-/// The least number of samples whose speed is a filtered one.
-const SHORTEST: usize = 500;
-
-/// The least number of samples in a bin from which a variation follows.
-const IN_BIN: usize = 20;
+use super::matrix::DIAGONALS;
 
 /// Whitened residuals above this many robust standard deviations are outliers.
 const OUTLIER: f64 = 5.0;
-
-/// Rows in a block of the search for a slip; statistic from which on one is reported.
-const BLOCK: usize = 250;
-const SLIP: f64 = 4.5;
 
 /// Why a log does not determine the machine.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,6 +19,8 @@ pub enum Obstacle {
         rows: usize,
         /// How many are needed.
         needed: usize,
+        /// Time between two samples (s).
+        step: f64,
     },
     /// Angles that are not visited, the longest range (rad).
     NotVisited {
@@ -44,6 +28,8 @@ pub enum Obstacle {
         from: f64,
         /// Its last angle.
         to: f64,
+        /// Whether the log visits them, with samples that are left out.
+        left_out: bool,
     },
     /// The speed is the same in every turn: share by which ω² varies at an angle.
     SameSpeed {
@@ -52,6 +38,16 @@ pub enum Obstacle {
     },
     /// The unknowns cannot be told apart.
     NotDetermined,
+}
+
+impl Obstacle {
+    pub(super) const fn short(samples: &Samples, rows: usize, needed: usize) -> Self {
+        Self::Short {
+            rows,
+            needed,
+            step: samples.step,
+        }
+    }
 }
 
 /// A fault of the log that was found.
@@ -74,16 +70,28 @@ pub enum Fault {
         /// The first (s).
         first: f64,
     },
+    /// The torque has a part of this order that was not asked for.
+    Cogging {
+        /// Periods in a turn of the drive link.
+        order: u32,
+        /// Its amplitude (N·m).
+        amplitude: f64,
+    },
     /// J is negative at every angle: torque or position is reversed.
     Reversed {
-        /// Whether the design fits a reversed position better.
-        position: bool,
+        /// Whether it is the position; `None`: the design is symmetric and fits both.
+        position: Option<bool>,
     },
     /// The curves are those of the design over −φ: torque and position are both reversed.
     Mirrored,
     /// The curves are those of the design with another zero.
     Zero {
         /// The angle at which they have what the design has at φ = 0 (rad).
+        by: f64,
+    },
+    /// The curves are those of the design if the positions are this many times as large.
+    Scale {
+        /// The factor.
         by: f64,
     },
     /// J is not positive at an angle: what was taken out is more than the log has.
@@ -103,80 +111,6 @@ pub enum Fault {
         /// The last value (s).
         at: f64,
     },
-}
-
-/// Angles, speeds and their variation.
-pub(super) struct Visits {
-    /// Median over the angles of std ω²/mean ω²; `None`: too few samples at each.
-    pub(super) variation: Option<f64>,
-    /// The longest range of empty bins.
-    gap: Option<[usize; 2]>,
-}
-
-/// Which angles are visited, at which speeds.
-pub(super) fn visits(samples: &Samples, speed: &[f64]) -> Visits {
-    let mut bins = vec![Vec::new(); BINS];
-    for ((phi, omega), faulty) in samples.position.iter().zip(speed).zip(&samples.faulty) {
-        if !faulty {
-            let bin = (within_turn(*phi) / TAU * BINS as f64) as usize;
-            bins[bin.min(BINS - 1)].push(omega * omega);
-        }
-    }
-    let mean = bins.iter().map(Vec::len).sum::<usize>() as f64 / BINS as f64;
-    let empty: Vec<bool> = bins
-        .iter()
-        .map(|bin| (bin.len() as f64) < VISITED * mean)
-        .collect();
-    let mut gap: Option<[usize; 2]> = None;
-    let mut length = 0;
-    for k in 0..2 * BINS {
-        length = if empty[k % BINS] { length + 1 } else { 0 };
-        if length > 0 && gap.is_none_or(|[_, longest]| length > longest) && length <= BINS {
-            gap = Some([k + 1 - length, length]);
-        }
-    }
-    let mut each: Vec<f64> = bins
-        .iter()
-        .filter(|bin| bin.len() >= IN_BIN)
-        .map(|bin| {
-            let count = bin.len() as f64;
-            let mean = bin.iter().sum::<f64>() / count;
-            let square = bin.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / count;
-            square.sqrt() / mean.max(1e-9)
-        })
-        .collect();
-    each.sort_by(f64::total_cmp);
-    Visits {
-        variation: each.get(each.len() / 2).copied(),
-        gap,
-    }
-}
-
-/// The smoothed speed; refuses a log that cannot determine a machine, whatever the fit.
-pub(super) fn check(samples: &Samples) -> Result<Vec<f64>, Obstacle> {
-    let count = samples.position.len();
-    let short = Obstacle::Short {
-        rows: count,
-        needed: BINS * IN_BIN,
-    };
-    if count < SHORTEST {
-        return Err(short);
-    }
-    let half = ((0.05 / samples.step) as usize).max(8);
-    let speed = super::smooth::smooth(&samples.position, samples.step, half).speed;
-    let visits = visits(samples, &speed);
-    if let Some([from, length]) = visits.gap {
-        let width = TAU / BINS as f64;
-        return Err(Obstacle::NotVisited {
-            from: (from % BINS) as f64 * width,
-            to: ((from % BINS) + length) as f64 * width,
-        });
-    }
-    let variation = visits.variation.ok_or(short)?;
-    if variation < 0.05 {
-        return Err(Obstacle::SameSpeed { variation });
-    }
-    Ok(speed)
 }
 
 /// Rows whose residual is too large: the largest of those that one sample may cause, whose effect whitening carries on.
@@ -199,59 +133,4 @@ pub(super) fn outliers(fit: &Fit) -> Vec<usize> {
             rows.max_by(|a, b| size(*a).total_cmp(&size(*b)))
         })
         .collect()
-}
-
-/// A slip of the encoder: the place that separates two offsets of the position best.
-pub(super) fn slip(fit: &Fit) -> Option<Fault> {
-    const CHANGE: f64 = 1e-4;
-    let moved: Vec<f64> = fit.motion.position.iter().map(|phi| phi + CHANGE).collect();
-    let torque = |position: &[f64]| {
-        fit.weak
-            .rows(&fit.basis, position, &fit.motion.speed)
-            .times(&fit.theta)
-    };
-    let (moved, here) = (torque(&moved), torque(&fit.motion.position));
-    let mut effect = Matrix::zeros(here.len(), 1);
-    for (i, row) in effect.rows_mut().enumerate() {
-        if fit.kept[i] {
-            row[0] = (moved[i] - here[i]) / CHANGE;
-        }
-    }
-    whiten(&fit.lower, &mut effect);
-    let sums: Vec<[f64; 2]> = (0..here.len() / BLOCK)
-        .map(|b| {
-            let rows = b * BLOCK..(b + 1) * BLOCK;
-            rows.fold([0.0, 0.0], |[de, dd], i| {
-                let d = effect.at(i, 0);
-                [de + d * fit.residuals[i], dd + d * d]
-            })
-        })
-        .collect();
-    let total = sums
-        .iter()
-        .fold([0.0, 0.0], |[a, b], [x, y]| [a + x, b + y]);
-    let mut before = [0.0, 0.0];
-    let mut best: Option<Fault> = None;
-    let last = sums.len().saturating_sub(2);
-    for (i, [de, dd]) in sums.iter().enumerate().take(last) {
-        before = [before[0] + de, before[1] + dd];
-        let after = [total[0] - before[0], total[1] - before[1]];
-        if i < 2 || before[1] <= 0.0 || after[1] <= 0.0 {
-            continue;
-        }
-        // The model's angle must be moved against the slip.
-        let by = before[0] / before[1] - after[0] / after[1];
-        let spread = fit.misfit.max(1.0) * (1.0 / before[1] + 1.0 / after[1]);
-        let statistic = by.abs() / spread.sqrt();
-        let larger =
-            |known: &Fault| !matches!(known, Fault::Slip { statistic: s, .. } if *s >= statistic);
-        if statistic > SLIP && best.as_ref().is_none_or(larger) {
-            best = Some(Fault::Slip {
-                at: ((i + 1) * BLOCK) as f64 * fit.weak.knots(),
-                by,
-                statistic,
-            });
-        }
-    }
-    best
 }

@@ -28,7 +28,7 @@ const SPEED_WINDOW: f64 = 12e-3;
 pub(super) const DELAY_STEP: f64 = 1e-3;
 
 /// The delay to begin with (s).
-const DELAY: f64 = 1e-3;
+pub(super) const DELAY: f64 = 1e-3;
 
 /// Rows are left out if their support is this close (s) to a faulty sample or to rest.
 const NEAR: f64 = 3e-3;
@@ -54,6 +54,8 @@ pub(super) const GRID: usize = 360;
 pub(super) struct Fit {
     pub(super) basis: Basis,
     pub(super) theta: Vec<f64>,
+    /// The delay (s) that it began with.
+    pub(super) start: f64,
     /// The delay (s), that of the rows, and its last change before it was bounded.
     pub(super) delay: f64,
     pub(super) delay_of_rows: f64,
@@ -118,7 +120,8 @@ struct Prepared {
 }
 
 impl Prepared {
-    fn new(samples: &Samples, basis: &Basis, options: &Options) -> Result<Self, Unfit> {
+    /// For torques that are late by about `delay`.
+    fn new(samples: &Samples, basis: &Basis, options: &Options, delay: f64) -> Result<Self, Unfit> {
         let (step, position) = (samples.step, &samples.position);
         let count = position.len();
         let spacing = ((KNOTS / step).round() as usize).max(2);
@@ -143,7 +146,14 @@ impl Prepared {
         let margin = 2.0 * half_window(first_cutoff, step) as f64 + 5e-3 / step;
         let edge = (margin / spacing as f64).ceil() as usize + 1;
         let near = (NEAR / step + 1e-9) as usize;
-        let faulty = weak.touched(samples.faulty.iter().copied(), near);
+        // A sample has the position of its time, and the torque of an earlier one.
+        let late = (delay / step).round() as isize;
+        let of_torque = |k: usize| {
+            k.checked_add_signed(late)
+                .and_then(|k| samples.faulty.get(k))
+        };
+        let faulty = (0..count).map(|k| samples.faulty[k] || of_torque(k) == Some(&true));
+        let faulty = weak.touched(faulty, near);
         let rest = rest(&raw);
         let resting = instruments.motion.speed.iter().map(|w| w.abs() < rest);
         let resting = weak.touched(resting, near);
@@ -168,7 +178,7 @@ impl Prepared {
 }
 
 /// The rows, with zeros where they do not count.
-fn masked(rows: &Matrix, kept: &[bool]) -> Matrix {
+pub(super) fn masked(rows: &Matrix, kept: &[bool]) -> Matrix {
     let mut masked = rows.clone();
     for (row, kept) in masked.rows_mut().zip(kept) {
         if !kept {
@@ -191,6 +201,8 @@ pub(super) fn fit(
     start: Option<f64>,
     rounds: Option<usize>,
 ) -> Result<Fit, Unfit> {
+    let delay_free = options.delay.is_none();
+    let start = options.delay.or(start).unwrap_or(DELAY);
     let Prepared {
         weak,
         rows,
@@ -199,9 +211,8 @@ pub(super) fn fit(
         used,
         turns,
         mut instruments,
-    } = Prepared::new(samples, basis, options)?;
-    let delay_free = options.delay.is_none();
-    let mut delay = options.delay.or(start).unwrap_or(DELAY);
+    } = Prepared::new(samples, basis, options, start)?;
+    let mut delay = start;
     let torque_band = weak.torque_band();
     // Without weights, to begin with.
     let right = weak.torque(&samples.torque, delay)[0].clone();
@@ -273,6 +284,7 @@ pub(super) fn fit(
     Ok(Fit {
         basis: basis.clone(),
         theta: found.theta,
+        start,
         delay,
         delay_of_rows,
         delay_step,
@@ -295,66 +307,6 @@ pub(super) fn fit(
 impl Fit {
     pub(super) fn used(&self) -> usize {
         self.kept.iter().filter(|kept| **kept).count()
-    }
-
-    /// The same rows with fewer harmonics.
-    pub(super) fn subset(mut self, harmonics: usize) -> Result<Self, Unfit> {
-        let mut columns = self.basis.columns_of(harmonics);
-        if self.delay_free {
-            columns.push(self.basis.unknowns());
-        }
-        self.whitened = self.whitened.select(&columns);
-        self.instruments = self.instruments.select(&columns);
-        let used = self.used();
-        let mut found = solve(&self.whitened, &self.instruments, &self.right, used)?;
-        if self.delay_free {
-            self.delay = self.delay_of_rows + found.theta.pop().unwrap_or_default();
-        }
-        self.basis = self.basis.with_harmonics(harmonics);
-        self.theta = found.theta;
-        self.misfit = found.misfit;
-        self.covariances = found.covariances;
-        self.residuals = found.residuals;
-        Ok(self)
-    }
-
-    /// The smallest number of harmonics whose next ones are jointly insignificant (Wald), and two more.
-    pub(super) fn order(&self) -> usize {
-        const NEXT: usize = 4;
-        const FROM: usize = 3;
-        const MORE: usize = 2;
-        let most = self.basis.harmonics;
-        let normal = self.instruments.transposed_product(&self.whitened);
-        let spread = self.instruments.transposed_product(&self.instruments);
-        let right = self.instruments.transposed_times(&self.right);
-        for harmonics in FROM.max(self.basis.least)..most {
-            let next = NEXT.min(most - harmonics);
-            let wide = self.basis.with_harmonics(harmonics + next);
-            let mut columns = self.basis.columns_of(harmonics + next);
-            if self.delay_free {
-                columns.push(self.basis.unknowns());
-            }
-            let Some(inverse) = normal.block(&columns).inverse() else {
-                continue;
-            };
-            let shown: Vec<f64> = columns.iter().map(|&c| right[c]).collect();
-            let theta = inverse.times(&shown);
-            let covariance = inverse.congruence(&spread.block(&columns));
-            let potential = wide.potential();
-            let tested: Vec<usize> = (1 + 2 * harmonics..potential)
-                .chain(potential + 2 * harmonics..wide.mean_load())
-                .collect();
-            let values: Vec<f64> = tested.iter().map(|&i| theta[i]).collect();
-            let Some(weight) = covariance.block(&tested).inverse() else {
-                continue;
-            };
-            let wald = dot(&values, &weight.times(&values)) / self.misfit.max(1.0);
-            let count = tested.len() as f64;
-            if wald < count + 2.5 * (2.0 * count).sqrt() {
-                return (harmonics + MORE).min(most);
-            }
-        }
-        most
     }
 
     /// Variance of a sum of unknowns, from unknown `from` on with these factors: the larger of the two covariances.

@@ -97,6 +97,15 @@ impl Matrix {
         sum
     }
 
+    /// Takes A·B away.
+    pub(super) fn subtract_product(&mut self, a: &Self, b: &Self) {
+        for (into, factors) in self.rows_mut().zip(a.rows()) {
+            for (factor, row) in factors.iter().zip(b.rows()) {
+                add(into, -factor, row);
+            }
+        }
+    }
+
     /// A·S·Aᵀ of a square S.
     pub(super) fn congruence(&self, inner: &Self) -> Self {
         let rows: Vec<Vec<f64>> = self.rows().map(|a| inner.transposed_times(a)).collect();

@@ -120,6 +120,56 @@ fn caused(own: &Curves, others: &Curves, bands: [f64; 2]) -> Option<f64> {
         .then_some(place.shift)
 }
 
+/// Positions of a log that are this many times too small: encoders are counted by one, two or four edges.
+const SCALES: [f64; 4] = [0.25, 0.5, 2.0, 4.0];
+
+/// A deviation of J from the design above this share of its maximum is no tolerance.
+pub const OTHER: f64 = 0.5;
+
+/// The mean square by which J and V′ are off the design, at the best shift, as shares of its largest values.
+fn off(found: &Identified, designed: &[[f64; 2]]) -> f64 {
+    let most = designed.iter().fold([1e-150f64; 2], |[a, b], [j, v]| {
+        [a.max(j.abs()), b.max(v.abs())]
+    });
+    let own = found
+        .curves
+        .iter()
+        .map(|p| [p.inertia.value, p.potential_slope.value]);
+    let [own, design]: [Vec<[f64; 2]>; 2] = [own.collect(), designed.to_vec()];
+    let at = |by: usize| -> f64 {
+        let shifted = own.iter().cycle().skip(by);
+        let square = |(a, b): (&[f64; 2], &[f64; 2])| {
+            ((a[0] - b[0]) / most[0]).powi(2) + ((a[1] - b[1]) / most[1]).powi(2)
+        };
+        shifted.zip(&design).map(square).sum()
+    };
+    (0..own.len()).map(at).fold(f64::INFINITY, f64::min)
+}
+
+/// Replaces the faults of another machine, or of an unexplained torque, by that of wrong counts, if positions of another scale give the design. `scaled`
+/// identifies the machine with positions times a factor.
+pub fn judge_scale(
+    found: &mut Identified,
+    designed: &[[f64; 2]],
+    scaled: impl Fn(f64) -> Option<Identified>,
+) {
+    let most = designed.iter().fold(0.0, |most: f64, [j, _]| most.max(*j));
+    let mut both = found.curves.iter().zip(designed);
+    let other = both.any(|(p, [j, _])| (p.inertia.value - j).abs() > OTHER * most);
+    let noisy = |fault: &Fault| matches!(fault, Fault::Noisy { .. });
+    let reversed = |fault: &Fault| matches!(fault, Fault::Reversed { .. });
+    if !other && !found.faults.iter().any(noisy) || found.faults.iter().any(reversed) {
+        return;
+    }
+    let each = SCALES
+        .iter()
+        .filter_map(|&by| Some((by, off(&scaled(by)?, designed))));
+    let best = each.min_by(|a, b| a.1.total_cmp(&b.1));
+    if let Some((by, _)) = best.filter(|best| best.1 < CAUSE * off(found, designed)) {
+        found.faults = vec![Fault::Scale { by }];
+    }
+}
+
 /// Adds the faults that only the design (J, V′ at the angles of the curves) shows: the other zero, the mirrored position, and what is reversed.
 pub fn against_design(found: &mut Identified, designed: &[[f64; 2]]) {
     let (own, design) = (
@@ -135,13 +185,11 @@ pub fn against_design(found: &mut Identified, designed: &[[f64; 2]]) {
         let torque = own.scaled(-1.0).place(&design, bands);
         let position = own.mirrored([-1.0, 1.0]).place(&design, bands);
         // Of two that fit alike at some zero, the one that fits at this zero.
-        let alike = torque.best < position.best / CAUSE && position.best < torque.best / CAUSE;
+        let better = |a: f64, b: f64| a < CAUSE * b;
+        let pairs = [(position.best, torque.best), (position.here, torque.here)];
+        let decided = pairs.iter().find(|(a, b)| better(*a, *b) || better(*b, *a));
         found.faults[at] = Fault::Reversed {
-            position: if alike {
-                position.here < torque.here
-            } else {
-                position.best < torque.best
-            },
+            position: decided.map(|(position, torque)| position < torque),
         };
     } else if own.mirrored([1.0, -1.0]).place(&design, bands).best
         < CAUSE * own.place(&design, bands).best

@@ -3,15 +3,17 @@
 use std::f64::consts::{PI, TAU};
 
 use super::Samples;
+use super::clock::Clock;
+use super::smooth::noise;
 
-/// Longer than this many steps is a gap.
-const GAP: f64 = 1.5;
+/// Gaps of up to this duration (s) are interpolated: what a motion does in it is below the noise.
+const SHORT_GAP: f64 = 4e-3;
 
 /// Times off the equal steps by more than this share of a step are reported.
 const JITTER: f64 = 0.2;
 
-/// Share of a step by which the same instant may differ: rounded times.
-const SAME: f64 = 2e-3;
+/// The position must be smoother by this factor for the times to be those of the samples.
+const SMOOTHER: f64 = 0.5;
 
 /// Equal largest torques in a row that are a limit of the drive.
 const EQUAL: usize = 3;
@@ -41,10 +43,12 @@ pub enum Repair {
         /// Duration of the longest (s).
         longest: f64,
     },
-    /// Times that scatter: position and torque are interpolated.
+    /// Times that scatter.
     Jitter {
-        /// Largest distance from equal steps, as a share of a step.
-        share: f64,
+        /// Largest distance from equal steps (s).
+        by: f64,
+        /// Whether the samples are at equal steps all the same: so the position is smoother. Else position and torque are interpolated.
+        equal: bool,
     },
     /// The torque reaches a limit: these samples are left out.
     Saturated {
@@ -78,8 +82,13 @@ pub enum RecordFault {
         /// The longest that is possible at the log's largest speed (s).
         longest: f64,
     },
-    /// Most of the samples are missing.
+    /// Most of the samples are missing, or the times scatter so much that their order says nothing.
     Scattered,
+    /// The torque is the same in all rows.
+    Constant {
+        /// The torque (N·m).
+        torque: f64,
+    },
     /// There are fewer than two different times.
     Empty,
 }
@@ -94,135 +103,159 @@ pub fn samples(
     torque: &[f64],
 ) -> Result<(Samples, Vec<Repair>), RecordFault> {
     let mut repairs = Vec::new();
-    let kept = rising(time, &mut repairs)?;
-    let mut steps: Vec<f64> = kept.windows(2).map(|k| time[k[1]] - time[k[0]]).collect();
-    steps.sort_by(f64::total_cmp);
-    let Some(&median) = steps.get(steps.len() / 2) else {
+    let rows = Rows::new(time, position, torque, &mut repairs)?;
+    if rows.time.first() == rows.time.last() {
         return Err(RecordFault::Empty);
-    };
-    // Places on the grid, and where rows are missing.
-    let mut places = Vec::with_capacity(kept.len());
-    let mut place = 0usize;
-    let (mut gaps, mut longest, mut after) = (0, 0.0f64, 0);
-    for (k, &row) in kept.iter().enumerate() {
-        if let Some(&before) = k.checked_sub(1).and_then(|k| kept.get(k)) {
-            let step = time[row] - time[before];
-            let whole = (step / median).round().max(1.0);
-            if step > GAP * median {
-                if gaps == 0 {
-                    after = row + 1;
-                }
-                gaps += 1;
-                longest = longest.max(step);
-            }
-            place = place.saturating_add(if step > GAP * median {
-                whole as usize
-            } else {
-                1
-            });
-        }
-        places.push(place);
     }
-    if place as f64 > (1.0 + MISSING) * kept.len() as f64 {
+    let clock = Clock::new(&rows.time).ok_or(RecordFault::Scattered)?;
+    let count = clock.places.last().map_or(0, |last| last.saturating_add(1));
+    if count as f64 > (1.0 + MISSING) * rows.time.len() as f64 {
         return Err(RecordFault::Scattered);
     }
-    if gaps > 0 {
-        repairs.push(Repair::Gaps {
-            count: gaps,
-            row: after,
-            longest,
-        });
-    }
-    let (Some(&first), Some(&last)) = (kept.first(), kept.last()) else {
-        return Err(RecordFault::Empty);
-    };
-    let step = (time[last] - time[first]) / place.max(1) as f64;
-    let count = place + 1;
-    let saturated = saturated(torque, &kept, &mut repairs);
-    let off = kept
-        .iter()
-        .zip(&places)
-        .map(|(&row, &place)| ((time[row] - time[first]) / step - place as f64).abs());
-    let off = off.fold(0.0, f64::max);
-    if off > JITTER {
-        repairs.push(Repair::Jitter { share: off });
-    }
-    let unwrapped = unwrapped(&kept, position, time, GAP * median)?;
-    let mut samples = Samples {
-        step,
-        position: vec![0.0; count],
-        torque: vec![0.0; count],
-        faulty: vec![false; count],
-    };
-    // Between two rows the samples are interpolated; those of a gap are marked.
-    let mut k = 0;
-    for at in 0..count {
-        let here = time[first] + at as f64 * step;
-        while k + 2 < kept.len() && time[kept[k + 1]] <= here + SAME * step {
-            k += 1;
+    gaps(&rows, &clock, &mut repairs);
+    let saturated = saturated(&rows, &mut repairs);
+    let unwrapped = unwrapped(&rows, &clock)?;
+    let at_equal_steps: Vec<f64> = clock.places.iter().map(|place| *place as f64).collect();
+    let mut best = resampled(&rows, &unwrapped, &saturated, &clock, &at_equal_steps);
+    let scatter = clock.scatter();
+    if scatter > JITTER * clock.step {
+        let stated: Vec<f64> = clock
+            .off
+            .iter()
+            .zip(&at_equal_steps)
+            .map(|(off, place)| place + off / clock.step)
+            .collect();
+        let other = resampled(&rows, &unwrapped, &saturated, &clock, &stated);
+        let [own, others] =
+            [&best, &other].map(|samples| noise(&samples.position, &samples.faulty));
+        let equal = others >= SMOOTHER * own;
+        if !equal {
+            best = other;
         }
-        let (a, b) = (kept[k], kept[(k + 1).min(kept.len() - 1)]);
-        let span = time[b] - time[a];
-        let share = match (here - time[a]) / span.max(1e-300) {
-            share if share * span < SAME * step => 0.0,
-            share if (1.0 - share) * span < SAME * step => 1.0,
-            share => share,
-        };
-        let next = (k + 1).min(kept.len() - 1);
-        let between = |values: [f64; 2]| values[0] + share * (values[1] - values[0]);
-        samples.position[at] = between([unwrapped[k], unwrapped[next]]);
-        samples.torque[at] = between([torque[a], torque[b]]);
-        samples.faulty[at] = span > GAP * median && share > 0.0 && share < 1.0
-            || saturated[k] && share < 1.0
-            || saturated[next] && share > 0.0;
+        repairs.push(Repair::Jitter { by: scatter, equal });
     }
-    Ok((samples, repairs))
+    Ok((best, repairs))
 }
 
-/// The rows whose times increase.
-fn rising(time: &[f64], repairs: &mut Vec<Repair>) -> Result<Vec<usize>, RecordFault> {
-    let mut kept: Vec<usize> = Vec::with_capacity(time.len());
-    let (mut duplicates, mut first_duplicate) = (0, 0);
-    for (k, &t) in time.iter().enumerate() {
-        match kept.last().map(|&last| time[last]) {
-            Some(before) if t < before => {
-                return Err(RecordFault::Backwards {
-                    row: k + 1,
-                    time: t,
-                    before,
-                });
+/// The rows that count.
+struct Rows {
+    /// Their numbers, from 1.
+    numbers: Vec<usize>,
+    time: Vec<f64>,
+    position: Vec<f64>,
+    torque: Vec<f64>,
+}
+
+impl Rows {
+    /// Without those that repeat the row before, time and all.
+    fn new(
+        time: &[f64],
+        position: &[f64],
+        torque: &[f64],
+        repairs: &mut Vec<Repair>,
+    ) -> Result<Self, RecordFault> {
+        let row = |k: usize| [time[k], position[k], torque[k]].map(f64::to_bits);
+        let twice: Vec<usize> = (1..time.len()).filter(|&k| row(k) == row(k - 1)).collect();
+        if let Some(&first) = twice.first() {
+            repairs.push(Repair::Duplicates {
+                count: twice.len(),
+                row: first + 1,
+            });
+        }
+        let kept: Vec<usize> = (0..time.len())
+            .filter(|&k| k == 0 || row(k) != row(k - 1))
+            .collect();
+        if let Some(pair) = kept.windows(2).find(|pair| time[pair[1]] < time[pair[0]]) {
+            return Err(RecordFault::Backwards {
+                row: pair[1] + 1,
+                time: time[pair[1]],
+                before: time[pair[0]],
+            });
+        }
+        let of = |values: &[f64]| kept.iter().map(|&k| values[k]).collect::<Vec<f64>>();
+        let rows = Self {
+            time: of(time),
+            position: of(position),
+            torque: of(torque),
+            numbers: kept.iter().map(|k| k + 1).collect(),
+        };
+        let [least, most] = range(&rows.torque);
+        let constant = most <= least;
+        match rows.torque.first() {
+            Some(&torque) if constant && rows.torque.len() > EQUAL => {
+                Err(RecordFault::Constant { torque })
             }
-            Some(before) if t - before <= 1e-12 * before.abs() => {
-                if duplicates == 0 {
-                    first_duplicate = k + 1;
-                }
-                duplicates += 1;
-            }
-            _ => kept.push(k),
+            _ => Ok(rows),
         }
     }
-    if duplicates > 0 {
-        repairs.push(Repair::Duplicates {
-            count: duplicates,
-            row: first_duplicate,
+}
+
+/// The least and the greatest value.
+fn range(values: &[f64]) -> [f64; 2] {
+    let both = [f64::INFINITY, f64::NEG_INFINITY];
+    values.iter().fold(both, |[a, b], &x| [a.min(x), b.max(x)])
+}
+
+/// Reports missing samples.
+fn gaps(rows: &Rows, clock: &Clock, repairs: &mut Vec<Repair>) {
+    let steps = clock.places.windows(2).map(|pair| pair[1] - pair[0]);
+    let gaps = steps
+        .zip(rows.numbers.iter().skip(1))
+        .filter(|(steps, _)| *steps > 1);
+    let gaps: Vec<(usize, &usize)> = gaps.collect();
+    if let (Some((_, row)), Some(longest)) =
+        (gaps.first(), gaps.iter().map(|(steps, _)| steps).max())
+    {
+        repairs.push(Repair::Gaps {
+            count: gaps.len(),
+            row: **row,
+            longest: *longest as f64 * clock.step,
         });
     }
-    Ok(kept)
+}
+
+/// Samples at the steps of the clock, between rows that are at these places: those of a long gap are marked, and those of a saturated torque.
+fn resampled(
+    rows: &Rows,
+    position: &[f64],
+    saturated: &[bool],
+    clock: &Clock,
+    at: &[f64],
+) -> Samples {
+    let count = clock.places.last().map_or(0, |last| last + 1);
+    let last = at.len() - 1;
+    let mut samples = Samples {
+        step: clock.step,
+        position: Vec::with_capacity(count),
+        torque: Vec::with_capacity(count),
+        faulty: Vec::with_capacity(count),
+    };
+    let mut k = 0;
+    for place in 0..count {
+        let here = place as f64;
+        while k + 1 < last && at[k + 1] <= here {
+            k += 1;
+        }
+        let next = (k + 1).min(last);
+        let share = ((here - at[k]) / (at[next] - at[k]).max(1e-9)).clamp(0.0, 1.0);
+        let between = |values: &[f64]| values[k] + share * (values[next] - values[k]);
+        samples.position.push(between(position));
+        samples.torque.push(between(&rows.torque));
+        let missing = clock.places[next] - clock.places[k];
+        let gap = missing > 1 && missing as f64 * clock.step > SHORT_GAP * (1.0 + 1e-6);
+        samples.faulty.push(
+            gap && share > 0.0 && share < 1.0
+                || saturated[k] && share < 1.0
+                || saturated[next] && share > 0.0,
+        );
+    }
+    samples
 }
 
 /// Positions without the jump of an encoder that counts within one turn; others stay.
-fn unwrapped(
-    kept: &[usize],
-    position: &[f64],
-    time: &[f64],
-    gap: f64,
-) -> Result<Vec<f64>, RecordFault> {
-    let mut values: Vec<f64> = kept.iter().map(|&row| position[row]).collect();
-    let [least, most] = values
-        .iter()
-        .fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], &x| {
-            [a.min(x), b.max(x)]
-        });
+fn unwrapped(rows: &Rows, clock: &Clock) -> Result<Vec<f64>, RecordFault> {
+    let mut values = rows.position.clone();
+    let [least, most] = range(&values);
     // Rounded positions may exceed a turn.
     if most - least > 1.001 * TAU {
         return Ok(values);
@@ -230,18 +263,23 @@ fn unwrapped(
     let mut turns = 0.0;
     let mut before = values.first().copied().unwrap_or_default();
     let (mut speed, mut row, mut longest) = (0.0f64, 0, 0.0);
-    for (value, rows) in values.iter_mut().skip(1).zip(kept.windows(2)) {
+    let steps = clock.places.windows(2).map(|pair| pair[1] - pair[0]);
+    for ((value, steps), number) in values
+        .iter_mut()
+        .skip(1)
+        .zip(steps)
+        .zip(rows.numbers.iter().skip(1))
+    {
         let jump = *value - before;
         before = *value;
         let over = (jump / TAU).round() * TAU;
         turns -= over;
         *value += turns;
-        let &[from, to] = rows else { continue };
-        let step = time[to] - time[from];
-        if step <= gap {
-            speed = speed.max((jump - over).abs() / step);
-        } else if step > longest {
-            (row, longest) = (to + 1, step);
+        let time = steps as f64 * clock.step;
+        if steps == 1 {
+            speed = speed.max((jump - over).abs() / time);
+        } else if time > longest {
+            (row, longest) = (*number, time);
         }
     }
     if longest * speed > PI {
@@ -254,19 +292,18 @@ fn unwrapped(
     Ok(values)
 }
 
-/// Which of the kept rows are at a limit of the torque.
-fn saturated(torque: &[f64], kept: &[usize], repairs: &mut Vec<Repair>) -> Vec<bool> {
-    let values = || kept.iter().map(|&row| torque[row]);
-    let most = values().fold(f64::NEG_INFINITY, f64::max);
-    let least = values().fold(f64::INFINITY, f64::min);
+/// Which rows are at a limit of the torque.
+fn saturated(rows: &Rows, repairs: &mut Vec<Repair>) -> Vec<bool> {
+    let torque = &rows.torque;
+    let [least, most] = range(torque);
     let size = most.abs().max(least.abs());
-    let mut marked = vec![false; kept.len()];
+    let mut marked = vec![false; torque.len()];
     for limit in [most, least] {
-        let at = |k: usize| (torque[kept[k]] - limit).abs() <= 1e-9 * size;
+        let at = |k: usize| (torque[k] - limit).abs() <= 1e-9 * size;
         let mut from = 0;
-        while from < kept.len() {
+        while from < torque.len() {
             let mut to = from;
-            while to < kept.len() && at(to) {
+            while to < torque.len() && at(to) {
                 to += 1;
             }
             if to - from >= EQUAL && limit != 0.0 {
@@ -277,11 +314,11 @@ fn saturated(torque: &[f64], kept: &[usize], repairs: &mut Vec<Repair>) -> Vec<b
     }
     let count = marked.iter().filter(|marked| **marked).count();
     let first = marked.iter().position(|marked| *marked);
-    if let (Some(first), true) = (first, count as f64 > SATURATED * kept.len() as f64) {
+    if let (Some(first), true) = (first, count as f64 > SATURATED * torque.len() as f64) {
         repairs.push(Repair::Saturated {
             count,
-            row: kept[first] + 1,
-            torque: torque[kept[first]],
+            row: rows.numbers[first],
+            torque: torque[first],
         });
     }
     marked

@@ -6,9 +6,12 @@ use std::f64::consts::TAU;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::fault::{Fault, slip, visits};
+use super::cogging::cogging;
+use super::fault::Fault;
 use super::fit::{DELAY_STEP, Fit, GRID, rest};
 use super::matrix::dot;
+use super::slip::slip;
+use super::visits::speed_variation;
 use super::{Options, Samples, ways};
 
 /// Quantile of the normal distribution for a band of 95 %.
@@ -48,6 +51,8 @@ pub struct CurvePoint {
     pub inertia_slope: f64,
     /// V′ of weight and springs, without a mean (N·m).
     pub potential_slope: Estimate,
+    /// Coulomb friction c (N·m): constant unless both directions show that it depends on the angle.
+    pub coulomb: Estimate,
 }
 
 /// How well the log's motion determines the machine.
@@ -84,8 +89,10 @@ pub struct Identified {
     pub mean_load: Option<Estimate>,
     /// Viscous friction (N·m·s/rad).
     pub viscous: Estimate,
-    /// Coulomb friction (N·m).
+    /// Coulomb friction, the mean over the angle (N·m).
     pub coulomb: Estimate,
+    /// Coefficients of Coulomb friction that depends on the angle: cosine and sine of each harmonic (N·m).
+    pub coulomb_waves: Vec<Estimate>,
     /// Cogging.
     pub cogging: Vec<Cogging>,
     /// Delay of the logged torque (s).
@@ -115,14 +122,19 @@ impl Identified {
             sum += (a * c + b * s) * alpha + order * (b * c - a * s) * half_square;
             sum += v[0].value * c + v[1].value * s;
         }
+        let sign = if omega == 0.0 { 0.0 } else { omega.signum() };
+        let waves = (1..).zip(self.coulomb_waves.chunks(2)).map(|(k, c)| {
+            let (sin, cos) = math::sin_cos(f64::from(k) * phi);
+            c[0].value * cos + c[1].value * sin
+        });
+        let coulomb = self.coulomb.value + waves.sum::<f64>();
         let cogging = self.cogging.iter().map(|cog| {
             let (s, c) = math::sin_cos(f64::from(cog.order) * phi);
             cog.cosine.value * c + cog.sine.value * s
         });
-        let sign = if omega == 0.0 { 0.0 } else { omega.signum() };
         sum + self.mean_load.map_or(0.0, |load| load.value)
             + self.viscous.value * omega
-            + self.coulomb.value * sign
+            + coulomb * sign
             + cogging.sum::<f64>()
     }
 
@@ -184,6 +196,7 @@ pub(super) fn identified(
                 inertia: sum(0, &basis.inertia_row(phi)),
                 inertia_slope: basis.at(&fit.theta, &waves, phi).inertia_slope,
                 potential_slope: sum(basis.potential(), &basis.potential_row(phi)),
+                coulomb: sum(basis.coulomb(), &basis.friction_row(phi)),
             }
         })
         .collect();
@@ -204,6 +217,7 @@ pub(super) fn identified(
         mean_load: basis.mean.then(|| one(basis.mean_load())),
         viscous: one(basis.viscous()),
         coulomb: one(basis.coulomb()),
+        coulomb_waves: (basis.coulomb() + 1..basis.cog()).map(one).collect(),
         cogging: cogging.collect(),
         delay: Estimate {
             value: options.delay.unwrap_or(fit.delay),
@@ -216,7 +230,7 @@ pub(super) fn identified(
         faults: Vec::new(),
         curves,
     };
-    identified.faults = faults(&identified, fit, samples, spikes);
+    identified.faults = faults(&identified, fit, samples, options, spikes);
     identified.judge_inertia();
     identified
 }
@@ -236,7 +250,7 @@ fn excitation(fit: &Fit, samples: &Samples, curves: &[CurvePoint]) -> Excitation
     Excitation {
         duration: samples.step * samples.position.len() as f64,
         turns: travel / TAU,
-        speed_variation: visits(samples, speed).variation.unwrap_or_default(),
+        speed_variation: speed_variation(samples, speed),
         step: samples.step,
         acceleration: deviation.sqrt() * mean / fit.torque_noise,
         forward: forward / (forward + back).max(1.0),
@@ -244,15 +258,24 @@ fn excitation(fit: &Fit, samples: &Samples, curves: &[CurvePoint]) -> Excitation
     }
 }
 
-fn faults(found: &Identified, fit: &Fit, samples: &Samples, spikes: &[usize]) -> Vec<Fault> {
+fn faults(
+    found: &Identified,
+    fit: &Fit,
+    samples: &Samples,
+    options: &Options,
+    spikes: &[usize],
+) -> Vec<Fault> {
     let mut faults = Vec::new();
     if found.curves.iter().all(|point| point.inertia.value < 0.0) {
-        faults.push(Fault::Reversed { position: false });
+        faults.push(Fault::Reversed { position: None });
     }
-    let slip = slip(fit);
+    let slip = slip(fit, samples, options);
+    if let Some(slip) = slip.as_ref().filter(|slip| slip.proven) {
+        faults.push(slip.fault());
+        return faults;
+    }
     // The jump of a slip is an outlier itself.
-    let near =
-        |at: f64| matches!(slip, Some(Fault::Slip { at: slip, .. }) if (at - slip).abs() < 1.0);
+    let near = |at: f64| slip.as_ref().is_some_and(|slip| (at - slip.at).abs() < 1.0);
     let spikes = spikes.iter().map(|spike| *spike as f64 * samples.step);
     let spikes: Vec<f64> = spikes.filter(|at| !near(*at)).collect();
     if let Some(first) = spikes.iter().copied().reduce(f64::min) {
@@ -261,7 +284,11 @@ fn faults(found: &Identified, fit: &Fit, samples: &Samples, spikes: &[usize]) ->
             first,
         });
     }
-    faults.extend(slip);
+    faults.extend(cogging(fit));
+    // Outliers and cogging look like a slip.
+    if faults.is_empty() {
+        faults.extend(slip.map(|slip| slip.fault()));
+    }
     let rms = (dot(&samples.torque, &samples.torque) / samples.torque.len() as f64).sqrt();
     let share = found.torque_noise / rms;
     if share > NOISY {

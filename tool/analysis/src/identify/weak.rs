@@ -106,7 +106,12 @@ impl Weak {
             if basis.mean {
                 of_w[basis.mean_load()] = 1.0;
             }
-            of_w[coulomb] = if *omega == 0.0 { 0.0 } else { omega.signum() };
+            let sign = if *omega == 0.0 { 0.0 } else { omega.signum() };
+            of_w[coulomb] = sign;
+            for (m, [c, s]) in waves.iter().enumerate().skip(1).take(basis.friction) {
+                of_w[coulomb + 2 * m - 1] = sign * c;
+                of_w[coulomb + 2 * m] = sign * s;
+            }
             for (q, at) in basis.cogging.iter().zip(0..) {
                 let (s, c) = math::sin_cos(f64::from(*q) * phi);
                 of_w[basis.cog() + 2 * at] = c;
@@ -162,7 +167,8 @@ impl Weak {
             let first = at.inertia_slope * omega - theta[basis.viscous()];
             let zeroth = at.inertia_slope * alpha
                 + 0.5 * at.inertia_curvature * omega * omega
-                + at.stiffness;
+                + at.stiffness
+                + at.friction_slope * omega.signum();
             self.each(k, |i, l| {
                 rows.row_mut(i)[l] = at.inertia * w2[l] + first * w1[l] + zeroth * w[l];
             });

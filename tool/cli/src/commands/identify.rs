@@ -12,7 +12,7 @@ use crate::output::{self, Files};
 use jred::Domain;
 use jred::machine::Reducible as _;
 use jred_analysis::checked;
-use jred_analysis::identify::{self, Options, Repair, Shaft};
+use jred_analysis::identify::{self, Options, Shaft};
 use jred_file::model::machine::MachineFile;
 use jred_file::model::variator;
 use jred_file::number::rounding::short;
@@ -105,6 +105,7 @@ fn one(
         columns: options.columns.clone(),
         counts_per_turn: options.counts_per_turn,
         torque_constant: options.torque_constant,
+        rated_torque: options.rated_torque,
         skipped: options.skip_rows,
     };
     let name = plain::path(path);
@@ -116,38 +117,52 @@ fn one(
     };
     let zero = options.zero.unwrap_or_default();
     let sign = if options.reverse_position { -1.0 } else { 1.0 };
-    let (mut samples, repairs): (_, Vec<Repair>) =
-        identify::samples(&log.time, &log.position, &torque)
-            .map_err(|fault| unreadable(&name, &fault))?;
+    let (mut samples, repairs) = identify::samples(&log.time, &log.position, &torque)
+        .map_err(|fault| unreadable(&name, &fault))?;
     for position in &mut samples.position {
         *position = sign * (*position - zero);
     }
     let geared = options.shaft == Shaft::Motor;
-    let rotor = options.rotor_inertia.unwrap_or_default();
-    if geared {
-        identify::referred(&mut samples, file, rotor);
-    }
     let ratio = if geared {
         file.drive_train.ratio()
     } else {
         1.0
     };
-    let counts = options.counts_per_turn;
+    let counts = options.counts_per_turn.map(f64::from);
     let request = Options {
         cogging: options.cogging.clone(),
         delay: options.delay,
-        encoder_step: counts.map(|counts| TAU / f64::from(counts) / ratio.abs()),
+        encoder_step: counts.map(|counts| TAU / counts / ratio.abs()),
     };
-    let mut found = identify::identify(&samples, &request).map_err(|why| refusal(&name, &why))?;
-    if geared {
-        identify::without_drive(&mut found, file, rotor);
-    }
+    // With positions times a factor.
+    let found = |scale: f64| {
+        let mut samples = samples.clone();
+        for position in &mut samples.position {
+            *position *= scale;
+        }
+        let request = Options {
+            encoder_step: request.encoder_step.map(|step| scale * step),
+            ..request.clone()
+        };
+        if geared {
+            let rotor = options.rotor_inertia.unwrap_or_default();
+            identify::of_motor(&samples, file, rotor, &request)
+        } else {
+            identify::identify(&samples, &request)
+        }
+    };
+    let scaled = |scale: f64| found(scale).ok();
+    let mut found = found(1.0).map_err(|why| refusal(&name, &why, &repairs))?;
     let curves = designed.iter().map(|at| [at.inertia, at.potential_slope]);
-    identify::against_design(&mut found, &curves.collect::<Vec<_>>());
+    let curves: Vec<[f64; 2]> = curves.collect();
+    identify::against_design(&mut found, &curves);
+    identify::judge_scale(&mut found, &curves, scaled);
     Ok(LogResult {
         name,
         repairs,
         found,
+        cogging: request.cogging,
+        counts,
         encoder_step: request.encoder_step,
         signs: Signs {
             torque: options.reverse_torque,

@@ -34,6 +34,9 @@ pub struct Identify {
     /// Torque of a current, e.g. "1.2 N m/A", for a log of currents.
     #[arg(long, value_name = "CONSTANT", value_parser = jred_file::argument::positive(&jred_file::units::kind::TORQUE_CONSTANT))]
     pub torque_constant: Option<f64>,
+    /// Rated torque of the drive, e.g. "2.4 N m", for a log of torques in per mille, % or 0.1% of it (CiA 402).
+    #[arg(long, value_name = "TORQUE", value_parser = jred_file::argument::positive(&jred_file::units::kind::TORQUE))]
+    pub rated_torque: Option<f64>,
     /// Shaft of the log.
     #[arg(long, value_parser = word::<Shaft>(), default_value_t)]
     pub shaft: Shaft,

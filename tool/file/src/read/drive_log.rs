@@ -44,6 +44,8 @@ pub struct LogLayout {
     pub counts_per_turn: Option<u32>,
     /// Torque of a current (N·m/A).
     pub torque_constant: Option<f64>,
+    /// Rated torque of the drive (N·m), for torques that are shares of it.
+    pub rated_torque: Option<f64>,
     /// Lines above the header.
     pub skipped: u32,
 }
@@ -89,7 +91,8 @@ pub fn drive_log(name: &str, files: impl Files, layout: &LogLayout) -> Result<Dr
         layout.columns.clone()
     };
     let read = || -> std::result::Result<DriveLog, CsvFault> {
-        let own = Layout::of_options(&named, layout.counts_per_turn, layout.skipped);
+        let own = Layout::of_options(&named, layout.counts_per_turn, layout.skipped)
+            .at_rated_torque(layout.rated_torque);
         let format = Format {
             known: &COLUMNS,
             ignored: |_| true,
@@ -102,6 +105,18 @@ pub fn drive_log(name: &str, files: impl Files, layout: &LogLayout) -> Result<Dr
             let values = columns.get(index).map(<[f64]>::to_vec);
             values.ok_or_else(|| columns.lacks(message, &plain, EXAMPLE))
         };
+        let is_share = columns
+            .unit(TORQUE_COLUMN)
+            .and_then(columns::share)
+            .is_some();
+        if layout.rated_torque.is_some() && !is_share {
+            let problem = Problem::new(
+                "--rated-torque is given, but the log has no torque in per mille or % of it",
+            );
+            return Err(problem
+                .help("leave out --rated-torque, or write the unit: torque [per mille]")
+                .into());
+        }
         let torque = match (columns.get(TORQUE_COLUMN), columns.get(CURRENT_COLUMN)) {
             (Some(torque), _) => torque.to_vec(),
             (None, Some(current)) => {
@@ -123,11 +138,17 @@ pub fn drive_log(name: &str, files: impl Files, layout: &LogLayout) -> Result<Dr
         })
     };
     let cured = |problem: Problem| {
-        let counts = problem
-            .cure()
-            .is_some_and(|cure| cure.contains("counts_per_turn"));
-        if counts {
+        let cure = problem.cure().unwrap_or_default().to_owned();
+        if cure.contains("counts_per_turn") {
             problem.help("give the counts of a turn of the encoder: --counts-per-turn 8192")
+        } else if cure == columns::IN_NEWTON_METRES {
+            problem.help(
+                "give the rated torque of the drive (CiA 402: object 0x6076): --rated-torque \"2.4 N m\"",
+            )
+        } else if cure.contains("leave no cell empty") {
+            problem.help(format!(
+                "{cure}; or delete the row: a missing sample does no harm"
+            ))
         } else {
             problem
         }

@@ -25,7 +25,7 @@ use cell::unquoted;
 use header::check_first_lines;
 use layout::Title;
 
-pub(crate) use layout::Layout;
+pub(crate) use layout::{IN_NEWTON_METRES, Layout, share};
 
 /// The largest CSV file (bytes).
 const MAX_SIZE: u64 = 64 << 20;
@@ -185,6 +185,12 @@ impl Columns {
             *own = (header.0, header.1 * factor);
             *place = Some(values);
         }
+    }
+
+    /// The unit of a column in the file.
+    pub(crate) fn unit(&self, index: usize) -> Option<&str> {
+        let (header, _) = self.headers.get(index)?;
+        name_and_unit(header).1
     }
 
     /// A value in the unit of its column.

@@ -1,6 +1,7 @@
 //! The identified machine against its design.
 
 mod curves_file;
+mod friction;
 mod words;
 
 use std::f64::consts::TAU;
@@ -11,8 +12,8 @@ use serde::Serialize;
 
 use crate::answer::Answer;
 use crate::answer::schema::Data;
-use crate::table::reading::{ColumnKind, Reading};
-use jred_analysis::identify::{Cogging, CurvePoint, Estimate, Fault, Identified, Repair, shift};
+use crate::table::reading::Reading;
+use jred_analysis::identify::{CurvePoint, Estimate, Fault, Identified, OTHER, Repair, shift};
 use jred_file::model::machine::MachineFile;
 use jred_file::number::rounding::{percent, short};
 use jred_sizing::cell::Cell;
@@ -23,8 +24,9 @@ pub use words::{refusal, unreadable};
 /// Rows between those of the table for reading.
 const EVERY: usize = 30;
 
-/// A deviation of J from the design by more than this share is no tolerance.
-const OTHER: f64 = 0.5;
+/// J is a constant above the design if the rest is less than this share of it; a smaller share of the design's maximum is a tolerance.
+const REST: f64 = 0.25;
+const ADDED: f64 = 0.02;
 
 /// The design at an angle.
 #[derive(Clone, Copy, Debug, Serialize, JsonSchema)]
@@ -48,6 +50,10 @@ pub struct LogResult {
     pub repairs: Vec<Repair>,
     /// The machine.
     pub found: Identified,
+    /// The orders of cogging that were asked for.
+    pub cogging: Vec<u32>,
+    /// Counts of a turn of the encoder, if given.
+    pub counts: Option<f64>,
     /// A count of the encoder at the drive link (rad), if known.
     pub encoder_step: Option<f64>,
     /// The signs that were turned.
@@ -56,6 +62,19 @@ pub struct LogResult {
     pub zero: f64,
     /// Signed ratio of that shaft to the drive link.
     pub ratio: f64,
+}
+
+impl LogResult {
+    /// Whether the log has a fault from which a wrong J follows.
+    fn has_wrong_sign_or_scale(&self) -> bool {
+        let mut faults = self.found.faults.iter();
+        faults.any(|fault| {
+            matches!(
+                fault,
+                Fault::Reversed { .. } | Fault::Mirrored | Fault::Scale { .. }
+            )
+        })
+    }
 }
 
 /// Which signs of a log were turned.
@@ -113,7 +132,7 @@ impl IdentifyView<'_> {
         other.share.abs() > OTHER
             || all
                 .into_iter()
-                .any(|fault| !matches!(fault, Fault::Spikes { .. }))
+                .any(|fault| !matches!(fault, Fault::Spikes { .. } | Fault::Cogging { .. }))
     }
 
     /// Refuses logs whose mean says nothing.
@@ -171,6 +190,7 @@ impl IdentifyView<'_> {
             })
             .value,
             potential_slope: at(k, |point| point.potential_slope),
+            coulomb: at(k, |point| point.coulomb),
         };
         (0..count).map(curve).collect()
     }
@@ -235,7 +255,20 @@ impl IdentifyView<'_> {
             &data,
         );
         answer.fact("J against the design", self.of_inertia(&curves, &inertia));
-        if inertia.share.abs() > OTHER {
+        if let Some(more) = self.added(&curves) {
+            answer.warning(format!(
+                "J has a constant of {} kg m^2 {} than the design: {}",
+                short(more.abs()),
+                if more > 0.0 { "more" } else { "less" },
+                if more > 0.0 {
+                    "is a rotor in the log that was not taken out (--rotor-inertia)?"
+                } else {
+                    "is --rotor-inertia too large, or the log of the drive link (--shaft link)?"
+                }
+            ));
+        } else if inertia.share.abs() > OTHER
+            && !self.logs.iter().any(LogResult::has_wrong_sign_or_scale)
+        {
             answer.warning(
                 "this is not the machine of the design, or the log is of another shaft, in another unit or with another torque constant",
             );
@@ -262,7 +295,8 @@ impl IdentifyView<'_> {
             answer.fact("repeatability", text);
         }
         self.friction(&mut answer);
-        self.negative_friction(&mut answer);
+        self.friction_over_the_turn(&curves, &mut answer);
+        self.negative_friction(&curves, &mut answer);
         self.cogging_left_out(&mut answer);
         for log in &self.logs {
             if self.logs.len() > 1 {
@@ -273,6 +307,20 @@ impl IdentifyView<'_> {
         answer.table(self.table(&curves));
         answer.csv(self.reduced_curves(&curves));
         answer
+    }
+
+    /// A constant by which J is above the design (kg·m²), if that is the deviation.
+    fn added(&self, curves: &[CurvePoint]) -> Option<f64> {
+        let both = || curves.iter().zip(&self.designed);
+        let mean = both()
+            .map(|(p, d)| p.inertia.value - d.inertia)
+            .sum::<f64>()
+            / curves.len().max(1) as f64;
+        let rest = both().map(|(p, d)| (p.inertia.value - d.inertia - mean).abs() - p.inertia.band);
+        let rest = rest.fold(0.0, f64::max);
+        let size = mean.abs();
+        let certain = both().all(|(p, _)| p.inertia.band < REST * size);
+        (certain && rest < REST * size && size > ADDED * self.largest_inertia()).then_some(mean)
     }
 
     fn of_inertia(&self, curves: &[CurvePoint], deviation: &Deviation) -> String {
@@ -298,62 +346,6 @@ impl IdentifyView<'_> {
             short(designed),
             percent(band / most.max(1e-300))
         )
-    }
-
-    fn friction(&self, answer: &mut Answer) {
-        let count = self.designed.len().max(1) as f64;
-        let mean = |of: fn(&Designed) -> f64| self.designed.iter().map(of).sum::<f64>() / count;
-        let row = |name: &str, found: Estimate, designed: Option<f64>| {
-            let designed = designed.map_or(Cell::Empty, Cell::Number);
-            let [value, band] = [found.value, found.band].map(Cell::Number);
-            vec![Cell::Text(name.to_owned()), value, band, designed]
-        };
-        let mut rows = vec![
-            row(
-                "viscous friction b [N m s/rad]",
-                self.mean(|f| f.viscous),
-                Some(mean(|d| d.viscous)),
-            ),
-            row(
-                "Coulomb friction c [N m]",
-                self.mean(|f| f.coulomb),
-                Some(mean(|d| d.coulomb)),
-            ),
-        ];
-        if self.logs.iter().all(|log| log.found.mean_load.is_some()) {
-            let load = self.mean(|f| f.mean_load.unwrap_or_default());
-            rows.push(row("mean load [N m]", load, None));
-        }
-        let orders = self.logs.first().map_or(&[][..], |log| &log.found.cogging);
-        for (k, cogging) in orders.iter().enumerate() {
-            let part = |of: fn(&Cogging) -> Estimate| {
-                self.mean(|found| found.cogging.get(k).map(of).unwrap_or_default())
-            };
-            let order = cogging.order;
-            rows.push(row(
-                &format!("cogging, cos {order}φ [N m]"),
-                part(|c| c.cosine),
-                None,
-            ));
-            rows.push(row(
-                &format!("cogging, sin {order}φ [N m]"),
-                part(|c| c.sine),
-                None,
-            ));
-        }
-        answer.table(Reading {
-            columns: ["", "identified", "95 % band ±", "designed, mean"]
-                .map(str::to_owned)
-                .into(),
-            kinds: vec![
-                ColumnKind::Words,
-                ColumnKind::Quantity,
-                ColumnKind::Quantity,
-                ColumnKind::Quantity,
-            ],
-            rows,
-            ..Reading::default()
-        });
     }
 
     fn table(&self, curves: &[CurvePoint]) -> Reading {

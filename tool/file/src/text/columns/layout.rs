@@ -10,10 +10,13 @@ use crate::text::problem::{Problem, Result};
 use crate::text::section::Section;
 use crate::units::kind::{
     ACCELERATION, ANGLE, ANGULAR_ACCELERATION, ANGULAR_SPEED, CAM_ACCELERATION, CAM_TURNING,
-    CAM_VELOCITY, Kind, SHARE, VELOCITY,
+    CAM_VELOCITY, Kind, SHARE, TORQUE, VELOCITY,
 };
 use crate::units::quantity::unit_of;
 use crate::units::{Fault, unit};
+
+/// The cure of a torque that is a share of one that the machine file cannot give.
+pub(crate) const IN_NEWTON_METRES: &str = "write the torque in N m";
 
 /// The layout of a file, as the machine file gives it.
 #[derive(Default)]
@@ -28,6 +31,8 @@ pub(crate) struct Layout<'a> {
     pub(super) mapped: Option<Vec<ColumnMapping<'a>>>,
     /// Angle of one count (rad).
     count: Option<f64>,
+    /// The rated torque (N·m) of the drive whose log this is: the torque may be a share of it.
+    rated: Option<f64>,
     /// The key of the speed (rad/s) of a master or cam, and its value: velocities and accelerations of the file may be those at this speed.
     speed: Option<(&'static str, Option<f64>)>,
 }
@@ -82,6 +87,7 @@ impl<'a> Layout<'a> {
             titles,
             mapped,
             count,
+            rated: None,
             speed: None,
         })
     }
@@ -111,6 +117,11 @@ impl<'a> Layout<'a> {
             speed: Some((key, speed)),
             ..self
         }
+    }
+
+    /// The layout of a log of a drive with this rated torque (N·m), if it is known.
+    pub(crate) fn at_rated_torque(self, rated: Option<f64>) -> Self {
+        Self { rated, ..self }
     }
 
     /// The text with the lines above the header made comments; all bytes keep their positions. The first of them can be the line with which Excel
@@ -163,6 +174,15 @@ impl<'a> Layout<'a> {
         if text == "1" && kind.dimension == SHARE.dimension {
             return Ok(1.0);
         }
+        if let Some(share) = share(text).filter(|_| kind.dimension == TORQUE.dimension) {
+            let rated = self.rated.map(|rated| share * rated);
+            return rated.ok_or_else(|| {
+                Fault::new(
+                    "is a share of the rated torque",
+                    IN_NEWTON_METRES.to_owned(),
+                )
+            });
+        }
         if let (Some((key, speed)), Some((scale, order))) = (self.speed, over_time(text, kind)) {
             return speed.map(|speed| scale / speed.powi(order)).ok_or_else(|| {
                 Fault::new(
@@ -206,6 +226,15 @@ fn counts(text: &str) -> Option<usize> {
     let (word, per) = tidy.split_once('/').unwrap_or((&tidy, ""));
     let order = ["", "s", "s^2"].iter().position(|times| *times == per)?;
     COUNTS.contains(&word.trim()).then_some(order)
+}
+
+/// The size of a unit for shares of a rated torque: "per mille", "%" or "0.1%".
+pub(crate) fn share(text: &str) -> Option<f64> {
+    match text.replace(' ', "").to_lowercase().as_str() {
+        "permille" | "‰" | "0.1%" => Some(1e-3),
+        "%" => Some(1e-2),
+        _ => None,
+    }
 }
 
 /// Whether a text is the unit of a column.

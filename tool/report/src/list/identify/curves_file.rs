@@ -13,7 +13,8 @@ use crate::answer::Answer;
 struct Loads {
     mean_load: f64,
     viscous: f64,
-    coulomb: f64,
+    /// Added to c of the curves: viscous friction that is negative, at the mean speed.
+    more: f64,
 }
 
 impl IdentifyView<'_> {
@@ -28,7 +29,7 @@ impl IdentifyView<'_> {
         Loads {
             mean_load: mean_load + direction.unwrap_or_default() * c.min(0.0),
             viscous: b.max(0.0),
-            coulomb: (c + b.min(0.0) * self.mean_speed()).max(0.0),
+            more: b.min(0.0) * self.mean_speed(),
         }
     }
 
@@ -42,8 +43,8 @@ impl IdentifyView<'_> {
     }
 
     /// Warnings of friction that is negative.
-    pub(super) fn negative_friction(&self, answer: &mut Answer) {
-        let [b, c] = [self.mean(|f| f.viscous), self.mean(|f| f.coulomb)];
+    pub(super) fn negative_friction(&self, curves: &[CurvePoint], answer: &mut Answer) {
+        let b = self.mean(|f| f.viscous);
         if b.value < 0.0 {
             answer.warning(format!(
                 "viscous friction is negative ({} ± {} N m s/rad); the CSV has 0, and c at the mean speed: record higher and lower speeds",
@@ -51,7 +52,12 @@ impl IdentifyView<'_> {
                 short(b.band)
             ));
         }
-        if c.value < 0.0 {
+        // In both directions c may be negative at some angles only.
+        let least = curves
+            .iter()
+            .min_by(|a, b| a.coulomb.value.total_cmp(&b.coulomb.value));
+        let least = least.map(|point| point.coulomb).unwrap_or_default();
+        if least.value < 0.0 {
             let one = self.logs.first().and_then(|log| log.found.direction());
             let written = one.map_or(
                 "the CSV has 0",
@@ -59,8 +65,8 @@ impl IdentifyView<'_> {
             );
             answer.warning(format!(
                 "Coulomb friction is negative ({} ± {} N m); {written}: record both directions",
-                short(c.value),
-                short(c.band)
+                short(least.value),
+                short(least.band)
             ));
         }
     }
@@ -90,7 +96,7 @@ impl IdentifyView<'_> {
         let Loads {
             mean_load,
             viscous,
-            coulomb,
+            more,
         } = self.loads();
         let mut csv =
             "phi [deg],J [kg m^2],T [N m],T_potential [N m],b [N m s/rad],c [N m]\n".to_owned();
@@ -104,7 +110,7 @@ impl IdentifyView<'_> {
                 -mean_load,
                 -point.potential_slope.value,
                 viscous,
-                coulomb
+                (point.coulomb.value + more).max(0.0)
             );
         }
         csv

@@ -60,12 +60,11 @@ pub(super) fn of_log(answer: &mut Answer, log: &LogResult) {
         ));
     }
     let turns = motion.turns / motion.duration;
-    for cogging in &found.cogging {
-        let frequency = f64::from(cogging.order) * turns;
+    for order in &log.cogging {
+        let frequency = f64::from(*order) * turns;
         if frequency > HIGHEST {
             answer.warning(format!(
-                "cogging of order {} has {} Hz at the mean speed; above {HIGHEST} Hz the method sees little of it: record a slower run",
-                cogging.order,
+                "cogging of order {order} has {} Hz at the mean speed; above {HIGHEST} Hz the method sees little of it: record a slower run",
                 short(frequency)
             ));
         }
@@ -96,22 +95,39 @@ pub(super) fn of_log(answer: &mut Answer, log: &LogResult) {
     }
 }
 
+/// The orders of cogging to ask for.
+fn orders(log: &LogResult) -> String {
+    let found = log.found.faults.iter().filter_map(|fault| match fault {
+        Fault::Cogging { order, .. } => Some(order),
+        _ => None,
+    });
+    let mut orders: Vec<u32> = log.cogging.iter().chain(found).copied().collect();
+    orders.sort_unstable();
+    let orders: Vec<String> = orders.iter().map(u32::to_string).collect();
+    orders.join(",")
+}
+
 fn repaired(repair: &Repair) -> String {
     match *repair {
         Repair::Duplicates { count, row } => format!(
-            "{count} rows have the time of the row before (first: row {row}) and are left out: record the time with more digits"
+            "{count} rows repeat the row before, with the same time (first: row {row}), and are left out: check the recorder"
         ),
         Repair::Gaps {
             count,
             row,
             longest,
         } => format!(
-            "samples are missing in {count} places, the first before row {row}, the longest for {} ms; they are left out: check the bus or the recorder",
+            "samples are missing in {count} places, the first before row {row}, the longest for {} ms; up to 4 ms they are interpolated, others are left out: check the bus or the recorder",
             short(longest * 1e3)
         ),
-        Repair::Jitter { share } => format!(
-            "the times scatter by up to {} of a step; position and torque are interpolated: record with the clock of the drive",
-            percent(share)
+        Repair::Jitter { by, equal } => format!(
+            "the times scatter by up to {} ms; {}: record with the clock of the drive",
+            short(by * 1e3),
+            if equal {
+                "the samples are taken as those of a uniform clock, with which the position is smoother"
+            } else {
+                "position and torque are interpolated"
+            }
         ),
         Repair::Saturated { count, row, torque } => format!(
             "{count} torques are at the limit {} N m (first: row {row}) and are left out: accelerate less, or raise the limit",
@@ -136,7 +152,19 @@ fn fault_words(fault: &Fault, log: &LogResult) -> String {
             "{count} torques or positions do not fit the motion (first at {} s) and are left out: check shield and filter",
             short(first)
         ),
-        Fault::Reversed { position } => format!(
+        Fault::Cogging { order, amplitude } => format!(
+            "the torque has {} N m of order {order} of a turn, which was not asked for, as by the cogging of a motor: run again with --cogging {}",
+            short(amplitude),
+            orders(log)
+        ),
+        Fault::Reversed { position: None } => format!(
+            "J is negative at every angle: the torque or the position has the wrong sign, and the design fits both: run again {}, or {}",
+            log.signs.toggled(true, false),
+            log.signs.toggled(false, true)
+        ),
+        Fault::Reversed {
+            position: Some(position),
+        } => format!(
             "J is negative at every angle: the {} has the wrong sign, by the design: run again {}",
             if position { "position" } else { "torque" },
             log.signs.toggled(!position, position)
@@ -154,6 +182,14 @@ fn fault_words(fault: &Fault, log: &LogResult) -> String {
                 short(zero.to_degrees())
             )
         }
+        Fault::Scale { by } => format!(
+            "the curves are those of the design if the positions are {} times as large: {}",
+            short(by),
+            log.counts.map_or_else(
+                || "check the unit of the position".to_owned(),
+                |counts| format!("give --counts-per-turn {}", short(counts / by)),
+            )
+        ),
         Fault::NotPositive { at, inertia } => format!(
             "J at {} deg is {} kg m^2, not positive: take less out of the log (--rotor-inertia, the drive train of the machine file, --shaft), or accelerate harder",
             short(at.to_degrees()),
@@ -189,18 +225,34 @@ impl Signs {
     }
 }
 
-/// Why a log does not determine a machine.
-pub fn refusal(name: &str, why: &Obstacle) -> Report {
+/// Why a log does not determine a machine, of whose rows these were repaired.
+pub fn refusal(name: &str, why: &Obstacle, repairs: &[Repair]) -> Report {
     match *why {
-        Obstacle::Short { rows, needed } => miette!(
-            help = "record 30 s with the speed varied from turn to turn",
-            "{name} is too short: {rows} independent samples are left, {needed} are needed"
+        Obstacle::Short { rows, needed, step } if step > SLOW => miette!(
+            help = "record 30 s with at least 500 samples a second",
+            "{name} has too few samples: {rows} independent ones are left at {} samples a second, {needed} are needed{}",
+            short(1.0 / step),
+            because(repairs)
         ),
-        Obstacle::NotVisited { from, to } => miette!(
-            help = "let the drive link turn fully in the log",
-            "{name}: the angles from {} to {} deg are not visited",
+        Obstacle::Short { rows, needed, .. } => miette!(
+            help = "record 30 s with the speed varied from turn to turn",
+            "{name} is too short: {rows} independent samples are left, {needed} are needed{}",
+            because(repairs)
+        ),
+        Obstacle::NotVisited { from, to, left_out } => miette!(
+            help = if left_out {
+                "accelerate less, raise the torque limit, or record without pauses"
+            } else {
+                "let the drive link turn fully in the log; if it did, check the unit of the position and --counts-per-turn"
+            },
+            "{name}: the angles from {} to {} deg are not visited{}",
             short(from.to_degrees()),
-            short(to.to_degrees())
+            short(to.to_degrees()),
+            if left_out {
+                because(repairs)
+            } else {
+                String::new()
+            }
         ),
         Obstacle::SameSpeed { variation } => miette!(
             help = "vary the speed from turn to turn, for example 60 to 120 rpm in waves of 0.4 to 3 Hz; a cycle repeated identically determines nothing",
@@ -212,6 +264,19 @@ pub fn refusal(name: &str, why: &Obstacle) -> Report {
             "{name}: the motion does not determine the machine"
         ),
     }
+}
+
+/// The samples that are left out, and why.
+fn because(repairs: &[Repair]) -> String {
+    let words = repairs.iter().filter_map(|repair| match *repair {
+        Repair::Saturated { count, torque, .. } => Some(format!(
+            "; {count} samples at the torque limit {} N m are left out",
+            short(torque)
+        )),
+        Repair::Gaps { count, .. } => Some(format!("; samples are missing in {count} places")),
+        _ => None,
+    });
+    words.collect()
 }
 
 /// Why the rows of a log cannot be used.
@@ -231,7 +296,12 @@ pub fn unreadable(name: &str, fault: &RecordFault) -> Report {
         ),
         RecordFault::Scattered => miette!(
             help = "give one file for each run without pauses in the recording",
-            "{name}: most samples are missing between the first and the last"
+            "{name}: most samples are missing between the first and the last, or their times scatter by more than four steps"
+        ),
+        RecordFault::Constant { torque } => miette!(
+            help = "log the torque or the current that acts, not a set value or a limit",
+            "{name}: the torque is {} N m in every row",
+            short(torque)
         ),
         RecordFault::Empty => miette!(
             help = "record 30 s",
