@@ -1,0 +1,221 @@
+/**
+ * What the page asks the core, and what the core answers.
+ *
+ * The worker (worker.ts) hands a request to the core as JSON text and returns the parsed answer. An answer of a command is the JSON of that
+ * command (`jred size --format json`), key for key and bit for bit: docs/json.md.
+ */
+
+/** A machine file with the files that it names, by the names it uses for them. */
+export interface Source {
+  name: string;
+  text: string;
+  files?: Record<string, string>;
+}
+
+/** The gallery, `machines.json` beside the page: made by `scripts/page build` from the folder machines/. */
+export interface GalleryMachine extends Source {
+  title: string;
+}
+
+export type Request =
+  /** The curves over one turn or the stroke: `jred reduce --positions N`. */
+  | ({ do: 'curves'; positions?: number } & Source)
+  /** The machine drawn: an SVG, and a track to move its groups by. */
+  | ({ do: 'drawing' } & Source)
+  /** `jred size`. With a `drive` ("MOTOR+GEARBOX") that drive alone is judged, which takes a few milliseconds: for sliders. */
+  | ({ do: 'size'; drive?: string; explain?: boolean; top?: number } & Source)
+  /** The duty of a drive in the torque-speed plane, its limits, and its course over the cycle; without `drive` of the first that fits. */
+  | ({ do: 'charts'; drive?: string } & Source)
+  /** `jred fastest`; without `drive` of the first that fits. */
+  | ({ do: 'fastest'; drive?: string } & Source)
+  /** `jred gentlest`. */
+  | ({ do: 'gentlest'; drive?: string } & Source)
+  /** `jred steady`: the steady cycle, and the flywheel for the fluctuation `delta`. */
+  | ({ do: 'flywheel'; delta?: number } & Source)
+  /** A file to download: the table of `jred export` in this form. */
+  | ({ do: 'export'; form: ExportForm; torqueError?: string } & Source)
+  /** The HTML report of `jred size --report`; takes about a second. */
+  | ({ do: 'report' } & Source)
+  /** Every quantity of the text, for sliders. */
+  | ({ do: 'quantities' } & Source)
+  /** The text with quantities replaced in place, for example `{ "mechanism.slider.mass": "43 kg" }`. */
+  | ({ do: 'set'; values: Record<string, string> } & Source)
+  /** What may be written at a place of the text (offset in UTF-16 units). */
+  | ({ do: 'complete'; at: number } & Source)
+  /** A linkage under construction. */
+  | { do: 'draw'; linkage: Linkage }
+  /** The linkage of a machine file of type "linkage", to be changed by hand. */
+  | ({ do: 'linkage' } & Source)
+  /** A linkage from a file of another program. */
+  | { do: 'import'; name: string; text: string };
+
+export type ExportForm = 'image' | 'c' | 'rust' | 'json' | 'st' | 'plcopen';
+
+/** `answer` of each request. */
+export interface Answers {
+  curves: Columns;
+  drawing: Drawing;
+  size: SizeAnswer;
+  charts: Charts;
+  /** `jred fastest --format json`: docs/schemas/fastest.json. */
+  fastest: Record<string, unknown>;
+  /** docs/schemas/gentlest.json */
+  gentlest: Record<string, unknown>;
+  /** docs/schemas/steady.json */
+  flywheel: Record<string, unknown>;
+  export: Download;
+  report: { html: string };
+  quantities: Quantity[];
+  set: { text: string };
+  complete: Completion;
+  draw: Drawn;
+  linkage: Linkage;
+  import: { linkage: Linkage; notes: string[] };
+}
+
+export type Answer<D extends Request['do']> = { answer: Answers[D]; warnings: string[] } | { error: Fault };
+
+/** A fault of the text, or of what is asked for. */
+export interface Fault {
+  message: string;
+  /** How to mend it; may be empty. */
+  help: string;
+  /** Places in the text; `line` and `column` count from 1, `from` and `to` are offsets in UTF-16 units. Empty if it has no place in the text. */
+  places: { from: number; to: number; line: number; column: number; label: string }[];
+  /** The name of the file of these places, if it is not the machine file. */
+  file?: string;
+  /** The core panicked and was started anew; `message` is the panic's. */
+  panic?: true;
+}
+
+/** Named columns: "phi [deg]", "J_red [kg m^2]", …, "T_drive [N m]"; null where there is no value. */
+export interface Columns {
+  schema: string;
+  title: string;
+  notes: string[];
+  columns: string[];
+  rows: (number | null)[][];
+}
+
+/** See `Animation` in tool/report/src/drawing.rs. */
+export interface Drawing {
+  /** Groups `[data-link="k"]` and `[data-point="k"]` carry the transform "translate(x y) rotate(a)". */
+  svg: string;
+  track: {
+    /** Position of each frame (deg, or mm of a drive link that slides). */
+    positions: number[];
+    /** x, y (px) and angle (deg) of each link, for each frame. */
+    links: number[][];
+    /** x, y (px) of each point, for each frame. */
+    points: number[][];
+    /** The first frame follows the last. */
+    turn: boolean;
+    /** Frame of `svg`. */
+    first: number;
+  };
+}
+
+/** The parts of docs/schemas/size.json that the page shows. */
+export interface SizeAnswer {
+  title: string;
+  warnings: string[];
+  ranking: string;
+  counts: { drives: number; fit: number; 'fit, not all rules checked': number; refused: number };
+  fit: SizedDrive[];
+  refused: SizedDrive[];
+  asked?: SizedDrive;
+  explanation?: Record<string, unknown>;
+  [key: string]: unknown;
+}
+
+export interface SizedDrive {
+  motor: string;
+  gearbox: string | null;
+  amplifier: string | null;
+  ratio: number;
+  'mass [kg]': number | null;
+  'rated power [W]': number | null;
+  verdict: 'pass' | 'warn' | 'fail' | string;
+  rank?: number | null;
+  checks: Record<string, unknown>[];
+  assumptions: string[];
+  [key: string]: unknown;
+}
+
+/** Charts of the report, as numbers. */
+export interface Charts {
+  drive: string;
+  charts: Chart[];
+}
+
+export interface Chart {
+  /** "plane", "torque", "speed", … */
+  name: string;
+  x: string;
+  y: string;
+  series: { name: string; style: 'line' | 'dashed' | 'dots'; points: [number | null, number | null][] }[];
+}
+
+export interface Download {
+  name: string;
+  type: string;
+  /** One of both. */
+  text?: string;
+  base64?: string;
+  /** The answer of `jred export`: docs/schemas/export.json. */
+  about: Record<string, unknown>;
+}
+
+export interface Quantity {
+  /** "mechanism.slider.mass" */
+  key: string;
+  /** Meaning of its key, from the documentation of machine files; may be empty. */
+  help: string;
+  number: number;
+  /** As written; empty for a plain number. */
+  unit: string;
+  /** A count. */
+  whole: boolean;
+  /** A range for a slider, in `unit`; `min` is a limit where the key has one. */
+  min: number;
+  max: number;
+  /** Place in the text (UTF-16 units). */
+  from: number;
+  to: number;
+}
+
+export interface Completion {
+  /** The part of the text that a candidate replaces (UTF-16 units). */
+  from: number;
+  to: number;
+  candidates: { label: string; detail: string; insert: string }[];
+}
+
+/** A linkage as it is drawn; lengths in mm, angles in degrees, masses in kg. */
+export interface Linkage {
+  title: string;
+  points: { name: string; x: number; y: number; ground?: boolean }[];
+  /** Bodies through their points. A point on several bodies is a pin between them; a ground point is a bearing. */
+  bodies: { name: string; points: string[]; mass?: number; inertia?: number; com?: [number, number] }[];
+  /** A point that slides along a line through `at` (or its own place) at an angle; on the ground, or on the body `on`. */
+  guides: { point: string; angle: number; on?: string; body?: string }[];
+  /** The pin (a ground point) that is driven, or the name of the guided point. */
+  drive: string;
+  speed?: number;
+  loads: { name: string; on: string; at: string; force?: [number, number]; opposing?: number }[];
+  /** Down: [0, −9.81] (m/s²). */
+  gravity?: [number, number];
+}
+
+export interface Drawn {
+  /** Degrees of freedom by Grübler's count. */
+  freedoms: number;
+  /** What is missing or too much, in words; empty if the linkage moves. */
+  obstacle: string;
+  /** Range of the drive between dead points (deg or mm); null: it turns on and on. */
+  range: [number, number] | null;
+  /** Dead points, in words with their places. */
+  dead: { at: number; words: string }[];
+  /** The machine file; empty while the linkage does not move. */
+  text: string;
+}
