@@ -19,7 +19,7 @@ export interface GalleryMachine extends Source {
 
 export type Request =
   /** The curves over one turn or the stroke: `jred reduce --positions N`. */
-  | ({ do: 'curves'; positions?: number } & Source)
+  | ({ do: 'curves'; positions?: number; over?: 'angle' | 'time' } & Source)
   /** The machine drawn: an SVG, and a track to move its groups by. */
   | ({ do: 'drawing' } & Source)
   /** `jred size`. With a `drive` ("MOTOR+GEARBOX") that drive alone is judged, which takes a few milliseconds: for sliders. */
@@ -195,12 +195,16 @@ export interface Completion {
 export interface Linkage {
   title: string;
   points: { name: string; x: number; y: number; ground?: boolean }[];
-  /** Bodies through their points. A point on several bodies is a pin between them; a ground point is a bearing. */
+  /**
+   * Bodies through their points. A point on several bodies is a pin between them; a ground point is a bearing. `com` in the frame of the body: from
+   * its first point, u towards the second; not given: the middle of its points. `inertia` (kg m²) not given: that of a slender rod.
+   */
   bodies: { name: string; points: string[]; mass?: number; inertia?: number; com?: [number, number] }[];
-  /** A point that slides along a line through `at` (or its own place) at an angle; on the ground, or on the body `on`. */
-  guides: { point: string; angle: number; on?: string; body?: string }[];
+  /** A point that slides along a line through its place at an angle; on the ground, or on the body `on`. `mass` is that of its block (`body`). */
+  guides: { point: string; angle: number; on?: string; body?: string; mass?: number }[];
   /** The pin (a ground point) that is driven, or the name of the guided point. */
   drive: string;
+  /** Constant speed of the drive (rpm; mm/s if it slides). */
   speed?: number;
   loads: { name: string; on: string; at: string; force?: [number, number]; opposing?: number }[];
   /** Down: [0, −9.81] (m/s²). */
