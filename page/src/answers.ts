@@ -69,7 +69,7 @@ export class AnswerPanel {
     const row = (drive: SizedDrive, place: string): (Node | string)[] => {
       const name = driveName(drive);
       const broken = checksOf(drive).filter((check) => check.verdict === 'fail').map((check) => check.rule).join(', ');
-      return [place, h('span', { lang: 'en' }, name), `${shown(drive['rated power [W]'], 3)} W`, shown(drive.ratio), verdict(drive.verdict, texts),
+      return [place, h('span', { lang: 'en' }, name), `${shown(drive['rated power [W]'], 3)} W`, shown(drive.ratio), verdict(drive.verdict, texts, true),
         h('span', { lang: 'en' }, broken), h('button', { type: 'button', 'aria-label': `${texts.look}: ${name}`, onclick: () => this.bench.choose(name) }, texts.look)];
     };
     const head = [texts.rank, texts.drive, texts.ratedPower, texts.ratio, texts.verdict, texts.violates, ''];

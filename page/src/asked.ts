@@ -2,7 +2,7 @@
 import { h } from './dom';
 import type { Answers, Fault, Request } from './protocol';
 import type { Texts } from './texts';
-import type { Workbench } from './workbench';
+import type { Asking, Workbench } from './workbench';
 
 type Command = Request['do'];
 
@@ -19,7 +19,7 @@ export class Asked<D extends Command> {
     private readonly bench: Workbench,
     name: string,
     what: string,
-    private readonly request: () => object & { do: D },
+    private readonly request: () => Asking<D>,
     private readonly render: (answer: Answers[D]) => Node[],
     ...options: Node[]
   ) {
@@ -48,7 +48,7 @@ export class Asked<D extends Command> {
     this.state.textContent = told ? '' : this.texts.stopped;
     if (!told) return;
     this.element.classList.remove('old');
-    this.result.replaceChildren(...('error' in told ? faultOf(told.error) : this.render(told.answer as Answers[D])));
+    this.result.replaceChildren(...('error' in told ? faultOf(told.error) : this.render(told.answer)));
     if (text !== this.bench.source.text) this.outdated();
   }
 }

@@ -42,12 +42,13 @@ export function percent(check: Check): string {
   return share === undefined ? '–' : `${shown(100 * share, share < 1 ? 2 : 3)} %`;
 }
 
-export function verdict(word: string, texts: Texts): HTMLElement {
+/** Of a rule, or of a `whole` drive. */
+export function verdict(word: string, texts: Texts, whole = false): HTMLElement {
   const words: Record<string, string> = {
     pass: texts.pass,
     warn: texts.warn,
     fail: texts.fail,
-    'not-checked': texts.notChecked,
+    'not-checked': whole ? texts.asFarAsChecked : texts.notChecked,
   };
   return h('span', { class: `verdict ${word}` }, words[word] ?? word);
 }

@@ -1,5 +1,5 @@
 /** J(φ), and the torque over the turn below it, with the position of the picture marked. */
-import { h } from './dom';
+import { h, unitShown } from './dom';
 import { Plot, type Line } from './plots';
 import type { Columns } from './protocol';
 import type { Texts } from './texts';
@@ -10,8 +10,8 @@ export class Curves {
   private readonly torque: Plot;
 
   constructor(private readonly texts: Texts) {
-    this.inertia = new Plot(texts, 150, true);
-    this.torque = new Plot(texts, 190, true);
+    this.inertia = new Plot(texts, 130, true);
+    this.torque = new Plot(texts, 170, true);
     this.element = h('section', { class: 'card curves', 'aria-labelledby': 'curves-title' },
       h('h2', { id: 'curves-title' }, texts.curves), this.inertia.element, this.torque.element);
   }
@@ -32,7 +32,7 @@ export class Curves {
     const torque = drive.length > 0 ? drive : pick((name) => /^[TF]_(potential|process) \[/.test(name));
     this.inertia.element.hidden = inertia.length === 0;
     this.torque.element.hidden = torque.length === 0;
-    const unit = (pattern: RegExp): string => columns.columns.map((name) => pattern.exec(name)?.[1]).find((found) => found) ?? '';
+    const unit = (pattern: RegExp): string => unitShown(columns.columns.map((name) => pattern.exec(name)?.[1]).find((found) => found) ?? '');
     this.inertia.show({ title: this.texts.reducedInertia, x: plain(x, true), y: `${/^m_/.test(columns.columns[1] ?? '') ? 'm' : 'J'} [${unit(/^[Jm]_red \[(.*)\]/)}]`, lines: inertia });
     this.torque.show({ title: this.texts.torqueOverTurn, x: plain(x, true), y: `[${unit(/^[TF]_\w+ \[(.*)\]/)}]`, lines: torque });
   }
@@ -42,7 +42,7 @@ export class Curves {
 function plain(name: string, unit = false): string {
   const [, symbol, in_] = /^(.*?)(?: \[(.*)\])?$/.exec(name) ?? [];
   const words = (symbol ?? name).replace('phi', 'φ').replace('_red', '').replace('_', ' ');
-  return unit && in_ ? `${words} [${in_ === 'deg' ? '°' : in_}]` : words;
+  return unit && in_ ? `${words} [${unitShown(in_)}]` : words;
 }
 
 /** A turn ends where it began. */

@@ -66,3 +66,8 @@ export function shown(value: number | null | undefined, digits = 4): string {
   const short = Number(value.toPrecision(digits));
   return Math.abs(short) >= 1e6 || (short !== 0 && Math.abs(short) < 1e-4) ? short.toExponential() : String(short);
 }
+
+/** A unit for reading: "kg m^2" → "kg m²". */
+export function unitShown(unit: string): string {
+  return unit === 'deg' ? '°' : unit.replaceAll('^2', '²').replaceAll('^3', '³');
+}

@@ -71,8 +71,8 @@ export class DrivePanel {
     const checks = checksOf(drive);
     const parts = [drive.motor, drive.gearbox, drive.amplifier].filter((key): key is string => key !== null);
     const named = parts.map((key) => this.orders.get(key) ?? key);
-    const ratio = drive.gearbox === null ? this.texts.direct : `i = ${shown(drive.ratio)}`;
-    this.name.replaceChildren(h('strong', { lang: 'en', title: driveName(drive) }, named.join(' + ')), ` ${ratio}, ${shown(drive['rated power [W]'], 3)} W`);
+    const ratio = drive.gearbox === null ? this.texts.direct : `i\u00a0=\u00a0${shown(drive.ratio)}`;
+    this.name.replaceChildren(h('strong', { lang: 'en', title: driveName(drive) }, named.join(' + ')), `, ${ratio}, ${shown(drive['rated power [W]'], 3)}\u00a0W`);
     this.say(words);
     this.bars.replaceChildren(shortBars(checks, 8, this.texts));
     const closest = checks.reduce<typeof checks[number] | undefined>((most, check) => ((used(check) ?? 0) > (most ? used(most)! : 0) && check.verdict !== 'warn' ? check : most), undefined);

@@ -3,7 +3,7 @@ import { faultOf } from './asked';
 import { h, save } from './dom';
 import type { Answers, Download, ExportForm, Request } from './protocol';
 import type { Texts } from './texts';
-import type { Workbench } from './workbench';
+import type { Asking, Workbench } from './workbench';
 
 const TABLES: [ExportForm, string][] = [['image', '.jred'], ['c', '.h'], ['rust', '.rs'], ['json', '.json'], ['st', '.st'], ['plcopen', '.xml']];
 
@@ -11,13 +11,13 @@ export function exportsPanel(texts: Texts, bench: Workbench, drawing: () => stri
   const state = h('div', { class: 'state', role: 'status' });
   const say = (...nodes: (Node | string)[]): void => state.replaceChildren(...nodes);
   const bare = (): string => bench.source.name.replace(/\.toml$/, '');
-  const ask = async <D extends Request['do']>(request: object & { do: D }, done: (answer: Answers[D]) => void): Promise<void> => {
+  const ask = async <D extends Request['do']>(request: Asking<D>, done: (answer: Answers[D]) => void): Promise<void> => {
     say(texts.computing);
     const told = await bench.ask(request);
     if (!told) say(texts.stopped);
     else if ('error' in told) say(...faultOf(told.error));
     else {
-      done(told.answer as Answers[D]);
+      done(told.answer);
       say(texts.saved);
     }
   };

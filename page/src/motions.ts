@@ -2,7 +2,7 @@
 import { Asked } from './asked';
 import { h, shown, table } from './dom';
 import { Plot, type Line } from './plots';
-import type { Answers, Columns } from './protocol';
+import type { Answers } from './protocol';
 import type { Texts } from './texts';
 import type { Workbench } from './workbench';
 
@@ -38,7 +38,7 @@ export function motionsPanel(texts: Texts, bench: Workbench): HTMLElement {
   const own = async (): Promise<void> => {
     const told = await bench.ask({ do: 'curves' as const, over: 'time' as const, positions: 400 });
     if (!told || !('answer' in told)) return;
-    const { columns, rows } = told.answer as Columns;
+    const { columns, rows } = told.answer;
     const speed = columns.findIndex((name) => /^(omega|v) \[/.test(name));
     if (speed > 0) draw(texts.asInFile, rows.map((row) => [row[0] ?? null, row[speed] ?? null]), 'dashed');
   };
@@ -62,8 +62,10 @@ export function motionsPanel(texts: Texts, bench: Workbench): HTMLElement {
       draw(texts.gentlest, found.nodes.map((node) => [node[0] ?? null, node[2] ?? null]));
       void own();
       const sorted = [...found.motions].sort((a, b) => a.rms_torque - b.rms_torque);
-      return [table(texts.motions, [texts.motion, texts.rmsTorque, texts.peakTorque, texts.peakSpeed, texts.work], sorted.map((motion) => [
-        h('span', { lang: 'en' }, motion.motion), shown(motion.rms_torque), shown(motion.peak_torque), shown(motion.peak_speed), `${shown(motion.work_drawn)} J`]))];
+      const [torque, speed] = found.unit === 'm' ? ['N', 'm/s'] : ['N m', 'rad/s'];
+      const head = [texts.motion, `${texts.rmsTorque} [${torque}]`, `${texts.peakTorque} [${torque}]`, `${texts.peakSpeed} [${speed}]`, `${texts.work} [J]`];
+      return [table(texts.motions, head, sorted.map((motion) => [
+        h('span', { lang: 'en' }, motion.motion), shown(motion.rms_torque), shown(motion.peak_torque), shown(motion.peak_speed), shown(motion.work_drawn)]))];
     });
   return h('div', {}, plot.element, fastest.element, gentlest.element);
 }

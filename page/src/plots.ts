@@ -45,7 +45,7 @@ export class Plot {
     this.legend = h('ul', { class: 'legend', 'aria-hidden': 'true' });
     this.details = h('details', { class: 'numbers' }, h('summary', {}, texts.asTable));
     this.details.addEventListener('toggle', () => this.fillTable());
-    this.element = h('figure', { class: 'plot' }, this.legend, this.canvas, this.details);
+    this.element = h('figure', { class: 'plot' }, this.details, this.legend, this.canvas);
     new ResizeObserver(() => this.fit()).observe(this.canvas);
     all.add(this);
   }
@@ -54,7 +54,8 @@ export class Plot {
     this.content = content;
     const summary = content.lines.map((line) => `${line.name}: ${extent(line)}`).join('; ');
     this.canvas.setAttribute('aria-label', `${content.title}. ${content.y} ${this.texts.over} ${content.x}. ${summary}`);
-    this.legend.replaceChildren(...content.lines.map((line, k) =>
+    // One line alone is named by the axis.
+    this.legend.replaceChildren(...(content.lines.length < 2 ? [] : content.lines).map((line, k) =>
       h('li', {}, h('span', { class: `key ${line.style}`, style: `--ink:var(--line-${k % 7})` }), line.name)));
     this.paint();
     this.fillTable();
@@ -69,7 +70,7 @@ export class Plot {
 
   paint(): void {
     if (!this.content) return;
-    const [low, high] = range(this.content.lines.flatMap((line) => line.points.map(([x]) => x)), 0);
+    const [low, high] = range(this.content.lines.flatMap((line) => line.points.map(([x]) => x)), this.cursor ? 0 : 0.02);
     const [bottom, top] = range(this.content.lines.flatMap((line) => line.points.map(([, y]) => y)), 0.06);
     const data: uPlot.AlignedData = [[low, high], [null, null]];
     if (this.plot && this.plot.axes[0]!.label === this.content.x && this.plot.axes[1]!.label === this.content.y && !this.stale()) {

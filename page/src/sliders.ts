@@ -1,5 +1,5 @@
 /** A slider and a number field for every quantity of the machine file. */
-import { h, settled } from './dom';
+import { h, settled, unitShown } from './dom';
 import type { Quantity } from './protocol';
 import type { Texts } from './texts';
 import type { Workbench } from './workbench';
@@ -46,7 +46,7 @@ export class Sliders {
       groups.set(name, [...(groups.get(name) ?? []), row]);
     }
     this.list.replaceChildren(...[...groups].map(([name, rows], k) =>
-      h('details', { class: 'group', open: k < 6 }, h('summary', { lang: 'en' }, name.replaceAll('.', ' › ') || this.texts.machine), ...rows.map((row) => row.element))));
+      h('details', { class: 'group', open: k < 6 }, h('summary', { lang: 'en' }, heading(name) || this.texts.machine), ...rows.map((row) => row.element))));
   }
 
   private row(quantity: Quantity, name: string): Row {
@@ -55,7 +55,7 @@ export class Sliders {
     const slider = h('input', { type: 'range', 'aria-label': label, 'aria-describedby': quantity.help ? `${id}-help` : null });
     const field = h('input', { type: 'number', id, 'aria-label': label });
     const element = h('div', { class: 'quantity', title: quantity.help },
-      h('label', { for: id, lang: 'en' }, name), slider, field, h('span', { class: 'unit' }, quantity.unit),
+      h('label', { for: id, lang: 'en' }, name), slider, field, h('span', { class: 'unit' }, unitShown(quantity.unit)),
       quantity.help && h('span', { class: 'unseen', id: `${id}-help`, lang: 'en' }, quantity.help));
     const row = { quantity, slider, field, element };
     this.scale(row, quantity);
@@ -127,4 +127,9 @@ export class Sliders {
       if (found && words !== '') group.open = true;
     }
   }
+}
+
+/** "motion.segment.0" → "motion › segment 1" */
+function heading(table: string): string {
+  return table.replaceAll(/\.(\d+)/g, (_, index: string) => ` ${Number(index) + 1}`).replaceAll('.', ' › ');
 }

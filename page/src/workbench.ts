@@ -6,13 +6,16 @@
 import type { Core } from './core';
 import { settled } from './dom';
 import { History } from './history';
-import type { Answers, Charts, Columns, Drawing, Fault, Quantity, Request, SizeAnswer, Source } from './protocol';
+import type { Answer, Answers, Charts, Columns, Drawing, Fault, Quantity, Request, SizeAnswer, Source } from './protocol';
 
 /** Who changed the text; its own view does not follow. */
 export type By = 'slider' | 'text' | 'draw' | 'open' | 'history';
 
 /** Time (ms) without a change after which the catalogue is sized. */
 const REST = 250;
+
+/** A request about the machine on the bench. */
+export type Asking<D extends Request['do']> = Omit<Extract<Request, { do: D }>, keyof Source> & { do: D };
 
 export interface Events {
   source: { source: Source; by: By };
@@ -113,8 +116,8 @@ export class Workbench {
   }
 
   /** What a command of the core says to this source; undefined if it failed or a newer request took its place. */
-  ask<D extends Request['do']>(request: object & { do: D }, lane?: string): ReturnType<Core['ask']> {
-    return this.slow.ask({ ...this.source, ...request } as unknown as Request, lane ?? request.do);
+  ask<D extends Request['do']>(request: Asking<D>): Promise<Answer<D> | undefined> {
+    return this.slow.ask<D>({ ...this.source, ...request } as unknown as Extract<Request, { do: D }>);
   }
 
   cancel(lane: string): void {
@@ -132,6 +135,10 @@ export class Workbench {
   async complete(text: string, at: number): Promise<Answers['complete'] | undefined> {
     const told = await this.live.ask<'complete'>({ do: 'complete', at, ...this.source, text });
     return told && 'answer' in told ? told.answer : undefined;
+  }
+
+  import(name: string, text: string): ReturnType<typeof this.live.ask<'import'>> {
+    return this.live.ask<'import'>({ do: 'import', name, text });
   }
 
   private async list(): Promise<void> {

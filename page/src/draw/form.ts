@@ -78,7 +78,7 @@ function ofPoint(texts: Texts, sheet: Sheet, point: Point): Node[] {
       number('y', 'mm', point.y, (y) => set({ y: y ?? 0 }))),
     h('div', { class: 'ticks' },
       tick(texts.fixedToFrame, point.ground === true, (ground) => set({ ground })),
-      tick(texts.drives, linkage.drive === name, (drives) => sheet.change({ ...linkage, drive: drives ? name : '' }, ''), !point.ground && !guide),
+      tick(texts.drivesHere, linkage.drive === name, (drives) => sheet.change({ ...linkage, drive: drives ? name : '' }, ''), !point.ground && !guide),
       tick(texts.slides, guide !== undefined, (slides) => sheet.change(setGuide(linkage, name, slides ? 0 : undefined), ''))),
     ...(guide ? [h('div', { class: 'fields' },
       number(texts.guideAngle, '°', guide.angle, (angle) => sheet.change(setGuide(linkage, name, angle ?? 0, guide.on), '')),
