@@ -62,12 +62,11 @@ export function shortBars(checks: Check[], most: number, texts: Texts): HTMLElem
 
 export function ruleTable(checks: Check[], texts: Texts): HTMLElement {
   const figure = (value: number | null, unit: string): string => (value === null ? '–' : `${shown(value)} ${unit}`);
-  return table(texts.rulesOfDrive, [texts.rule, texts.figure, texts.limit, texts.used, '', texts.verdict, texts.basis], byUse(checks).map((check) => [
+  return table(texts.rulesOfDrive, [texts.rule, texts.figure, texts.limit, texts.used, texts.verdict, texts.basis], byUse(checks).map((check) => [
     h('span', { lang: 'en' }, check.rule),
     figure(check.value, check.unit),
     figure(check.limit, check.unit),
-    percent(check),
-    bar(check),
+    h('span', { class: 'use' }, percent(check), bar(check)),
     verdict(check.verdict, texts),
     h('span', { lang: 'en', class: 'note' }, `${check.note}${check.source ? ` (${check.source})` : ''}`),
   ]));

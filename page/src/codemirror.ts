@@ -38,7 +38,7 @@ export function codeMirror(habits: Habits, text: string): Writing {
         lineNumbers(), drawSelection(), highlightActiveLine(), lintGutter(),
         StreamLanguage.define(toml), syntaxHighlighting(colours),
         autocompletion({ override: [complete] }),
-        EditorView.contentAttributes.of({ 'aria-label': habits.label, spellcheck: 'false', autocapitalize: 'off' }),
+        EditorView.contentAttributes.of({ 'aria-label': habits.label, tabindex: '0', spellcheck: 'false', autocapitalize: 'off' }),
         EditorView.updateListener.of((update) => {
           if (update.docChanged && told) habits.changed();
         }),

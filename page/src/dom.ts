@@ -28,7 +28,7 @@ export function table(caption: string, head: string[], rows: (Node | string)[][]
   return h('div', { class: 'scroll', tabindex: 0, role: 'region', 'aria-label': caption },
     h('table', {},
       h('caption', { class: hidden ? 'unseen' : null }, caption),
-      h('thead', {}, h('tr', {}, ...head.map((name) => h('th', { scope: 'col' }, name)))),
+      h('thead', {}, h('tr', {}, ...head.map((name) => (name === '' ? h('td') : h('th', { scope: 'col' }, name))))),
       h('tbody', {}, ...rows.map(([first, ...rest]) => h('tr', {},
         h('th', { scope: 'row' }, first ?? ''),
         ...rest.map((cell) => h('td', {}, cell)))))));

@@ -11,8 +11,8 @@ export async function words(): Promise<{ language: Language; texts: Texts }> {
   const wanted = [recall('language'), ...navigator.languages].map((tag) => tag?.slice(0, 2));
   const language = (wanted.find((tag) => tag !== undefined && tag in LANGUAGES) ?? 'en') as Language;
   try {
-    if (language === 'de') return { language, texts: (await import('./texts/de')).de };
-    if (language === 'ru') return { language, texts: (await import('./texts/ru')).ru };
+    if (language === 'de') return { language, texts: (await import('./texts/de.json')).default };
+    if (language === 'ru') return { language, texts: (await import('./texts/ru.json')).default };
   } catch {
     // Without a network and not kept: English is at hand.
   }

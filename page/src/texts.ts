@@ -1,4 +1,4 @@
-/** All words of the page in English; other languages have the same keys (texts/). Words of the core are English in all. */
+/** All words of the page in English; other languages have the same keys (texts/*.json). Words of the core are English in all. */
 export const en = {
   title: 'jred: from a mechanism to a servo drive',
   skip: 'Skip to the machine',
