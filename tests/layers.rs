@@ -157,7 +157,7 @@ const TOOL: [(&str, &[&str]); 8] = [
     (
         "file",
         &[
-            "plain", "number", "units", "text", "model", "argument", "keys", "read",
+            "plain", "math", "number", "units", "text", "model", "argument", "keys", "read",
         ],
     ),
     (

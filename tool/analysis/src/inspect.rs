@@ -10,6 +10,7 @@ use jred::Domain;
 use jred::error::Error;
 use jred::machine::{Frame, Jointed as _, Mechanism as _};
 use jred::mechanism::cam::{LiftOff, lift_off};
+use jred_file::math;
 
 use crate::warnings::warnings;
 use jred_file::model::by_motion::ByMotion;
@@ -222,7 +223,7 @@ fn closure(mechanism: &AnyMechanism) -> Result<Option<f64>, Error> {
         for ((a, b), link) in now.iter().zip(&later).zip(mechanism.links()) {
             let speed = |frame: &Frame| {
                 let [x, y] = frame.point(link.com());
-                x.d1.hypot(y.d1)
+                math::hypot(x.d1, y.d1)
             };
             most = most.max((speed(b) - speed(a)).abs() / length);
             most = most.max((b.psi.d1 - a.psi.d1).abs() / a.psi.d1.abs().max(1.0));

@@ -1,4 +1,8 @@
 //! The test program of the package.
+#![allow(
+    clippy::disallowed_methods,
+    reason = "tests expect values of another library"
+)]
 
 mod golden;
 mod intervals;

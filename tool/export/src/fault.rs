@@ -4,6 +4,7 @@ use jred::error::Error;
 use jred::number::RangeError;
 use jred::table::{MAX_CELLS, TableError};
 use jred::{Cubic, Quadratic, Spline};
+use jred_file::math;
 
 use crate::candidate::{Candidate, RangeTable, SearchResult};
 use crate::choice::{LayoutName, Number};
@@ -209,7 +210,7 @@ impl WorstRange<'_> {
     fn cells_needed(&self, task: &Task, order: f64) -> CellsNeeded {
         let allowed = task.torque_error.unwrap_or_default();
         let cells = f64::from(self.table.found.cells);
-        let needed = cells * (self.table.error / allowed).powf(1.0 / order);
+        let needed = cells * math::pow(self.table.error / allowed, 1.0 / order);
         if round_up(needed.min(1e9)) <= task.max_cells {
             CellsNeeded::Irregular
         } else if needed <= f64::from(MAX_CELLS) {
@@ -268,14 +269,14 @@ impl WorstRange<'_> {
             ];
             let mut sum = 0.0;
             for cells in sizes {
-                sum += without(cells.max(4))?.ln();
+                sum += math::ln(without(cells.max(4))?);
             }
             Ok(sum / 4.0)
         };
         let order = if cells < 16 {
             3.0
         } else {
-            (mean(cells / 2)? - mean(cells)?) / 2f64.ln()
+            (mean(cells / 2)? - mean(cells)?) / std::f64::consts::LN_2
         };
         Ok(if order > 0.25 {
             AccuracyLimit::Order(order, self.cells_needed(task, order))
@@ -287,6 +288,8 @@ impl WorstRange<'_> {
 
 /// Two digits, rounded up.
 fn round_up(cells: f64) -> u32 {
-    let unit = 10f64.powf((cells.log10() - 1.0).floor()).max(1.0);
+    let unit = 10f64
+        .powi((math::log10(cells) - 1.0).floor() as i32)
+        .max(1.0);
     (((cells / unit).ceil() * unit) as u32).min(MAX_CELLS)
 }

@@ -11,7 +11,7 @@
 //!
 //! Its modules follow the flow of the data; each knows those before it:
 //!
-//! 1. [`plain`]: texts without hidden characters; [`number`]: rounding, integrals, splines, columns of numbers.
+//! 1. [`plain`]: texts without hidden characters; [`math`]: sines and powers; [`number`]: rounding, integrals, splines, columns of numbers.
 //! 2. [`units`] and [`text`]: quantities with units, TOML and CSV with positions.
 //! 3. [`model`]: a machine as described by a machine file.
 //! 4. [`argument`]: quantities of a command line, with the units of machine files.
@@ -21,6 +21,7 @@
 
 pub mod argument;
 pub mod keys;
+pub mod math;
 pub mod model;
 pub mod number;
 pub mod plain;

@@ -18,6 +18,7 @@
 //! - [`outcome`](self): cost, optimum and motion of a solution;
 //! - [`cycle`]: the moves of a machine file, each in its own time, compared with the motion laws.
 
+use jred_file::math;
 use std::rc::Rc;
 
 use jred::error::Error;
@@ -306,7 +307,7 @@ fn from_end_to_end(
         let powers = [&solved, &next].map(|solved| solved.stage.cost.power);
         let [before, cost] = [&solved, &next].map(|solved| solved.found.cost);
         // If the torque can be zero, the rest is rounding.
-        let torque = cost.powf(1.0 / f64::from(powers[1]));
+        let torque = math::pow(cost, 1.0 / f64::from(powers[1]));
         change = if powers[0] != powers[1] {
             f64::INFINITY
         } else if torque > 1e-10 {

@@ -110,6 +110,10 @@ impl Factors {
 }
 
 #[cfg(test)]
+#[expect(
+    clippy::disallowed_methods,
+    reason = "functions of another library than the code's"
+)]
 mod tests {
     use super::Skyline;
 

@@ -11,6 +11,7 @@
 //! `tests/cycle/between.rs` compares both with closed forms. [`Cycle::new`] is one pass over the samples. After it a drive costs the same at a
 //! thousand samples and at a million, except for a few more levels of the search (docs/performance.md).
 
+use jred_file::math;
 use std::sync::OnceLock;
 
 use crate::catalogue::Drive;
@@ -245,8 +246,11 @@ impl Cycle {
             return 0.0;
         }
         let share =
-            |s: &LoadSample| s.weight * s.speed().abs() * s.output_torque().abs().powf(power);
-        (self.samples.iter().map(share).sum::<f64>() / turning).powf(1.0 / power)
+            |s: &LoadSample| s.weight * s.speed().abs() * math::pow(s.output_torque().abs(), power);
+        math::pow(
+            self.samples.iter().map(share).sum::<f64>() / turning,
+            1.0 / power,
+        )
     }
 
     /// The samples by speed.

@@ -2,6 +2,7 @@
 
 use jred::Domain;
 use jred::machine::{Mechanism as _, Reducible as _};
+use jred_file::math;
 
 use crate::duty::{Instant, Smooth};
 use jred_file::model::coordinate::Coordinate;
@@ -135,7 +136,7 @@ fn tool_slope(file: &MachineFile, instants: &[Instant]) -> Option<f64> {
         Some(match tool.place {
             ToolPlace::Point(at) => {
                 let [x, y] = frame.point(at);
-                x.d1.hypot(y.d1)
+                math::hypot(x.d1, y.d1)
             }
             ToolPlace::Turning => frame.psi.d1.abs(),
         })

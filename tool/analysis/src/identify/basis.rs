@@ -1,5 +1,7 @@
 //! The unknowns: harmonics of J and of V′, friction and cogging.
 
+use jred_file::math;
+
 /// Which unknowns there are, in this order: J's mean, cosines and sines; V′'s cosines and sines; a mean load; b; c; cogging.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Basis {
@@ -55,7 +57,7 @@ impl Basis {
 
     /// Cosines and sines of 0…K times an angle.
     pub(super) fn harmonics_at(&self, phi: f64, into: &mut Vec<[f64; 2]>) {
-        let (sin, cos) = phi.sin_cos();
+        let (sin, cos) = math::sin_cos(phi);
         into.clear();
         let mut here = [1.0, 0.0];
         for _ in 0..=self.harmonics {
@@ -68,7 +70,7 @@ impl Basis {
     /// Factors of the unknowns in J.
     pub(super) fn inertia_row(&self, phi: f64) -> Vec<f64> {
         let k = (1..=self.harmonics).map(|k| k as f64 * phi);
-        let waves = k.flat_map(|angle| [angle.cos(), angle.sin()]);
+        let waves = k.flat_map(|angle| [math::cos(angle), math::sin(angle)]);
         [1.0].into_iter().chain(waves).collect()
     }
 
@@ -96,7 +98,7 @@ impl Basis {
         }
         for (q, ab) in self.cogging.iter().zip(theta[self.cog()..].chunks(2)) {
             let order = f64::from(*q);
-            let (s, c) = (order * phi).sin_cos();
+            let (s, c) = math::sin_cos(order * phi);
             at.stiffness += order * (ab[1] * c - ab[0] * s);
         }
         at

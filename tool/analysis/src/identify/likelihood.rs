@@ -1,6 +1,7 @@
 //! The covariance of the rows by the noise of encoder and torque, and the torque's noise by maximum likelihood.
 
 use super::matrix::{Band, DIAGONALS, Matrix, factor, whiten};
+use jred_file::math;
 
 /// Covariance of the rows; those that do not count are set apart.
 pub(super) fn covariance(
@@ -27,7 +28,7 @@ fn unlikeliness(band: &Band, residuals: &[f64]) -> Option<f64> {
         .select(&[1]);
     whiten(&lower, &mut column);
     let squares: f64 = column.rows().map(|row| row[0] * row[0]).sum();
-    let logs: f64 = lower.iter().map(|row| row[0].ln()).sum();
+    let logs: f64 = lower.iter().map(|row| math::ln(row[0])).sum();
     Some(squares + 2.0 * logs)
 }
 
@@ -40,8 +41,13 @@ pub(super) fn torque_variance(
     start: f64,
     steps: usize,
 ) -> Option<f64> {
-    let mut log = start.ln();
-    let at = |log: f64| unlikeliness(&covariance(position, torque, log.exp(), kept), residuals);
+    let mut log = math::ln(start);
+    let at = |log: f64| {
+        unlikeliness(
+            &covariance(position, torque, math::exp(log), kept),
+            residuals,
+        )
+    };
     for _ in 0..steps {
         let [here, above, below] = [at(log)?, at(log + 0.1)?, at(log - 0.1)?];
         let curvature = ((above - 2.0 * here + below) / 0.01).max(1e-2 * kept.len() as f64);
@@ -51,5 +57,5 @@ pub(super) fn torque_variance(
             break;
         }
     }
-    Some(log.exp())
+    Some(math::exp(log))
 }

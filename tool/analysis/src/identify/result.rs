@@ -1,5 +1,6 @@
 //! The result of an identification.
 
+use jred_file::math;
 use std::f64::consts::TAU;
 
 use schemars::JsonSchema;
@@ -109,13 +110,13 @@ impl Identified {
         let coefficients = self.inertia.get(1..).unwrap_or_default().chunks(2);
         for ((k, j), v) in (1..).zip(coefficients).zip(self.potential.chunks(2)) {
             let order = f64::from(k);
-            let (s, c) = (order * phi).sin_cos();
+            let (s, c) = math::sin_cos(order * phi);
             let [a, b] = [j[0].value, j[1].value];
             sum += (a * c + b * s) * alpha + order * (b * c - a * s) * half_square;
             sum += v[0].value * c + v[1].value * s;
         }
         let cogging = self.cogging.iter().map(|cog| {
-            let (s, c) = (f64::from(cog.order) * phi).sin_cos();
+            let (s, c) = math::sin_cos(f64::from(cog.order) * phi);
             cog.cosine.value * c + cog.sine.value * s
         });
         let sign = if omega == 0.0 { 0.0 } else { omega.signum() };

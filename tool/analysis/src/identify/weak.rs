@@ -7,6 +7,7 @@
 
 use super::basis::Basis;
 use super::matrix::{Band, DIAGONALS, Matrix, dot};
+use jred_file::math;
 
 /// The test functions of a log.
 #[derive(Clone, Debug)]
@@ -107,7 +108,7 @@ impl Weak {
             }
             of_w[coulomb] = if *omega == 0.0 { 0.0 } else { omega.signum() };
             for (q, at) in basis.cogging.iter().zip(0..) {
-                let (s, c) = (f64::from(*q) * phi).sin_cos();
+                let (s, c) = math::sin_cos(f64::from(*q) * phi);
                 of_w[basis.cog() + 2 * at] = c;
                 of_w[basis.cog() + 2 * at + 1] = s;
             }

@@ -1,6 +1,7 @@
 //! The joints of a mechanism, and its size.
 
 use jred::machine::{Body, Frames, Joint, Jointed as _, Marker};
+use jred_file::math;
 use serde::Serialize;
 
 use jred_file::model::mechanism::AnyMechanism;
@@ -55,7 +56,7 @@ pub(super) fn size(joints: &[Joint], frames: &Frames) -> f64 {
     let mut most = 0.0f64;
     for a in &points {
         for b in &points {
-            most = most.max((a[0] - b[0]).hypot(a[1] - b[1]));
+            most = most.max(math::hypot(a[0] - b[0], a[1] - b[1]));
         }
     }
     if most > 0.0 { most } else { 1.0 }

@@ -3,6 +3,7 @@
 use jred::Domain;
 use jred::error::Error;
 use jred::machine::{Frames, Jointed as _, Joints, Mechanism as _};
+use jred_file::math;
 use serde::Serialize;
 
 use super::joints::size;
@@ -108,7 +109,7 @@ pub(super) fn transmission(file: &MachineFile) -> Result<Option<Transmission>, E
         index: least,
         angle: here
             .is_some_and(|index| index.bilateral)
-            .then(|| least.min(1.0).asin().to_degrees()),
+            .then(|| math::asin(least.min(1.0)).to_degrees()),
         at: (most - least > CONSTANT).then_some(shown),
         links: links
             .iter()

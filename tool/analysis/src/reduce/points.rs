@@ -4,6 +4,7 @@ use jred::error::Error;
 use jred::machine::motion::State;
 use jred::machine::{Frames, Mechanism as _};
 use jred::number::Transfer;
+use jred_file::math;
 
 use super::{RowPose, Set, Source};
 use jred_file::model::mechanism::AnyMechanism;
@@ -112,5 +113,5 @@ fn with_size(
     let Some([x, y]) = state.map(vector) else {
         return [None; 3];
     };
-    [Some(x), Some(y), Some(x.hypot(y))]
+    [Some(x), Some(y), Some(math::hypot(x, y))]
 }

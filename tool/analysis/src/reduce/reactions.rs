@@ -6,6 +6,7 @@
 
 use jred::error::Error;
 use jred::machine::{Joint, Jointed as _, Mechanism as _};
+use jred_file::math;
 
 use super::{RowPose, Set, Source};
 use jred_file::model::mechanism::AnyMechanism;
@@ -31,7 +32,9 @@ fn carries(joint: &Joint) -> [bool; 2] {
         Joint::Revolute(_) | Joint::PinInSlot(_) => [true, false],
         Joint::Prismatic(_) | Joint::Fixed(_) => [true, true],
         Joint::Transmission(wrenches) => {
-            let force = wrenches.iter().any(|w| w.force[0].hypot(w.force[1]) > 0.0);
+            let force = wrenches
+                .iter()
+                .any(|w| math::hypot(w.force[0], w.force[1]) > 0.0);
             [force, !force || wrenches.iter().any(|w| w.moment != 0.0)]
         }
     }
@@ -113,7 +116,7 @@ impl Set for Reactions {
         let mut values = vec![forces.drive];
         for (k, reaction) in forces.reactions.iter().enumerate().take(self.carries.len()) {
             let [x, y] = reaction.force;
-            values.extend(self.pick(k, [x, y, x.hypot(y), reaction.moment]));
+            values.extend(self.pick(k, [x, y, math::hypot(x, y), reaction.moment]));
         }
         let [mut x, mut y] = forces.shaking_force;
         let mut moment = forces.shaking_moment;
@@ -127,7 +130,7 @@ impl Set for Reactions {
             (x, y) = (x + wrench.force[0], y + wrench.force[1]);
             moment += wrench.moment_about([0.0, 0.0]);
         }
-        values.extend([x, y, x.hypot(y), moment]);
+        values.extend([x, y, math::hypot(x, y), moment]);
         Ok(values.into_iter().map(Some).collect())
     }
 }

@@ -1,5 +1,6 @@
 //! The steady cycle: the fixed point of a turn.
 
+use jred_file::math;
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -101,7 +102,7 @@ fn speeds(turning: &TurningMachine) -> Vec<f64> {
     let around = marks
         .iter()
         .flat_map(|m| [0.96 * m, 0.99 * m, *m, 1.01 * m]);
-    let count = ((FASTEST / SLOWEST).ln() / STEP.ln()) as i32;
+    let count = (math::ln(FASTEST / SLOWEST) / math::ln(STEP)) as i32;
     let grid = (0..=count).map(|k| FASTEST / STEP.powi(k));
     let mut all: Vec<f64> = grid.chain(middles).chain(around).collect();
     all.sort_by(|a, b| b.total_cmp(a));

@@ -2,6 +2,7 @@
 
 use jred::error::Error;
 use jred::machine::Mechanism as _;
+use jred_file::math;
 
 use jred_file::model::coordinate::Coordinate;
 use jred_file::model::machine::MachineFile;
@@ -26,7 +27,7 @@ pub(super) fn of(file: &MachineFile) -> Result<Option<String>, Error> {
     };
     let way = (b.x.value - a.x.value) + (b.y.value - a.y.value);
     let [speed, _] = motion.drive_peaks();
-    let most = speed * motion.duration() * a.x.d1.hypot(a.y.d1);
+    let most = speed * motion.duration() * math::hypot(a.x.d1, a.y.d1);
     if way.abs() <= ROUNDING * most {
         return Ok(None);
     }

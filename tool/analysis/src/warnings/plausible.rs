@@ -5,6 +5,7 @@
 
 use jred::error::Error;
 use jred::machine::{Body, Joint, Jointed as _, Link, Marker, Mechanism as _};
+use jred_file::math;
 
 use jred_file::model::coordinate::Coordinate;
 use jred_file::model::machine::MachineFile;
@@ -40,7 +41,7 @@ pub(super) fn of(file: &MachineFile) -> Result<Vec<String>, Error> {
     let joints = mechanism.joints(start, &frames)?;
     let mut warnings = Vec::new();
     let [x, y] = file.machine.gravity();
-    let g = x.hypot(y);
+    let g = math::hypot(x, y);
     if g > 0.0 && !(GRAVITY[0]..=GRAVITY[1]).contains(&g) {
         warnings.push(format!(
             "gravity is {} m/s^2, not {} to {} m/s^2: is its unit right (m/s^2, mm/s^2)?",
@@ -210,7 +211,7 @@ impl<'m> BodyProperties<'m> {
 
     /// The distance of the centre of mass.
     fn centre(&self, whole: f64) -> Option<String> {
-        let distance = self.com[0].hypot(self.com[1]);
+        let distance = math::hypot(self.com[0], self.com[1]);
         let size = self.size.max(whole);
         let most = if size > 0.0 { CENTRE * size } else { WHEEL };
         if self.mass <= 0.0 || distance <= most {
@@ -275,7 +276,7 @@ fn size(points: impl Iterator<Item = [f64; 2]>) -> f64 {
     let mut most = 0.0_f64;
     for (k, a) in points.iter().enumerate() {
         for b in &points[..k] {
-            most = most.max((a[0] - b[0]).hypot(a[1] - b[1]));
+            most = most.max(math::hypot(a[0] - b[0], a[1] - b[1]));
         }
     }
     most

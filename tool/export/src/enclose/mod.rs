@@ -11,6 +11,7 @@ use jred::machine::Machine;
 use jred::machine::{Element, Frame, Load, Mechanism as _};
 use jred::mechanism::{BallScrew, Geneva, Hoist, ParallelShafts, Planetary, RackAndPinion, Train};
 use jred_enclosure::{Closure, Curves, Interval, LinkFrame, Parts, ProofError, TaylorForm};
+use jred_file::math;
 use std::any::Any;
 
 use jred_file::model::mechanism::{AnyMechanism, Inner};
@@ -158,7 +159,7 @@ fn geared(
         let origin = if planets && k == Planetary::PLANETS {
             let carrier = frames.get(Planetary::CARRIER)?;
             let (sin, cos) = at(carrier.psi).sin_cos();
-            let arm = frame.x.value.hypot(frame.y.value);
+            let arm = math::hypot(frame.x.value, frame.y.value);
             let arm = TaylorForm::somewhere(number(arm));
             [cos * arm, sin * arm]
         } else {

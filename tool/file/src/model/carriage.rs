@@ -10,6 +10,7 @@
 //! The first two terms of r̈ and the weight are those of a mass fixed to the link at its current position. The other two are a force on it, F =
 //! −m·(2·ψ′·ω·ṡ·e⊥ + s̈·e): the reaction of the mass, moving along its guide, on the link that carries guide and axis.
 
+use crate::math;
 use jred::machine::Frame;
 use jred::machine::motion::State;
 
@@ -58,7 +59,7 @@ impl Carriage {
 
     /// The guide's direction e and its normal e⊥ in global components.
     fn directions(&self, frame: &Frame) -> [[f64; 2]; 2] {
-        let (sin, cos) = frame.psi.value.sin_cos();
+        let (sin, cos) = math::sin_cos(frame.psi.value);
         let [u, v] = self.direction;
         let along = [u * cos - v * sin, u * sin + v * cos];
         [along, [-along[1], along[0]]]

@@ -1,5 +1,6 @@
 //! Whether a machine repeats: whether its curves are the same after the drive link has advanced by an angle.
 
+use crate::math;
 use std::f64::consts::TAU;
 
 use jred::machine::{Machine, Mechanism as _, PoseError, Reducible as _};
@@ -108,7 +109,7 @@ fn curves(
     let frames = mechanism.frames(phi)?;
     let weight = mechanism.links().iter().zip(&frames).map(|(link, frame)| {
         let [x, y] = frame.point(link.com());
-        link.mass() * g_x.hypot(g_y) * x.d1.hypot(y.d1)
+        link.mass() * math::hypot(g_x, g_y) * math::hypot(x.d1, y.d1)
     });
     sizes[2] = sizes[2].abs() + weight.sum::<f64>();
     Ok((values, sizes))

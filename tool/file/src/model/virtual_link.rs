@@ -27,6 +27,7 @@ mod table;
 pub(crate) use mechanism::{CurveMechanism, DriveLinkAlone};
 pub use table::{LoadTable, TableVariable};
 
+use crate::math;
 use jred::error::Error;
 use jred::machine::{Action, Body, Element, Frame, Load, Marker, Window, Wrench};
 use jred::number::Transfer;
@@ -237,7 +238,7 @@ impl LinkCurve {
             }
             Self::Thrust { force, on } => {
                 let [x, y] = on.position(frames).map(rate);
-                let speed = x[0].hypot(y[0]);
+                let speed = math::hypot(x[0], y[0]);
                 // The magnitude has a bend where the point is at rest; no mass needs its slope there.
                 let bend = if speed > 0.0 {
                     (x[0] * x[1] + y[0] * y[1]) / speed
@@ -285,7 +286,7 @@ impl LinkCurve {
             }
             Self::Thrust { force: size, on } => {
                 let velocity = on.position(frames).map(|c| c.d1);
-                let speed = velocity[0].hypot(velocity[1]);
+                let speed = math::hypot(velocity[0], velocity[1]);
                 let share = if speed > 0.0 {
                     size.at(phi, frames).value / speed
                 } else {

@@ -11,6 +11,7 @@
 //! Evaluated in dual numbers, so that the slopes are exact. It is written here because libraries with derivatives bring a regular-expression engine
 //! ten times the size of this file's code, and report the position of a mistake less precisely.
 
+use crate::math::{atan, cos, exp, ln, pow, sin, tan, tanh};
 use std::ops::Range;
 
 use jred::friction::Dual;
@@ -29,16 +30,16 @@ type Function = (fn(f64) -> [f64; 2], fn(Interval) -> Interval);
 
 /// The functions by name. Angles are in radians.
 const FUNCTIONS: [(&str, Function); 8] = [
-    ("sin", (|x| [x.sin(), x.cos()], |x| x.sin_cos().0)),
-    ("cos", (|x| [x.cos(), -x.sin()], |x| x.sin_cos().1)),
-    ("tan", (|x| [x.tan(), 1.0 + x.tan() * x.tan()], bound::tan)),
-    ("atan", (|x| [x.atan(), 1.0 / (1.0 + x * x)], bound::atan)),
+    ("sin", (|x| [sin(x), cos(x)], |x| x.sin_cos().0)),
+    ("cos", (|x| [cos(x), -sin(x)], |x| x.sin_cos().1)),
+    ("tan", (|x| [tan(x), 1.0 + tan(x) * tan(x)], bound::tan)),
+    ("atan", (|x| [atan(x), 1.0 / (1.0 + x * x)], bound::atan)),
     (
         "tanh",
-        (|x| [x.tanh(), 1.0 - x.tanh() * x.tanh()], bound::tanh),
+        (|x| [tanh(x), 1.0 - tanh(x) * tanh(x)], bound::tanh),
     ),
-    ("exp", (|x| [x.exp(), x.exp()], bound::exp)),
-    ("ln", (|x| [x.ln(), 1.0 / x], bound::ln)),
+    ("exp", (|x| [exp(x), exp(x)], bound::exp)),
+    ("ln", (|x| [ln(x), 1.0 / x], bound::ln)),
     ("sqrt", (|x| [x.sqrt(), 0.5 / x.sqrt()], Interval::sqrt)),
 ];
 
@@ -153,14 +154,14 @@ fn value<const N: usize>(node: &Expression, variables: &[Dual<N>]) -> Dual<N> {
 
 /// aᵇ; a constant exponent needs no logarithm, so a may be negative or zero.
 fn power<const N: usize>(a: Dual<N>, b: Dual<N>) -> Dual<N> {
-    let at = a.value.powf(b.value);
+    let at = pow(a.value, b.value);
     let mut slope = if b.value == 0.0 {
         Dual::constant(1.0)
     } else {
-        a.through(at, b.value * a.value.powf(b.value - 1.0))
+        a.through(at, b.value * pow(a.value, b.value - 1.0))
     };
     if b.slope.iter().any(|by| *by != 0.0) {
-        let by_exponent = b.through(0.0, at * a.value.ln());
+        let by_exponent = b.through(0.0, at * ln(a.value));
         for (sum, more) in slope.slope.iter_mut().zip(by_exponent.slope) {
             *sum += more;
         }

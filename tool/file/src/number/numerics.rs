@@ -234,6 +234,10 @@ fn halved<E>(
 }
 
 #[cfg(test)]
+#[expect(
+    clippy::disallowed_methods,
+    reason = "functions of another library than the code's"
+)]
 mod tests {
     use super::*;
     use std::convert::Infallible;

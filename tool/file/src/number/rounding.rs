@@ -1,5 +1,7 @@
 //! Numbers as text, rounded for reading.
 
+use crate::math;
+
 /// A number with four significant digits.
 pub fn short(x: f64) -> String {
     significant(x, 4)
@@ -10,7 +12,7 @@ pub fn significant(x: f64, digits: i32) -> String {
     if x == 0.0 || !x.is_finite() {
         return rounded(x);
     }
-    let scale = 10f64.powi(digits - 1 - x.abs().log10().floor() as i32);
+    let scale = 10f64.powi(digits - 1 - math::log10(x.abs()).floor() as i32);
     let cut = (x * scale).round() / scale;
     if (1e-4..1e6).contains(&cut.abs()) {
         return rounded(cut);
@@ -42,7 +44,7 @@ fn to_side(value: f64, side: fn(f64) -> f64) -> f64 {
             side(x)
         }
     };
-    let exponent = value.abs().log10().floor() as i32 - 3;
+    let exponent = math::log10(value.abs()).floor() as i32 - 3;
     // Whole powers of ten are exact, their inverses are not.
     if exponent > 0 {
         let unit = 10f64.powi(exponent);
@@ -70,7 +72,7 @@ fn plain(x: f64, digits: i32) -> String {
     if digits <= 6 || !(1e-4..1e6).contains(&magnitude) {
         return significant(x, digits);
     }
-    let decimals = (digits - 1 - magnitude.log10().floor() as i32).max(0) as usize;
+    let decimals = (digits - 1 - math::log10(magnitude).floor() as i32).max(0) as usize;
     let text = format!("{x:.decimals$}");
     if text.contains('.') {
         text.trim_end_matches('0').trim_end_matches('.').to_owned()
@@ -119,7 +121,7 @@ pub fn rounded(x: f64) -> String {
     if !(1e-4..1e6).contains(&magnitude) {
         return format!("{x:.5e}");
     }
-    let digits = (5 - magnitude.log10().floor() as i32).max(0) as usize;
+    let digits = (5 - math::log10(magnitude).floor() as i32).max(0) as usize;
     let text = format!("{x:.digits$}");
     if text.contains('.') {
         text.trim_end_matches('0').trim_end_matches('.').to_owned()
@@ -132,7 +134,7 @@ pub fn rounded(x: f64) -> String {
 pub fn bound(x: f64) -> String {
     let text = rounded(x);
     if x > 0.0 && text.parse().is_ok_and(|shown: f64| shown < x) {
-        let last = 10f64.powi(x.log10().floor() as i32 - 5);
+        let last = 10f64.powi(math::log10(x).floor() as i32 - 5);
         return rounded(x + 0.5 * last);
     }
     text
@@ -143,7 +145,7 @@ pub fn figure(value: f64) -> String {
     if value == 0.0 || !value.is_finite() {
         return value.to_string();
     }
-    let exponent = value.abs().log10().floor();
+    let exponent = math::log10(value.abs()).floor();
     if !(-4.0..9.0).contains(&exponent) {
         let rounded = format!("{value:.3e}").parse().unwrap_or(value);
         return format!("{rounded:e}");

@@ -1,5 +1,6 @@
 //! `[[carriage]]`: a mass that a second axis moves along a guide on a link, while the drive link moves.
 
+use crate::math;
 use jred::Domain;
 use jred::machine::{Action, Load, MAX_LOADS, Machine};
 
@@ -106,7 +107,7 @@ fn carriage(
         ),
         name,
         mass,
-        direction: [along.cos(), along.sin()],
+        direction: [math::cos(along), math::sin(along)],
         motion,
         load: machine.loads().len(),
     })

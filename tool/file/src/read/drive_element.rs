@@ -1,5 +1,6 @@
 //! The limits of belts, screws and pinions, in the drive train and in the mechanism.
 
+use crate::math;
 use jred::machine::Mechanism as _;
 
 use crate::keys::drive::SCREW_SHAFT;
@@ -105,7 +106,10 @@ fn limited(section: &Section, kind: &str) -> Result<Option<DriveElement>> {
         }
         "rack" | "rack-and-pinion" => {
             let (alpha, beta) = (section.si("pressure_angle")?, section.si("helix_angle")?);
-            let push = [(alpha.tan() / beta.cos()).hypot(1.0), beta.tan()];
+            let push = [
+                math::hypot(math::tan(alpha) / math::cos(beta), 1.0),
+                math::tan(beta),
+            ];
             let limits = vec![(Rule::PinionForce, section.maybe("max_force")?)];
             ("pinion", ElementKind::Pinion(push), limits)
         }

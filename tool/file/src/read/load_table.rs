@@ -1,5 +1,6 @@
 //! `[[load]] table = "loads.csv"`: payload, thrust, forces and moments over a position.
 
+use crate::math;
 use std::ops::Range;
 
 use jred::Domain;
@@ -158,7 +159,7 @@ fn place<'t>(
 fn direction<'t>(section: &Section<'t>) -> Result<Option<(Item<'t>, Direction)>> {
     let (fixed, turning) = (section.get("angle"), section.get("angle_on_link"));
     let unit = |item: &Item| {
-        let (sin, cos) = item.value()?.si.sin_cos();
+        let (sin, cos) = math::sin_cos(item.value()?.si);
         // Removes the rounding of the other component at a right angle.
         let clean = |c: f64| if c.abs() < 1e-15 { 0.0 } else { c };
         Ok::<_, Problem>([cos, sin].map(clean))

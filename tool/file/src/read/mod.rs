@@ -38,6 +38,7 @@ pub use drive_log::{DriveLog, LogLayout, drive_log};
 pub use mechanism::mechanism_types;
 pub use project::project;
 
+use crate::math;
 use std::ops::Range;
 use std::path::Path;
 
@@ -200,7 +201,7 @@ fn gravity(root: &Section) -> Result<[f64; 2]> {
         section.si("acceleration")?,
     );
     section.finish()?;
-    let (sin, cos) = inclination.sin_cos();
+    let (sin, cos) = math::sin_cos(inclination);
     Ok([-size * sin, -size * cos])
 }
 

@@ -4,6 +4,7 @@ use super::RPM;
 use super::fault::Fault;
 use super::kind::{ANGULAR_SPEED, CUTOFF, Kind, SHARE, TEMPERATURE, describe};
 use super::unit::{self, Unit};
+use crate::math;
 use crate::number::rounding::figure;
 
 /// A quantity as read.
@@ -185,8 +186,8 @@ pub fn not_finite(kind: &Kind) -> Fault {
 
 /// `number`·`scale`. If the scale is a power of ten, it goes into the exponent of the number, so that "120 mm" is the double nearest to 0.12.
 fn scaled(number: &str, scale: f64) -> f64 {
-    let power = scale.log10().round();
-    if power.is_finite() && (10f64.powf(power) / scale - 1.0).abs() < 1e-12 {
+    let power = math::log10(scale).round();
+    if power.is_finite() && (10f64.powi(power as i32) / scale - 1.0).abs() < 1e-12 {
         let (digits, exponent) = number.split_once(['e', 'E']).unwrap_or((number, "0"));
         if let Ok(exponent) = exponent.parse::<i32>() {
             let shifted = format!("{digits}e{}", exponent.saturating_add(power as i32));

@@ -8,6 +8,7 @@
 //! bounds and a cone counts twice (S. Boyd, L. Vandenberghe, *Convex Optimization*, 11.3 and 11.6).
 
 use crate::skyline::Skyline;
+use jred_file::math;
 
 /// Factor by which s grows from one minimum to the next.
 const GROWTH: f64 = 10.0;
@@ -87,7 +88,7 @@ impl QuadraticProgram {
             if room.is_nan() || room <= 0.0 {
                 return None;
             }
-            height -= room.ln();
+            height -= math::ln(room);
         }
         height.is_finite().then_some(height)
     }

@@ -1,6 +1,7 @@
 //! The unknowns, their bounds, and their conversion to bodies and springs.
 
 use jred::machine::Element;
+use jred_file::math;
 use jred_file::model::machine::MachineFile;
 use jred_file::model::with_mass::AttachedMass;
 
@@ -307,7 +308,7 @@ fn body(bound: &Counterweight, columns: &[Vec<f64>], p: &[f64]) -> Option<Attach
     } else {
         (0.0, 0.0)
     };
-    let moment = along.hypot(across);
+    let moment = math::hypot(along, across);
     let (mass, inertia) = match (acts(0), acts(3)) {
         (true, true) => (mass, inertia),
         (true, false) => (mass, moment * moment / mass),

@@ -1,6 +1,7 @@
 //! Checks whether a motion satisfies its limits between its nodes.
 
 use jred::machine::motion::State;
+use jred_file::math;
 
 use super::NoMotion;
 use super::field::Field;
@@ -190,8 +191,7 @@ pub(super) fn largest_excess(
         }
         if curable > USED_EXCESS * within {
             // The error falls with the third power of the step.
-            let parts = (curable / (USED_EXCESS * within))
-                .cbrt()
+            let parts = math::cbrt(curable / (USED_EXCESS * within))
                 .ceil()
                 .clamp(2.0, MOST_PARTS) as usize;
             let [from, to] = [a, b].map(|node| (node.phi - ends.from) * direction);

@@ -12,6 +12,7 @@
 //! With e = r₃/|r₃| the limit leaves one interval of accelerations at each speed, a = (−c·e ± √(F² − (c×e)²))/|r₃|, or no acceleration where |c×e| >
 //! F. Where r₃ vanishes, it limits the speed only: |c| ≤ F. An example is the dead centre of a slider that is the only moving mass.
 
+use jred_file::math;
 use std::ops::Deref;
 
 use jred::error::Error;
@@ -99,13 +100,13 @@ impl JointForce {
     /// Force (N) at a speed and an acceleration along the path.
     pub fn at(&self, v: f64, acceleration: f64) -> f64 {
         let [x, y] = sum([1.0, v, v * v, acceleration], self.terms);
-        x.hypot(y)
+        math::hypot(x, y)
     }
 
     /// Change of the force by the acceleration (N·s²/rad, or N·s²/m): |r₃|.
     pub fn by_acceleration(&self) -> f64 {
         let [.., [x, y]] = self.terms;
-        x.hypot(y)
+        math::hypot(x, y)
     }
 
     /// Least and largest acceleration at a speed; the least is the larger one if the interval is empty.
@@ -114,7 +115,7 @@ impl JointForce {
         let [x, y] = sum([1.0, v, v * v, 0.0], self.terms);
         let size = self.by_acceleration();
         if size <= 0.0 {
-            let open = x.hypot(y) <= self.limit;
+            let open = math::hypot(x, y) <= self.limit;
             return if open {
                 [f64::NEG_INFINITY, f64::INFINITY]
             } else {
@@ -226,7 +227,7 @@ pub fn reached(
             let found = machine.forces(state.phi, omega, state.alpha)?;
             for own in &mut all {
                 let force = found.reactions.get(own.joint);
-                let force = force.map_or(0.0, |own| own.force[0].hypot(own.force[1]));
+                let force = force.map_or(0.0, |own| math::hypot(own.force[0], own.force[1]));
                 if force > own.force {
                     *own = JointForcePeak {
                         force,

@@ -28,6 +28,7 @@ mod starts;
 
 use crate::collocation::pieces::dot;
 use crate::collocation::shape::Parametrization;
+use jred_file::math;
 
 use super::field::{Binding, Field, MoveLimits};
 use super::obstacle::input;
@@ -302,16 +303,16 @@ impl MoveRequest<'_> {
         };
         let mut pace = 1.0;
         if self.limits().has_rates() && !even(1.0).0 && even(SLOWEST).0 {
-            let [mut low, mut high] = [SLOWEST.ln(), 0.0];
+            let [mut low, mut high] = [math::ln(SLOWEST), 0.0];
             while high - low > CLOSELY {
                 let middle = f64::midpoint(low, high);
-                if even(middle.exp()).0 {
+                if even(math::exp(middle)).0 {
                     low = middle;
                 } else {
                     high = middle;
                 }
             }
-            pace = low.exp();
+            pace = math::exp(low);
         }
         if self.price.heat > 0.0 {
             let mut least = even(pace).1;

@@ -10,6 +10,7 @@
 
 mod judge;
 
+use jred_file::math;
 use jred_file::model::rule::Rule;
 use jred_sizing::judge::Findings;
 
@@ -295,8 +296,8 @@ impl<W> Search<'_, W> {
 /// The cap at which the use would be slightly below its limit, by a power law through two points.
 fn between(low: [f64; 2], high: [f64; 2]) -> f64 {
     let aim = 1.0 - 0.5 * USE_TOLERANCE;
-    let share = (high[1] / aim).ln() / (high[1] / low[1]).ln();
-    high[0] * (low[0] / high[0]).powf(share.clamp(0.02, 0.98))
+    let share = math::ln(high[1] / aim) / math::ln(high[1] / low[1]);
+    high[0] * math::pow(low[0] / high[0], share.clamp(0.02, 0.98))
 }
 
 /// The fastest motion within `limits` and a limit of the RMS torque that the rules of a drive accept, with its accompanying result.

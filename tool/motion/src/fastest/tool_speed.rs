@@ -2,6 +2,7 @@
 //!
 //! With the transfer function r′ of the tool's point, |r′(φ)|·ω ≤ v limits the drive link's speed by position: ω ≤ v/|r′(φ)|.
 
+use jred_file::math;
 use std::f64::consts::TAU;
 
 use jred::Domain;
@@ -79,7 +80,7 @@ impl ToolSpeed {
         let frames = mechanism.frames(phi)?;
         let moves = frames.get(self.link).map(|frame| {
             let [x, y] = frame.point(self.at);
-            x.d1.hypot(y.d1)
+            math::hypot(x.d1, y.d1)
         });
         Ok(moves.unwrap_or(0.0))
     }

@@ -1,5 +1,6 @@
 //! The path cut into cells, with the machine and the speed limit at three places of each.
 
+use jred_file::math;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use jred::error::Error;
@@ -265,9 +266,9 @@ impl Track {
 fn nodes(ends: &Ends, count: usize, finer: &[f64]) -> (Vec<f64>, Vec<bool>) {
     let rest = ends.speeds.map(|speed| speed == 0.0);
     let share = |s: f64| match rest {
-        [true, true] => 0.5 * (1.0 - (PI * s).cos()),
-        [true, false] => 1.0 - (FRAC_PI_2 * s).cos(),
-        [false, true] => (FRAC_PI_2 * s).sin(),
+        [true, true] => 0.5 * (1.0 - math::cos(PI * s)),
+        [true, false] => 1.0 - math::cos(FRAC_PI_2 * s),
+        [false, true] => math::sin(FRAC_PI_2 * s),
         [false, false] => s,
     };
     let count = count.max(2);

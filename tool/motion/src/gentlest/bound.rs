@@ -11,6 +11,7 @@
 //! weight that must be held, C from the holding torque makes the bound finite. The integral uses the mesh. The infimum is over straight lines in w′,
 //! with a search over w in a range of speeds of 1 : 10,000.
 
+use jred_file::math;
 use std::convert::Infallible;
 
 use jred_file::number::numerics::golden_section;
@@ -272,7 +273,7 @@ impl StationBound {
     /// The infimum over all w and w′.
     fn least(&self, problem: &Problem, x: &[f64], station: usize) -> f64 {
         let [own, _] = problem.mesh.pace(x, &problem.mesh.stations[station]);
-        let at = |power: f64| self.over_change(problem, station, own * 10f64.powf(power));
+        let at = |power: f64| self.over_change(problem, station, own * math::pow(10.0, power));
         let (mut best, mut least) = (0, at(0.0));
         for k in -RANGE * STEPS..=RANGE * STEPS {
             let value = at(f64::from(k) / f64::from(STEPS));

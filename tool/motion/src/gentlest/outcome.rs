@@ -1,6 +1,7 @@
 //! The result for a solved move: its cost with the wait, the quality of the optimum, and the motion.
 
 use jred::machine::motion::{End, Polynomial};
+use jred_file::math;
 use jred_file::model::motion::Phase;
 use jred_file::number::quadrature::GAUSS_5;
 
@@ -107,7 +108,7 @@ impl Solution<'_> {
             Optimum::Local(Reason::Bound)
         };
         // The mean of any power is at most the peak.
-        let peak = found.cost.powf(1.0 / f64::from(stage.cost.power)) * scale.unit;
+        let peak = math::pow(found.cost, 1.0 / f64::from(stage.cost.power)) * scale.unit;
         // Valid for all motions, not for motions with a given ramp or with a wait.
         let of_all = task.objective == Objective::Peak && whole && !waiting;
         let least_peak = (of_all && proved).then_some(peak);

@@ -4,6 +4,7 @@
 //! time. How high it rises depends on the length of the piece along the path, which is found by a search. At a moving end the piece is as long as
 //! that share of the time requires.
 
+use jred_file::math;
 use jred_file::number::quadrature::GAUSS_5;
 
 use super::task::{EffortTask, Solution, Start};
@@ -90,7 +91,7 @@ impl<'a> EffortTask<'a> {
                 {
                     continue;
                 }
-                for factor in [change.exp(), (-change).exp()] {
+                for factor in [math::exp(change), math::exp(-change)] {
                     let mut ramps = best.1;
                     for (ramp, changes) in ramps.iter_mut().zip(which) {
                         if changes {
@@ -119,7 +120,7 @@ impl Solution<'_> {
     /// The objective, in units independent of the mesh.
     fn figure(&self) -> f64 {
         let power = f64::from(self.stage.cost.power);
-        self.found.cost.max(0.0).powf(1.0 / power) * self.scale.unit
+        math::pow(self.found.cost.max(0.0), 1.0 / power) * self.scale.unit
     }
 
     /// Relative excess of the acceleration in the piece behind a ramp.

@@ -2,6 +2,7 @@
 
 use jred::Domain;
 use jred::axis::plan::HEADER_WORDS;
+use jred_file::math;
 
 use super::polynomial::{apart, most_above, moved, slope, stays};
 use super::rows::{RANGE, span};
@@ -194,5 +195,5 @@ fn row(
 }
 
 fn power(n: i32) -> f64 {
-    f64::from(n).exp2()
+    math::exp2(f64::from(n))
 }

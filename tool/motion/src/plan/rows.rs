@@ -1,5 +1,6 @@
 //! Selects the nodes of a motion that become rows of its plan.
 
+use jred_file::math;
 use std::f64::consts::TAU;
 
 use jred::Domain;
@@ -70,7 +71,7 @@ impl Bounds {
         let [speed, acceleration] = self.most;
         let rounded = ROUNDING * unit / length;
         // Of the coefficients over the window 29 bits are left below the greatest sum.
-        let window = (length.log2().floor() + 1.0).exp2();
+        let window = math::exp2(math::log2(length).floor() + 1.0);
         let powers = course.acceleration.iter().rev();
         let raised = powers.fold(0.0, |sum, c| sum * window / length + c.abs());
         let fine = raised / 536_870_912.0;

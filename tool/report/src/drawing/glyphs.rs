@@ -3,6 +3,7 @@
 use super::QUIET;
 use super::sketch::BodyPart;
 use crate::plot::svg::{Ink, Svg};
+use jred_file::math;
 
 /// Radius of a pin (px).
 const PIN: f64 = 4.5;
@@ -136,7 +137,7 @@ impl Pen<'_> {
 
 /// The corners of a block; `angle` counts counter-clockwise, y down.
 fn block([x, y]: [f64; 2], angle: f64) -> [[f64; 2]; 4] {
-    let (sin, cos) = angle.sin_cos();
+    let (sin, cos) = math::sin_cos(angle);
     let [l, w] = BLOCK;
     [[l, w], [-l, w], [-l, -w], [l, -w]]
         .map(|[u, v]| [x + u * cos - v * sin, y - u * sin - v * cos])
@@ -145,7 +146,7 @@ fn block([x, y]: [f64; 2], angle: f64) -> [[f64; 2]; 4] {
 /// The unit vector from `a` to `b`, and their distance.
 fn unit(a: [f64; 2], b: [f64; 2]) -> ([f64; 2], f64) {
     let (x, y) = (b[0] - a[0], b[1] - a[1]);
-    let length = x.hypot(y);
+    let length = math::hypot(x, y);
     if length > 0.0 {
         ([x / length, y / length], length)
     } else {

@@ -1,5 +1,6 @@
 //! Content of a drawing, in metres: parts of links in their own frames, parts of the ground, paths, poses.
 
+use jred_file::math;
 use std::f64::consts::FRAC_PI_2;
 
 use jred::error::Error;
@@ -55,7 +56,7 @@ impl BodyPart {
 
 /// A point turned about the origin by an angle (rad).
 fn turned([x, y]: [f64; 2], by: f64) -> [f64; 2] {
-    let (sin, cos) = by.sin_cos();
+    let (sin, cos) = math::sin_cos(by);
     [cos * x - sin * y, sin * x + cos * y]
 }
 
@@ -69,7 +70,7 @@ impl Pose {
     /// A point of a link in global coordinates.
     pub(super) fn point(&self, link: usize, [u, v]: [f64; 2]) -> [f64; 2] {
         let [x, y, psi] = self.links.get(link).copied().unwrap_or_default();
-        let (sin, cos) = psi.sin_cos();
+        let (sin, cos) = math::sin_cos(psi);
         [x + cos * u - sin * v, y + sin * u + cos * v]
     }
 }
@@ -107,7 +108,7 @@ impl Sketch {
             // Without gravity it lies flat.
             turn: match [x, y] {
                 [0.0, 0.0] => 0.0,
-                _ => -FRAC_PI_2 - y.atan2(x),
+                _ => -FRAC_PI_2 - math::atan2(y, x),
             },
         };
         let places: Vec<f64> = whole_range(mechanism.domain(), POSES).collect();
@@ -210,7 +211,7 @@ impl Sketch {
         let (low, high) = ways.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), way| {
             (low.min(way), high.max(way))
         });
-        let (sin, cos) = marker.angle().sin_cos();
+        let (sin, cos) = math::sin_cos(marker.angle());
         let end = |way: f64| [marker.at[0] + way * cos, marker.at[1] + way * sin];
         self.add(marker.body, BodyPart::Slot([end(low), end(high)]));
     }
@@ -307,7 +308,7 @@ fn is_at_one_point(joints: &[Joint], frames: &Frames, mechanism: &AnyMechanism) 
     !outlined
         && !slides
         && mechanism.points().is_empty()
-        && places.all(|[x, y]| (x - first[0]).hypot(y - first[1]) <= 0.0)
+        && places.all(|[x, y]| math::hypot(x - first[0], y - first[1]) <= 0.0)
 }
 
 fn markers(joint: &Joint) -> Vec<Marker> {
@@ -332,20 +333,20 @@ fn extent(joints: &[Joints], frames: &[Frames], points: &[NamedPoint]) -> f64 {
             }
         }
     }
-    (high[0] - low[0]).hypot(high[1] - low[1])
+    math::hypot(high[0] - low[0], high[1] - low[1])
 }
 
 /// The convex hull, counter-clockwise, without points nearer than `near` (m) to a line between others (Andrew's monotone
 /// chain).
 fn hull(mut points: Vec<[f64; 2]>, near: f64) -> Vec<[f64; 2]> {
     points.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
-    points.dedup_by(|a, b| (a[0] - b[0]).hypot(a[1] - b[1]) <= near);
+    points.dedup_by(|a, b| math::hypot(a[0] - b[0], a[1] - b[1]) <= near);
     if points.len() < 3 {
         return points;
     }
     let off = |a: [f64; 2], b: [f64; 2], c: [f64; 2]| {
         let (x, y) = (c[0] - a[0], c[1] - a[1]);
-        let length = x.hypot(y).max(near);
+        let length = math::hypot(x, y).max(near);
         (x * (b[1] - a[1]) - y * (b[0] - a[0])) / length
     };
     let chain = |points: &mut dyn Iterator<Item = [f64; 2]>| {
@@ -370,6 +371,6 @@ fn hull(mut points: Vec<[f64; 2]>, near: f64) -> Vec<[f64; 2]> {
 
 /// Whether two points coincide at all positions, to a micrometre.
 fn coincide(a: &[[f64; 2]], b: &[[f64; 2]]) -> bool {
-    let together = |(a, b): (&[f64; 2], &[f64; 2])| (a[0] - b[0]).hypot(a[1] - b[1]) < 1e-6;
+    let together = |(a, b): (&[f64; 2], &[f64; 2])| math::hypot(a[0] - b[0], a[1] - b[1]) < 1e-6;
     a.iter().zip(b).all(together)
 }

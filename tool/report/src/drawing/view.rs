@@ -1,5 +1,6 @@
 //! From metres to pixels.
 
+use jred_file::math;
 use std::f64::consts::FRAC_PI_2;
 
 use super::sketch::{BodyPart, Sketch};
@@ -93,7 +94,7 @@ impl View {
             if turn == 0.0 {
                 continue;
             }
-            let (sin, cos) = angle.sin_cos();
+            let (sin, cos) = math::sin_cos(angle);
             let on = |along: f64, across: f64| {
                 [
                     middle[0] + along * cos - across * sin,
@@ -175,7 +176,7 @@ impl BodyPart {
 
 /// The largest of 1, 2, 5 times a power of ten that is not above `length`.
 fn nice(length: f64) -> f64 {
-    let power = 10f64.powf(length.log10().floor());
+    let power = 10f64.powi(math::log10(length).floor() as i32);
     let factor = [5.0, 2.0, 1.0].into_iter().find(|f| f * power <= length);
     factor.unwrap_or(1.0) * power
 }

@@ -1,6 +1,7 @@
 //! Text about a one-sided contact that a motion loses.
 
 use jred_analysis::contact::Separation;
+use jred_file::math;
 use jred_file::model::axis::Axis;
 use jred_file::number::rounding::short;
 use jred_motion::contact::ContactLimits;
@@ -58,7 +59,7 @@ pub fn of_gentlest(broken: &ContactLimits) -> String {
 
 /// Rounds down to three digits.
 fn rounded_down(value: f64) -> f64 {
-    let digit = 10.0_f64.powf(value.log10().floor() - 2.0);
+    let digit = 10f64.powi(math::log10(value).floor() as i32 - 2);
     (value / digit).floor() * digit
 }
 

@@ -7,6 +7,7 @@ mod summary;
 use crate::answer::Answer;
 use crate::table::reading::Reading;
 use jred_export::{Export, SearchResult};
+use jred_file::math;
 use jred_file::model::coordinate::Coordinate;
 use jred_file::number::rounding::short;
 use jred_sizing::cell::Cell;
@@ -61,7 +62,7 @@ const fn effort_name(coordinate: Coordinate) -> &'static str {
 
 /// The part of a number range that is left, in bits.
 fn headroom(usage: f32) -> Option<f64> {
-    (usage > 0.0).then(|| -f64::from(usage).log2())
+    (usage > 0.0).then(|| -math::log2(f64::from(usage)))
 }
 
 /// Why it is not chosen, in a few words; empty if it meets the request.

@@ -1,5 +1,6 @@
 //! Requirements of a drive, for any maker.
 
+use jred_file::math;
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -99,7 +100,7 @@ impl RequirementView<'_> {
         if !(low > 0.0 && high > low) {
             return Vec::new();
         }
-        let step = |k: u32| low * (high / low).powf(f64::from(k) / f64::from(ROTORS - 1));
+        let step = |k: u32| low * math::pow(high / low, f64::from(k) / f64::from(ROTORS - 1));
         let mut rotors: Vec<f64> = (0..ROTORS).map(step).collect();
         rotors.extend(
             [from, to]

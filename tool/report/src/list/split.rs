@@ -1,5 +1,6 @@
 //! A gear ratio divided over stages.
 
+use jred_file::math;
 use std::borrow::Cow;
 
 use jred::mechanism::synthesis::{RatioSplit, Split};
@@ -129,7 +130,7 @@ impl SplitView<'_> {
         for k in 0..self.points {
             let share = f64::from(k) / f64::from(self.points - 1);
             // The power is inexact at its ends.
-            let first = (least * (most / least).powf(share)).clamp(least, most);
+            let first = (least * math::pow(most / least, share)).clamp(least, most);
             let point = self.train.with_first(first)?;
             let figures = [point.inertia, point.inertia / best.inertia];
             columns.push(point.ratios.iter().copied().chain(figures));

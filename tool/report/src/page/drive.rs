@@ -2,6 +2,7 @@
 
 use jred::error::Error;
 use jred::machine::Reducible as _;
+use jred_file::math;
 
 use super::chart::{Chart, ChartKind};
 use super::figures::{dashed, line};
@@ -290,7 +291,7 @@ impl Subject<'_> {
 
     /// Use of every rule's limit over the gear ratio, all else unchanged; without the rules over time.
     pub(super) fn ratios(&self, from: f64, to: f64) -> Chart {
-        let step = |k: u32| from * (to / from).powf(f64::from(k) / f64::from(INTERVALS));
+        let step = |k: u32| from * math::pow(to / from, f64::from(k) / f64::from(INTERVALS));
         let ratios: Vec<f64> = (0..=INTERVALS).map(step).collect();
         let courses = ratio_course(&self.context, self.rules, &ratios);
         let words = self.words();

@@ -36,6 +36,10 @@ pub(super) fn kept(count: usize, values: &[&dyn Fn(usize) -> f64]) -> Vec<usize>
 }
 
 #[cfg(test)]
+#[expect(
+    clippy::disallowed_methods,
+    reason = "functions of another library than the code's"
+)]
 mod tests {
     use super::*;
 

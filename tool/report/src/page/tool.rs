@@ -2,6 +2,7 @@
 
 use jred::error::Error;
 use jred::machine::Mechanism as _;
+use jred_file::math;
 
 use super::chart::{Chart, ChartKind};
 use super::figures::line;
@@ -97,8 +98,8 @@ impl Course {
         let from_first = |[x, y]: [f64; 2]| [x - first[0], y - first[1]];
         let far = places()
             .map(from_first)
-            .max_by(|a, b| a[0].hypot(a[1]).total_cmp(&b[0].hypot(b[1])))?;
-        let length = far[0].hypot(far[1]);
+            .max_by(|a, b| math::hypot(a[0], a[1]).total_cmp(&math::hypot(b[0], b[1])))?;
+        let length = math::hypot(far[0], far[1]);
         if length <= 0.0 {
             return None;
         }
@@ -134,7 +135,7 @@ pub(super) fn tool(file: &MachineFile, duty: &Duty) -> Result<Option<Section>, E
     let direction = match way {
         [x, _] if x > 1.0 - 1e-9 => "x".to_owned(),
         [_, y] if y > 1.0 - 1e-9 => "y".to_owned(),
-        [x, y] => format!("the line at {:.1}° to x", y.atan2(x).to_degrees()),
+        [x, y] => format!("the line at {:.1}° to x", math::atan2(y, x).to_degrees()),
     };
     let curved = if is_straight {
         ""

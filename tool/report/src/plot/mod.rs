@@ -1,5 +1,6 @@
 //! Charts as inline SVG: curves and clouds of dots over one or two vertical axes, with a legend.
 
+use jred_file::math;
 use legend::Legend;
 use scale::{Span, nice_step, range, usable};
 use svg::{Anchor, Ink, Svg};
@@ -359,7 +360,7 @@ fn thinned(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
         let fits = |to: &usize| {
             let (a, b) = (points[from], points[*to]);
             let (dx, dy) = (b[0] - a[0], b[1] - a[1]);
-            let length = dx.hypot(dy);
+            let length = math::hypot(dx, dy);
             points[from + 1..*to].iter().all(|p| {
                 let (px, py) = (p[0] - a[0], p[1] - a[1]);
                 let along = px * dx + py * dy;

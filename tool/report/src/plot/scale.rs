@@ -1,5 +1,7 @@
 //! Axis ranges, tick distances and number texts, without drawing.
 
+use jred_file::math;
+
 /// Range of an axis: a whole number of tick steps, except for a tight horizontal axis.
 pub(super) struct Span {
     pub(super) lo: f64,
@@ -85,7 +87,7 @@ impl Span {
 
 /// The multiple of a power of ten from 1, 2, 2.5 and 5 that is nearest to a positive distance.
 pub(super) fn nice_step(distance: f64) -> f64 {
-    let magnitude = 10f64.powf(distance.log10().floor());
+    let magnitude = 10f64.powi(math::log10(distance).floor() as i32);
     let limits = [(1.5, 1.0), (2.25, 2.0), (3.5, 2.5), (7.5, 5.0)];
     let fitting = limits.iter().find(|l| distance / magnitude < l.0);
     fitting.map_or(10.0, |l| l.1) * magnitude
@@ -102,12 +104,16 @@ pub(super) fn number(value: f64, size: f64, step: f64) -> String {
     if value == 0.0 && !plain {
         return "0".into();
     }
-    let power = if plain { 0.0 } else { size.log10().floor() };
-    let (mut rest, mut decimals) = (step / 10f64.powf(power), 0);
+    let power = if plain {
+        0
+    } else {
+        math::log10(size).floor() as i32
+    };
+    let (mut rest, mut decimals) = (step / 10f64.powi(power), 0);
     while (rest - rest.round()).abs() > 1e-4 * rest && decimals < 14 {
         (rest, decimals) = (rest * 10.0, decimals + 1);
     }
-    let digits = format!("{:.decimals$}", value / 10f64.powf(power));
+    let digits = format!("{:.decimals$}", value / 10f64.powi(power));
     let tail = if plain {
         String::new()
     } else {

@@ -1,3 +1,8 @@
+#![expect(
+    clippy::disallowed_methods,
+    reason = "functions of another library than the code's"
+)]
+
 use super::*;
 use roxmltree::{Document, Node};
 use std::collections::HashSet;

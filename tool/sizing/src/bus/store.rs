@@ -9,6 +9,7 @@
 //! mains ripple are not modelled. Power is piecewise linear; between its events (empty, chopper on, resistor at its limit) the course is exact.
 
 use super::curve::{PowerCurve, PowerPiece, split};
+use jred_file::math;
 
 /// The bus and everything that determines its voltage.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -351,7 +352,7 @@ impl<'b> Walk<'b> {
         let start = self.base + self.excess;
         let steady = |t: f64| (slope * t - a) / k - slope / (k * k);
         let free = start - steady(0.0);
-        let energy = |t: f64| steady(t) + free * (-k * t).exp();
+        let energy = |t: f64| steady(t) + free * math::exp(-k * t);
         let bound = self.base + self.full;
         let mut time = h;
         if !overloaded && energy(h) < bound {
@@ -377,7 +378,7 @@ impl<'b> Walk<'b> {
         };
         let fed = -(a * time - 0.5 * slope * time * time);
         // Rising, then falling: y′ = slope/k − k·free·e^(−k·t) is zero where y is largest.
-        let extreme = (k * k * free / slope).ln() / k;
+        let extreme = math::ln(k * k * free / slope) / k;
         let mut highest = start.max(end);
         if extreme > 0.0 && extreme < time {
             highest = highest.max(energy(extreme));

@@ -6,6 +6,7 @@
 use super::fault::Remarks;
 use super::gearbox::Gearbox;
 use super::motor::{Motor, MotorKind};
+use jred_file::math;
 use jred_file::number::rounding::figure;
 
 /// Rotor inertia over rated torque to the power 5/3, (kg·m²)/(N·m)^(5/3): equal for similar shapes at equal shear stress.
@@ -49,7 +50,9 @@ const GEARBOX_DENSITY: [f64; 2] = [0.01, 2000.0];
 
 /// Inertia relative to a cylinder of the mass.
 fn of_cylinder(inertia: f64, mass: Option<f64>) -> f64 {
-    mass.map_or(0.0, |mass| inertia / (CYLINDER * mass.powf(5.0 / 3.0)))
+    mass.map_or(0.0, |mass| {
+        inertia / (CYLINDER * math::pow(mass, 5.0 / 3.0))
+    })
 }
 
 /// Warns of an inertia too large for the mass.
@@ -91,7 +94,7 @@ pub(super) fn motor(remarks: &mut Remarks, place: &dyn Fn() -> String, motor: &M
         .or(motor.no_load_speed);
     if motor.kind == MotorKind::Rotary {
         if let Some(torque) = rated {
-            let slimness = motor.rotor_inertia / torque.powf(5.0 / 3.0);
+            let slimness = motor.rotor_inertia / math::pow(torque, 5.0 / 3.0);
             if outside(slimness, SLIMNESS) {
                 remarks.add("rotor inertias that do not match the torque", || {
                     format!(
@@ -240,7 +243,7 @@ pub(super) fn gearbox(remarks: &mut Remarks, place: &dyn Fn() -> String, gearbox
         GEARS,
     );
     let stages = f64::from(gearbox.stages.unwrap_or(1));
-    if gearbox.efficiency.powf(1.0 / stages) < EFFICIENCY {
+    if math::pow(gearbox.efficiency, 1.0 / stages) < EFFICIENCY {
         remarks.add("gearboxes with an implausible efficiency", || {
             format!(
                 "{}: efficiency of \"{key}\" is {} %: are [%] and a plain share mixed up?",

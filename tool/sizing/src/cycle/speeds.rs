@@ -182,6 +182,10 @@ impl Sums {
 }
 
 #[cfg(test)]
+#[expect(
+    clippy::disallowed_methods,
+    reason = "functions of another library than the code's"
+)]
 mod tests {
     use std::cell::Cell;
 

@@ -13,6 +13,7 @@
 //! both sides.
 
 use jred::error::Error;
+use jred_file::math;
 use serde::Serialize;
 
 use super::duty_model::DutyModel;
@@ -81,7 +82,7 @@ impl Lever {
     /// The values of the grid, rising.
     pub(super) fn grid(self) -> Vec<f64> {
         let log = |from: f64, to: f64, steps: u32| {
-            (0..=steps).map(move |k| from * (to / from).powf(f64::from(k) / f64::from(steps)))
+            (0..=steps).map(move |k| from * math::pow(to / from, f64::from(k) / f64::from(steps)))
         };
         match self {
             Self::GearRatio | Self::IdealGearbox => log(0.2, 500.0, 264).collect(),

@@ -1,5 +1,6 @@
 //! Search over the values of one quantity for the range in which every rule is satisfied.
 
+use jred_file::math;
 use std::convert::Infallible;
 
 use super::remedy::{Edge, Lever, Remedy};
@@ -199,7 +200,7 @@ impl Remedy {
             states: vec![None; grid.len()],
             at_best: vec![None; grid.len()],
         };
-        let distance = |value: f64| (value.max(1e-3) / now).ln().abs();
+        let distance = |value: f64| math::ln(value.max(1e-3) / now).abs();
         let mut outwards: Vec<usize> = (0..grid.len()).collect();
         outwards.sort_by(|&a, &b| distance(grid[a]).total_cmp(&distance(grid[b])));
         let nearest = outwards.iter().copied().find(|&k| tried.holds(k));

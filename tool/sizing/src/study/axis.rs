@@ -6,6 +6,7 @@
 //! slider.mass=50,60,80kg         these values
 //! ```
 
+use jred_file::math;
 use jred_file::plain;
 use jred_file::problem;
 use jred_file::text::problem::{Problem, Result};
@@ -149,7 +150,7 @@ fn spread(from: f64, to: f64, steps: &str) -> Result<Vec<f64>> {
         match k {
             0 => from,
             _ if k == steps - 1 => to,
-            _ if log => tidy(from * (to / from).powf(part)),
+            _ if log => tidy(from * math::pow(to / from, part)),
             _ => tidy(from + (to - from) * part),
         }
     };

@@ -101,6 +101,10 @@ fn next(low: GridSample, high: GridSample, before: Option<GridSample>) -> u32 {
 }
 
 #[cfg(test)]
+#[expect(
+    clippy::disallowed_methods,
+    reason = "functions of another library than the code's"
+)]
 mod tests {
     use std::cell::Cell;
 

@@ -10,6 +10,8 @@
 //! copper's resistance per kelvin. τ_w = R_w·C_w, τ_h = R_h·C_h, τ = R·C. With constant P and Q the equations are linear, θ′ = A·θ + b, and θ(h) =
 //! θ(0) + M·(A·θ(0) + b) with M = ∫₀ʰ e^(A·s) ds.
 
+use jred_file::math;
+
 /// Rises above the surroundings (K): winding, housing. For a single body only the first is used.
 pub type Rise = [f64; 2];
 
@@ -139,7 +141,7 @@ impl Network {
             let [p, q] = apply(&linear.a, before);
             let alpha = ([p, q][k] - fast * before[k]) / (slow - fast);
             let beta = before[k] - alpha;
-            let place = (-beta / alpha).ln() / (slow - fast);
+            let place = math::ln(-beta / alpha) / (slow - fast);
             if place > 0.0 && place < time {
                 let there = self.change(losses, place).of(from);
                 hottest[k] = hottest[k].max(there[k]);
@@ -190,7 +192,7 @@ impl Linear {
             return sum.map(|row| row.map(|x| x * h));
         }
         let [slow, fast] = self.eigenvalues();
-        let grown = |x: f64| if x == 0.0 { h } else { (x * h).exp_m1() / x };
+        let grown = |x: f64| if x == 0.0 { h } else { math::expm1(x * h) / x };
         let (first, second) = (grown(slow), grown(fast));
         let per = (first - second) / (slow - fast);
         [

@@ -1,4 +1,8 @@
 //! Travels and rests of motions in closed form.
+#![expect(
+    clippy::disallowed_methods,
+    reason = "functions of another library than the code's"
+)]
 
 use super::*;
 use std::f64::consts::TAU;

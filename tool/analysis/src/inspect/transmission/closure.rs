@@ -1,6 +1,7 @@
 //! The joints that close a group, and the index of each block of them.
 
 use jred::machine::{Joint, Marker, Wrench};
+use jred_file::math;
 
 use super::Block;
 use super::twists::{Twists, direction, pivot};
@@ -69,7 +70,8 @@ impl Closure {
                 let turn = motion.twist(wrench.body, k)[2];
                 let [f_x, f_y] = wrench.force;
                 power += f_x * v[0] + f_y * v[1] + wrench.moment * turn;
-                most += f_x.hypot(f_y) * v[0].hypot(v[1]) + (wrench.moment * turn).abs();
+                most +=
+                    math::hypot(f_x, f_y) * math::hypot(v[0], v[1]) + (wrench.moment * turn).abs();
             }
             row.push(power);
             full.push(most * most);

@@ -12,6 +12,7 @@
 //! For rows at steps h the interpolating spline has errors of 1.18·σ/h in its first derivative and 6·σ/h² in its second (RMS: the means over all
 //! frequencies of its response to a sine), the smoothing spline with the cut-off ω has σ·√(h·ω³/(8·√2)) and σ·√(h·ω⁵/(8·√2)).
 
+use crate::math;
 use std::f64::consts::TAU;
 
 use super::Motion;
@@ -177,7 +178,7 @@ fn smoothing(curve: &Spline, t: &[f64], order: usize, rows: f64) -> Option<f64> 
             return Some(cutoff);
         }
         // A lower cut-off leaves no more of the acceleration, so the allowed noise does not grow.
-        let allows = (allowed / noise(omega)).powf(2.0 / f64::from(power));
+        let allows = math::pow(allowed / noise(omega), 2.0 / f64::from(power));
         cutoff *= allows.min(1.0 / STEP);
     }
     None

@@ -1,10 +1,11 @@
 //! Bounds of a formula over intervals of its variables.
 
+use crate::math;
 use jred_enclosure::Interval;
 
 use super::{Expression, FUNCTIONS, Formula, Operation};
 
-/// Largest relative error of standard library functions, with a margin.
+/// Largest relative error of libm's functions, with a margin.
 const FUNCTION_ERROR: f64 = 8.0 * f64::EPSILON;
 
 /// Largest whole exponent that is multiplied out.
@@ -66,13 +67,13 @@ fn power(a: Interval, b: Interval) -> Interval {
         };
     }
     if a.lo() > 0.0 || (a.lo() == 0.0 && exponent > 0.0) {
-        let [low, high] = [a.lo(), a.hi()].map(|x| rounded(x.powf(exponent)));
+        let [low, high] = [a.lo(), a.hi()].map(|x| rounded(math::pow(x, exponent)));
         return low.hull(high);
     }
     Interval::ALL
 }
 
-/// A value of the standard library, with its error.
+/// A value of libm, with its error.
 fn rounded(value: f64) -> Interval {
     Interval::around(value, FUNCTION_ERROR * value.abs())
 }
@@ -87,23 +88,23 @@ pub(super) fn tan(x: Interval) -> Interval {
     let quotient = sin / cos;
     // Between two poles it rises.
     if quotient.is_bounded() {
-        quotient.and(rising(x, f64::tan))
+        quotient.and(rising(x, math::tan))
     } else {
         quotient
     }
 }
 
 pub(super) fn atan(x: Interval) -> Interval {
-    rising(x, f64::atan)
+    rising(x, math::atan)
 }
 
 pub(super) fn tanh(x: Interval) -> Interval {
-    rising(x, f64::tanh)
+    rising(x, math::tanh)
 }
 
 pub(super) fn exp(x: Interval) -> Interval {
     if x.is_bounded() {
-        rising(x, f64::exp)
+        rising(x, math::exp)
     } else {
         Interval::ALL
     }
@@ -111,7 +112,7 @@ pub(super) fn exp(x: Interval) -> Interval {
 
 pub(super) fn ln(x: Interval) -> Interval {
     if x.lo() > 0.0 {
-        rising(x, f64::ln)
+        rising(x, math::ln)
     } else {
         Interval::ALL
     }

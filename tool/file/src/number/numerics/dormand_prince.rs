@@ -5,6 +5,7 @@
 mod bends;
 mod coefficients;
 
+use crate::math;
 use bends::{Sides, StepResult};
 use coefficients::{A, B, B3, C, E5};
 
@@ -108,7 +109,7 @@ impl Accuracy {
                     }
                 }
             }
-            let shrink = error.powf(0.125) / SAFETY;
+            let shrink = math::pow(error, 0.125) / SAFETY;
             if error <= 1.0 {
                 let whole = step.h >= h;
                 x = if last { end } else { x + step.h };
@@ -163,7 +164,7 @@ impl Accuracy {
         let by_slopes = if largest <= 1e-15 {
             (h * 1e-3).max(1e-6)
         } else {
-            (0.01 / largest).powf(0.125)
+            math::pow(0.01 / largest, 0.125)
         };
         Ok((100.0 * h).min(by_slopes).min(end))
     }
@@ -230,6 +231,10 @@ fn sum<const N: usize>(shares: &[f64; STAGES], k: &[[f64; N]; STAGES]) -> [f64; 
 }
 
 #[cfg(test)]
+#[expect(
+    clippy::disallowed_methods,
+    reason = "functions of another library than the code's"
+)]
 mod tests {
     use std::convert::Infallible;
 

@@ -9,6 +9,8 @@
 //! least 0.15·|K − G|. The polynomial through the places is evaluated in barycentric form (J.-P. Berrut, L. N. Trefethen, Barycentric Lagrange
 //! interpolation, SIAM Review 46 (2004) 501).
 
+use crate::math;
+
 /// Most places of a rule.
 pub const MOST_PLACES: usize = 15;
 
@@ -73,7 +75,7 @@ impl Rule {
         let spread: f64 = spread.map(|(v, weight)| weight * (v - mean).abs()).sum();
         let difference = (integral - gauss).abs();
         let error = if spread > 0.0 {
-            spread * (200.0 * difference / spread).powf(1.5).min(1.0)
+            spread * math::pow(200.0 * difference / spread, 1.5).min(1.0)
         } else {
             difference
         };
@@ -279,6 +281,10 @@ pub static KRONROD_15: Rule = Rule {
 };
 
 #[cfg(test)]
+#[expect(
+    clippy::disallowed_methods,
+    reason = "functions of another library than the code's"
+)]
 mod tests {
     use super::{KRONROD_7, KRONROD_15, Rule};
 

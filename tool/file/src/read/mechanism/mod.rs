@@ -23,6 +23,7 @@ mod traction;
 mod train;
 mod winder;
 
+use crate::math;
 use std::f64::consts::TAU;
 
 use jred::Domain;
@@ -136,7 +137,7 @@ fn inclination([x, y]: [f64; 2]) -> String {
     } else if y.abs() <= LEVEL * x.abs() {
         "vertical".to_owned()
     } else {
-        let rises = (-x).atan2(y.abs()).to_degrees();
+        let rises = math::atan2(-x, y.abs()).to_degrees();
         format!("x rises by {} deg", figure(rises))
     };
     let upwards = match (lies == "vertical", x > 0.0) {

@@ -1,6 +1,7 @@
 //! Closing of a recorded cycle: its speeds at both ends, and its advance.
 
 use super::{CsvFault, PrescribedCoordinate, Repeats, SPEED};
+use crate::math;
 use crate::number::rounding::figure;
 use crate::read::motion::closed;
 use crate::text::columns::Columns;
@@ -91,6 +92,6 @@ pub(super) fn closed(
 
 /// The gap plus 5 %, rounded up to two digits.
 fn rounded_up(gap: f64) -> f64 {
-    let unit = 10f64.powf(gap.log10().floor() - 1.0);
+    let unit = 10f64.powi(math::log10(gap).floor() as i32 - 1);
     (gap / unit * 1.05).ceil() * unit
 }

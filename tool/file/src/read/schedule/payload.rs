@@ -1,5 +1,6 @@
 //! `[[payload]]`: a part that a link picks up and sets down.
 
+use crate::math;
 use jred::machine::Machine;
 use jred::machine::Mechanism as _;
 
@@ -130,7 +131,7 @@ fn check_at_rest(
             let [x, y] = frame.point(payload.mass.at);
             [x, y, frame.psi].map(|c| c.velocity(state.omega))
         });
-        Ok::<_, Problem>([x.hypot(y), turn.abs()])
+        Ok::<_, Problem>([math::hypot(x, y), turn.abs()])
     };
     let mut most = [0.0f64; 2];
     for k in 0..=INSTANTS {

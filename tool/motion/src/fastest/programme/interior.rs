@@ -13,6 +13,7 @@ use super::limits::MeshProblem;
 use super::mesh::{Local, Mesh, VALUES};
 use super::newton::{Kkt, Steps, along};
 use crate::fastest::field::Binding;
+use jred_file::math;
 
 /// A function of the values of one piece at a point.
 #[derive(Clone, Debug)]
@@ -151,7 +152,7 @@ pub(super) fn minimise(
             if done {
                 return Ok(at.point(lambda));
             }
-            mu = (0.2 * mu).min(mu.powf(1.2)).max(last);
+            mu = (0.2 * mu).min(math::pow(mu, 1.2)).max(last);
             (idle, steps_of_mu) = (0, 0);
             filter.clear();
         }
@@ -218,7 +219,7 @@ impl Iterate {
     fn merits(&self, mu: f64) -> [f64; 2] {
         let cost: f64 = self.terms.iter().map(|term| term.value).sum();
         let each = || self.rows.iter().zip(&self.slacks);
-        let barrier: f64 = each().map(|(row, s)| mu * row.weight * s.ln()).sum();
+        let barrier: f64 = each().map(|(row, s)| mu * row.weight * math::ln(*s)).sum();
         [each().map(|(row, s)| misses(row, *s)).sum(), cost - barrier]
     }
 

@@ -10,6 +10,7 @@ use super::refine::halved;
 use super::{FEASIBLE, MeshMotion, MoveRequest, PIECES, RANGES, ROUGH, STARTS};
 use crate::collocation::shape::Parametrization;
 use crate::fastest::NoMotion;
+use jred_file::math;
 
 /// Largest factor by which the rate limits are eased at the start, and the multipliers from one search to the next: the first one, and the one too
 /// close to 1 to go on.
@@ -83,7 +84,7 @@ impl MoveRequest<'_> {
             match solved {
                 Some((own, solved)) if own < SAME * time => {
                     (found, ease, time) = (solved, next, own);
-                    factor = factor.powf(LONGER).max(EASES[0]);
+                    factor = math::pow(factor, LONGER).max(EASES[0]);
                 }
                 _ if factor < EASES[1] => factor = factor.sqrt(),
                 _ => return None,

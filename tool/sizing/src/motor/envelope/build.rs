@@ -7,6 +7,7 @@ use super::{Envelope, voltage};
 use crate::catalogue::Commutation;
 use crate::catalogue::{Amplifier, Motor, VOLTAGE_CLASS};
 use crate::motor::winding::{CurrentCurve, PLAUSIBLE, REFERENCE_TEMPERATURE, usable};
+use jred_file::math;
 use jred_file::model::site::Site;
 use jred_file::units::{Sentence, Vocabulary};
 
@@ -123,7 +124,7 @@ impl<'a> Builder<'a> {
         if let Some(corner) = usable(motor.corner_speed).filter(|_| self.peak.is_finite()) {
             let current = torques.current(self.peak);
             let along = circuit.drop * current + circuit.flux * corner;
-            circuit.voltage = self.share * along.hypot(circuit.reactance * corner * current);
+            circuit.voltage = self.share * math::hypot(along, circuit.reactance * corner * current);
         }
         circuit.current = torques.current(peak);
         let stated = known(motor.max_speed);

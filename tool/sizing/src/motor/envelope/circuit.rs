@@ -4,6 +4,8 @@
 //! field weakening i_d = 0. With field weakening the largest i_q is the top of one disc if it lies in the other (the current limit; maximum torque
 //! per volt), otherwise the upper intersection of the circles.
 
+use jred_file::math;
+
 /// The circuit of a motor with its limits of voltage and current, steady state.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Circuit {
@@ -76,7 +78,7 @@ impl Circuit {
         if let Some(top) = self.torque_per_volt(speed, braking) {
             return top;
         }
-        let impedance = r.hypot(x);
+        let impedance = math::hypot(r, x);
         let distance = back / impedance;
         let radius = v / impedance;
         let along = (limit * limit + (distance - radius) * (distance + radius)) / (2.0 * distance);
@@ -95,7 +97,7 @@ impl Circuit {
         let square = r * r + x * x;
         let top = self.voltage / square.sqrt() - sign * r * back / square;
         let across = x * back / square;
-        (top >= 0.0 && across.hypot(top) <= self.current).then_some(top)
+        (top >= 0.0 && math::hypot(across, top) <= self.current).then_some(top)
     }
 
     /// Speed (rad/s) up to which a current i_q (A, driving) is possible at i_d = 0; zero if the voltage is too low even at standstill.
@@ -137,7 +139,7 @@ impl Circuit {
         } else {
             x * back / square
         };
-        along.hypot(across)
+        math::hypot(along, across)
     }
 
     /// The largest speed (rad/s), up to `stated`, at which any current is possible: the amplifier still controls the motor, without torque.

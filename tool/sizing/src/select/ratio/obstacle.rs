@@ -1,5 +1,6 @@
 //! Why a motor satisfies the rules at no ratio.
 
+use jred_file::math;
 use std::convert::Infallible;
 
 use super::Range;
@@ -146,6 +147,6 @@ fn minimum(ratios: &[f64], value: impl Fn(f64) -> f64) -> (f64, f64) {
     };
     let neighbour = |k: usize| points.get(k).map_or(first.0, |p| p.0);
     let [from, to] = [neighbour(k.saturating_sub(1)), neighbour(k + 1)];
-    let step = |k: u32| from * (to / from).powf(f64::from(k) / f64::from(FINER));
+    let step = |k: u32| from * math::pow(to / from, f64::from(k) / f64::from(FINER));
     (0..=FINER).map(|k| of(step(k))).fold(*first, smaller)
 }

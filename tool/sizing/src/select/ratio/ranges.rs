@@ -8,6 +8,7 @@ use crate::cycle::Cycle;
 use crate::judge::broken;
 use crate::judge::{Context, Findings};
 use crate::motor::envelope::MotorLimits;
+use jred_file::math;
 use jred_file::model::rule::Rule;
 use jred_file::model::rules::RuleSet;
 use jred_file::model::site::Site;
@@ -22,7 +23,7 @@ const RATIO_COUNT: u32 = 600;
 /// The tried ratios, rising, including `best`.
 pub(super) fn tried(best: Option<f64>) -> Vec<f64> {
     let [from, to] = SEARCH_RANGE;
-    let step = |k: u32| from * (to / from).powf(f64::from(k) / f64::from(RATIO_COUNT));
+    let step = |k: u32| from * math::pow(to / from, f64::from(k) / f64::from(RATIO_COUNT));
     let mut ratios: Vec<f64> = (0..=RATIO_COUNT).map(step).collect();
     ratios.extend(best.filter(|best| (from..to).contains(best)));
     ratios.sort_by(f64::total_cmp);

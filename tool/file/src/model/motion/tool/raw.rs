@@ -1,5 +1,6 @@
 //! The coordinate computed from the mechanism, and the branch on which it is monotonic.
 
+use crate::math;
 use std::f64::consts::TAU;
 
 use jred::machine::{Jointed as _, Mechanism as _, PoseError};
@@ -44,7 +45,7 @@ impl Raw<'_> {
             }),
             Measure::Path { link, at } => frame(link).map(|frame| {
                 let [x, y] = frame.point(at);
-                let speed = x.d1.hypot(y.d1);
+                let speed = math::hypot(x.d1, y.d1);
                 let bend = (x.d1 * x.d2 + y.d1 * y.d2) / speed.max(f64::MIN_POSITIVE);
                 Transfer {
                     value: 0.0,

@@ -6,6 +6,7 @@ mod program;
 mod refusal;
 mod table;
 
+use crate::math;
 use std::f64::consts::TAU;
 
 use jred::mechanism::{DiscCam, Follower, Roller, RollerDimensions};
@@ -104,7 +105,7 @@ fn described(mechanism: DiscCam) -> AnyMechanism {
                 _ => [0.0, 0.0],
             };
             let rim = around(72).map(|angle| {
-                let (sin, cos) = angle.sin_cos();
+                let (sin, cos) = math::sin_cos(angle);
                 [roller.radius() * cos, roller.radius() * sin]
             });
             any.with_outline(DiscCam::ROLLER, rim.collect())

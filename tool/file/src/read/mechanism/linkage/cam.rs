@@ -1,5 +1,6 @@
 //! `type = "cam"`: a disc cam and its follower as a joint of a linkage.
 
+use crate::math;
 use std::f64::consts::TAU;
 use std::ops::Range;
 
@@ -140,12 +141,12 @@ fn stands(
     };
     let allowed = ROUNDING * profile.base_radius();
     let [u, v] = seen(&on_cam);
-    if u.hypot(v) > allowed {
+    if math::hypot(u, v) > allowed {
         return Err(misfit(
             &format!(
                 "the point of the cam {} is {} mm from the axis",
                 bodies.name(on_cam.body),
-                mm(u.hypot(v))
+                mm(math::hypot(u, v))
             ),
             &cam.axis,
         )
@@ -154,7 +155,7 @@ fn stands(
     let [u, v] = seen(&on_follower);
     let name = bodies.name(on_follower.body);
     if let Some(([p, q], _)) = profile.follower().pivot() {
-        if (u - p).hypot(v - q) > allowed {
+        if math::hypot(u - p, v - q) > allowed {
             return Err(misfit(
                 &format!(
                     "the follower {name} turns about [{} mm, {} mm], seen from the cam's axis, not about its `pivot`, \
@@ -205,7 +206,7 @@ pub(super) fn described(mut mechanism: AnyMechanism, joints: &[JointEntry]) -> A
         let Some(cam) = &held.cam else { continue };
         let [on_cam, _] = held.pair.markers();
         if let Body::Link(link) = on_cam.body {
-            let (sin, cos) = on_cam.angle().sin_cos();
+            let (sin, cos) = math::sin_cos(on_cam.angle());
             let point = |k: u32| {
                 let theta = TAU * f64::from(k) / f64::from(OUTLINE);
                 let [u, v] = cam.placed.profile().equidistant(theta, 0.0);

@@ -3,6 +3,7 @@
 //! Angles that are not given follow from guides and rigid connections. Positions follow from pin to pin, starting at the ground. Newton's method
 //! closes the gap at the last pin of each loop.
 
+use crate::math;
 use jred::machine::{Body, Joint, Marker};
 use jred::mechanism::linkage::{Pair, Pose};
 
@@ -137,7 +138,10 @@ impl Drawing {
             };
             let along = self.of(a.body).angle.unwrap_or(0.0) + a.angle();
             let way = sign * way.unwrap_or(0.0);
-            let point = [from[0] + way * along.cos(), from[1] + way * along.sin()];
+            let point = [
+                from[0] + way * math::cos(along),
+                from[1] + way * math::sin(along),
+            ];
             let arm = self.turned(to);
             if let Some(known) = self.slot(to.body) {
                 known.origin = Some([point[0] - arm[0], point[1] - arm[1]]);
@@ -149,7 +153,7 @@ impl Drawing {
 
     /// The vector from the origin of a marker's body to the marker, in global components.
     fn turned(&self, marker: Marker) -> [f64; 2] {
-        let (sin, cos) = self.of(marker.body).angle.unwrap_or(0.0).sin_cos();
+        let (sin, cos) = math::sin_cos(self.of(marker.body).angle.unwrap_or(0.0));
         let [u, v] = marker.at;
         [cos * u - sin * v, sin * u + cos * v]
     }

@@ -1,5 +1,6 @@
 //! Errors of the core about a linkage, in terms of the machine file.
 
+use crate::math;
 use jred::Domain;
 use jred::machine::{Body, Frame, Joint, PoseError};
 use jred::mechanism::linkage::{Linkage, LinkageError, Pair, Pose};
@@ -237,7 +238,7 @@ impl Context<'_> {
         let gap = |held: &JointEntry| match held.pair {
             Pair::Joint(Joint::Revolute([a, b])) => {
                 let (a, b) = (a.position(self.frames), b.position(self.frames));
-                (b[0].value - a[0].value).hypot(b[1].value - a[1].value)
+                math::hypot(b[0].value - a[0].value, b[1].value - a[1].value)
             }
             _ => 0.0,
         };

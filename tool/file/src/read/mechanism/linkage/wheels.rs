@@ -1,5 +1,6 @@
 //! Requirements of gears, racks and belts on their bearings, checked on the assembled linkage.
 
+use crate::math;
 use jred::machine::{Body, Frame, Marker, Mechanism};
 use jred::mechanism::linkage::Pair;
 
@@ -84,7 +85,7 @@ fn gears(
 ) -> Result<()> {
     let (from, to) = (a.position(frames), b.position(frames));
     let [x, y] = [to[0] - from[0], to[1] - from[1]];
-    let distance = x.value.hypot(y.value);
+    let distance = math::hypot(x.value, y.value);
     let needed = (r_a + r_b).abs();
     if (distance - needed).abs() > ROUNDING * needed {
         let ratio = (r_b / r_a).abs();
@@ -133,7 +134,7 @@ fn belt(
 ) -> Result<()> {
     for centre in centres {
         let [x, y] = centre.position(frames);
-        if x.d1.hypot(y.d1) > STILL {
+        if math::hypot(x.d1, y.d1) > STILL {
             let name = bodies.name(centre.body);
             return Err(
                 misfit(joint, &format!("the centre of the pulley {name} moves")).help(
