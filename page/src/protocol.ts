@@ -32,13 +32,13 @@ export type Request =
   | ({ do: 'gentlest'; drive?: string } & Source)
   /** `jred steady`: the steady cycle, and the flywheel for the fluctuation `delta`. */
   | ({ do: 'flywheel'; delta?: number } & Source)
-  /** A file to download: the table of `jred export` in this form. */
-  | ({ do: 'export'; form: ExportForm; torqueError?: string } & Source)
+  /** A file to download: the table of `jred export` in this form. `torqueError` such as "0.5 N m"; `day` is the date of a PLCopen file. */
+  | ({ do: 'export'; form: ExportForm; torqueError: string; day?: string } & Source)
   /** The HTML report of `jred size --report`; takes about a second. */
-  | ({ do: 'report' } & Source)
+  | ({ do: 'report'; day: string } & Source)
   /** Every quantity of the text, for sliders. */
   | ({ do: 'quantities' } & Source)
-  /** The text with quantities replaced in place, for example `{ "mechanism.slider.mass": "43 kg" }`. */
+  /** The text with quantities replaced in place, for example `{ "slider.mass": "43 kg" }`. */
   | ({ do: 'set'; values: Record<string, string> } & Source)
   /** What may be written at a place of the text (offset in UTF-16 units). */
   | ({ do: 'complete'; at: number } & Source)
@@ -149,19 +149,33 @@ export interface Charts {
 }
 
 export interface Chart {
-  /** "plane", "torque", "speed", … */
+  /** "plane", "torque", "speed", "power", "temperature", "bus" */
   name: string;
+  form: 'plane' | 'time' | 'course';
   x: string;
   y: string;
-  series: { name: string; style: 'line' | 'dashed' | 'dots'; points: [number | null, number | null][] }[];
+  right: string;
+  /** Lists of abscissae; each series names one by its index. */
+  places: (number | null)[][];
+  series: {
+    name: string;
+    style: 'line' | 'dashed' | 'dots';
+    colour: string;
+    /** On the second vertical axis. */
+    right: boolean;
+    /** Index of its abscissae. */
+    at: number;
+    y: (number | null)[];
+    /** Of the duty in the plane: the time of each point (s). */
+    t?: number[];
+  }[];
 }
 
 export interface Download {
   name: string;
-  type: string;
   /** One of both. */
   text?: string;
-  base64?: string;
+  bytes?: number[];
   /** The answer of `jred export`: docs/schemas/export.json. */
   about: Record<string, unknown>;
 }

@@ -59,6 +59,11 @@ impl Quantity {
         self.literal.shown()
     }
 
+    /// Its place in the text.
+    pub fn span(&self) -> Range<usize> {
+        self.span.clone()
+    }
+
     /// Whether it is a count, such as a number of teeth, or a number written like one.
     pub fn is_whole(&self) -> bool {
         self.written == Notation::Whole
