@@ -81,7 +81,7 @@ export class DrivePanel {
   }
 
   private charts(charts: Charts): void {
-    const plane = charts.charts.find((chart) => chart.name === 'plane');
+    const plane = charts.charts.find((chart) => chart.form === 'plane');
     this.plane.element.hidden = plane === undefined;
     if (plane) this.plane.show(ofChart(plane, `${this.texts.plane}: ${charts.drive}`));
   }

@@ -75,7 +75,7 @@ export class Editor {
 
   private show(fault: Fault | undefined): void {
     this.fault = fault;
-    const places = fault && fault.file === undefined ? fault.places : [];
+    const places = fault && !fault.file ? fault.places : [];
     this.writing.mark(places, fault?.message ?? '');
     const words = fault ? `${fault.message}|${fault.help}|${places.map((place) => place.line).join()}` : '';
     if (this.faults.dataset['words'] === words) return;

@@ -21,21 +21,21 @@ export function exportsPanel(texts: Texts, bench: Workbench, drawing: () => stri
       say(texts.saved);
     }
   };
-  const error = h('input', { type: 'text', id: 'torque-error', placeholder: '1 %', class: 'short' });
+  const error = h('input', { type: 'text', id: 'torque-error', value: '0.5 N m', class: 'short' });
   const button = (name: string, act: () => void): HTMLElement => h('button', { type: 'button', onclick: act }, name);
-  const bytes = (base64: string): Uint8Array => Uint8Array.from(atob(base64), (letter) => letter.charCodeAt(0));
+  const day = (): string => new Date().toISOString().slice(0, 10);
   const names: Record<ExportForm, string> = { image: texts.tableImage, c: 'C', rust: 'Rust', json: 'JSON', st: texts.structuredText, plcopen: 'PLCopen XML' };
   return h('div', { class: 'exports' },
     h('h3', {}, texts.tableForFirmware),
     h('p', {}, texts.tableIs),
     h('div', { class: 'row' }, h('label', { for: 'torque-error' }, texts.torqueError), error, ...TABLES.map(([form, ending]) =>
       button(`${names[form]} (${ending})`, () => void ask(
-        { do: 'export' as const, form, ...(error.value.trim() ? { torqueError: error.value.trim() } : {}) },
-        (answer: Download) => save(answer.name, answer.type, answer.text ?? (bytes(answer.base64 ?? '') as BlobPart)))))),
+        { do: 'export' as const, form, torqueError: error.value.trim(), day: day() },
+        (answer: Download) => save(answer.name, 'application/octet-stream', answer.text ?? new Uint8Array(answer.bytes ?? [])))))),
     h('h3', {}, texts.results),
     h('div', { class: 'row' },
       button(texts.machineFile, () => save(bench.source.name, 'application/toml', bench.source.text)),
-      button(texts.report, () => void ask({ do: 'report' as const }, ({ html }) => save(`${bare()}.html`, 'text/html', html))),
+      button(texts.report, () => void ask({ do: 'report' as const, day: day() }, ({ html }) => save(`${bare()}.html`, 'text/html', html))),
       button(texts.sizingJson, () => void ask({ do: 'size' as const }, (answer) => save(`${bare()}-size.json`, 'application/json', JSON.stringify(answer, null, 1)))),
       button(texts.drawingSvg, () => {
         const svg = drawing();

@@ -169,7 +169,12 @@ export class Plot {
 
 /** A chart of the core as the content of a plot. */
 export function ofChart(chart: Chart, title: string): Content {
-  return { title, x: chart.x, y: chart.y, lines: chart.series };
+  const lines = chart.series.map(({ name, style, at, y }): Line => ({
+    name,
+    style,
+    points: y.map((value, k): [number | null, number | null] => [chart.places[at]?.[k] ?? null, value]),
+  }));
+  return { title, x: chart.x, y: chart.y, lines };
 }
 
 function thin(points: unknown[]): number[] {

@@ -83,7 +83,7 @@ export interface Fault {
   /** Places in the text; `line` and `column` count from 1, `from` and `to` are offsets in UTF-16 units. Empty if it has no place in the text. */
   places: { from: number; to: number; line: number; column: number; label: string }[];
   /** The name of the file of these places, if it is not the machine file. */
-  file?: string;
+  file?: string | null;
   /** The core panicked and was started anew; `message` is the panic's. */
   panic?: true;
 }
@@ -232,8 +232,8 @@ export interface Drawn {
   obstacle: string;
   /** Range of the drive between dead points (deg or mm); null: it turns on and on. */
   range: [number, number] | null;
-  /** Dead points, in words with their places. */
-  dead: { at: number; words: string }[];
+  /** Dead points of the drive, and dead centres of links, in words with their places. */
+  dead: string[];
   /** The machine file; empty while the linkage does not move. */
   text: string;
 }

@@ -76,8 +76,10 @@ export class Sliders {
   }
 
   /** Range and value; a slider that is held keeps them. */
-  private scale({ slider, field }: Row, { number, whole, min, max }: Quantity): void {
+  private scale({ slider, field }: Row, quantity: Quantity): void {
     if (slider.matches(':active')) return;
+    const { number, whole } = quantity;
+    const [min, max] = range(quantity);
     const step = whole ? 1 : 10 ** Math.floor(Math.log10((max - min) / 100 || 1));
     slider.min = String(Math.min(min, number));
     slider.max = String(Math.max(max, number));
@@ -129,7 +131,15 @@ export class Sliders {
   }
 }
 
-/** "motion.segment.0" → "motion › segment 1" */
+/** Up to twice the value; a quantity that is zero either way. */
+function range({ number, unit, min, max }: Quantity): [number, number] {
+  if (min !== undefined && max !== undefined) return [min, max];
+  if (number === 0) return unit === 'deg' ? [-180, 180] : [-10, 10];
+  if (unit === '%' && number > 0) return [0, Math.max(100, number)];
+  return number > 0 ? [0, 2 * number] : [2 * number, 0];
+}
+
+/** "motion.segment.1" → "motion › segment 1" */
 function heading(table: string): string {
-  return table.replaceAll(/\.(\d+)/g, (_, index: string) => ` ${Number(index) + 1}`).replaceAll('.', ' › ');
+  return table.replaceAll(/\.(\d+)/g, (_, index: string) => ` ${index}`).replaceAll('.', ' › ');
 }

@@ -137,7 +137,7 @@ export class DrawPanel implements Sheet {
       h('p', {}, `${texts.freedoms} `, h('strong', {}, String(drawn.freedoms)),
         drawn.obstacle === '' ? `. ${drawn.range ? `${texts.driveMoves} ${shown(drawn.range[0])} … ${shown(drawn.range[1])} ${unit}` : texts.driveTurns}` : ''),
       ...(drawn.obstacle === '' ? [] : [h('p', { class: 'fault', lang: 'en' }, drawn.obstacle)]),
-      ...(drawn.dead.length === 0 ? [] : [h('p', {}, texts.deadPoints), h('ul', { lang: 'en' }, ...drawn.dead.map(({ words }) => h('li', {}, words)))]),
+      ...(drawn.dead.length === 0 ? [] : [h('p', {}, texts.deadPoints), h('ul', { lang: 'en' }, ...drawn.dead.map((words) => h('li', {}, words)))]),
     ];
   }
 }
