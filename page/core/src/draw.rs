@@ -1,83 +1,24 @@
-//! A drawn linkage as a machine file, and a machine as a drawn linkage.
+//! A drawn linkage as a machine file.
 //!
 //! On the sheet a point of several bodies is a pin, a fixed point a bearing, and a guided point has a block on a guide.
 
 use std::fmt::Write as _;
 
 use jred::Domain;
-use jred::machine::{Body, Joint, Jointed as _, Marker, Mechanism as _};
+use jred::machine::Mechanism as _;
 use jred_analysis::checked;
 use jred_analysis::inspect::Findings;
+use jred_file::math;
 use jred_file::model::coordinate::Coordinate;
 use jred_file::problem;
 use jred_file::text::problem::{Problem, Result};
-use serde::{Deserialize, Serialize};
 use serde_json::json;
 
+use crate::linkage::{Body, Frame, Guide, Linkage, Point};
 use crate::request::Request;
 
 /// Two points nearer than this (mm) are one.
 const NEAR: f64 = 1e-3;
-
-#[derive(Deserialize, Serialize)]
-struct Linkage {
-    #[serde(default)]
-    title: String,
-    points: Vec<Point>,
-    bodies: Vec<Bar>,
-    #[serde(default)]
-    guides: Vec<Guide>,
-    #[serde(default)]
-    drive: String,
-    speed: Option<f64>,
-    #[serde(default)]
-    loads: Vec<Load>,
-    gravity: Option<[f64; 2]>,
-}
-
-#[derive(Deserialize, Serialize)]
-struct Point {
-    name: String,
-    x: f64,
-    y: f64,
-    #[serde(default)]
-    ground: bool,
-}
-
-#[derive(Deserialize, Serialize)]
-struct Bar {
-    name: String,
-    points: Vec<String>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    mass: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    inertia: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    com: Option<[f64; 2]>,
-}
-
-#[derive(Deserialize, Serialize)]
-struct Guide {
-    point: String,
-    angle: f64,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    on: Option<String>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    body: Option<String>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    mass: Option<f64>,
-}
-
-#[derive(Deserialize, Serialize)]
-struct Load {
-    name: String,
-    on: String,
-    at: String,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    force: Option<[f64; 2]>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    opposing: Option<f64>,
-}
 
 /// A text of the machine file.
 fn quoted(text: &str) -> String {
@@ -106,41 +47,30 @@ impl Guide {
 }
 
 impl Linkage {
-    fn point(&self, name: &str) -> Result<[f64; 2]> {
-        let found = self.points.iter().find(|point| point.name == name);
-        let point = found.ok_or_else(|| problem!("the drawing has no point \"{name}\""))?;
-        Ok([point.x, point.y])
-    }
-
-    /// Origin, and cosine and sine of the u axis, of a body: from its first point to its second.
-    fn frame(&self, body: &Bar) -> Result<([f64; 2], [f64; 2])> {
-        let [first, second] = body.points.as_slice() else {
-            let ends = body.points.get(..2);
-            let [first, second] = ends.unwrap_or_default() else {
-                return Err(problem!("link \"{}\" needs two joints", body.name));
-            };
-            return self.axis(first, second);
-        };
-        self.axis(first, second)
-    }
-
-    fn axis(&self, first: &str, second: &str) -> Result<([f64; 2], [f64; 2])> {
-        let (a, b) = (self.point(first)?, self.point(second)?);
-        let length = libm::hypot(b[0] - a[0], b[1] - a[1]);
-        if length < NEAR {
-            return Err(problem!(
+    /// Refuses bodies without two points, or with both at one place.
+    fn checked(&self, body: &Body) -> Result<Frame> {
+        let frame = self.frame(body).ok_or_else(|| {
+            problem!(
+                help = "give it two joints, apart from each other",
+                "link \"{}\" needs two joints",
+                body.name
+            )
+        })?;
+        match self.local(body).get(1) {
+            Some((_, [u, _])) if *u >= NEAR => Ok(frame),
+            _ => Err(problem!(
                 help = "draw them apart",
-                "the points {first} and {second} of a link are at one place"
-            ));
+                "the first two joints of link \"{}\" are at one place",
+                body.name
+            )),
         }
-        Ok((a, [(b[0] - a[0]) / length, (b[1] - a[1]) / length]))
     }
 
-    /// A place on the sheet in the frame of a body.
-    fn local(&self, body: &Bar, [x, y]: [f64; 2]) -> Result<[f64; 2]> {
-        let ([x0, y0], [cos, sin]) = self.frame(body)?;
-        let (dx, dy) = (x - x0, y - y0);
-        Ok([dx * cos + dy * sin, dy * cos - dx * sin])
+    /// A point of the sheet in the frame of a body.
+    fn on(&self, body: &Body, name: &str) -> Result<[f64; 2]> {
+        let found = self.point(name);
+        let point = found.ok_or_else(|| problem!("the drawing has no point \"{name}\""))?;
+        Ok(self.checked(body)?.inside([point.x, point.y]))
     }
 
     /// The machine file; `stroke` is a line of its mechanism, `motion` its motion.
@@ -166,19 +96,18 @@ impl Linkage {
 
     fn bodies_text(&self, text: &mut String) -> Result<()> {
         for body in &self.bodies {
-            let (_, [cos, sin]) = self.frame(body)?;
+            let frame = self.checked(body)?;
             let mut points = Vec::new();
             for name in &body.points {
-                let at = self.local(body, self.point(name)?)?;
-                points.push((name, at));
+                points.push((name, self.on(body, name)?));
             }
             for guide in &self.guides {
                 if guide.on.as_ref() == Some(&body.name) && !body.points.contains(&guide.point) {
-                    points.push((&guide.point, self.local(body, self.point(&guide.point)?)?));
+                    points.push((&guide.point, self.on(body, &guide.point)?));
                 }
             }
             let own = points.iter().take(body.points.len());
-            let length = own.fold(0.0_f64, |most, (_, [u, v])| most.max(libm::hypot(*u, *v)));
+            let length = own.fold(0.0_f64, |most, (_, [u, v])| most.max(math::hypot(*u, *v)));
             let mass = body.mass.unwrap_or(0.0);
             let rod = mass * (length * 1e-3) * (length * 1e-3) / 12.0;
             let inertia = body.inertia.unwrap_or((rod * 1e9).round() / 1e9);
@@ -195,7 +124,7 @@ impl Linkage {
                 "[[mechanism.body]]\nname = {}\nmass = \"{mass} kg\"\ninertia = \"{inertia} kg m^2\"\ncom = {}\nangle = \"{} deg\"\npoints = {{ {} }}\n\n",
                 quoted(&body.name),
                 lengths(body.com.unwrap_or(middle)),
-                (libm::atan2(sin, cos).to_degrees() * 1e3).round() / 1e3 + 0.0,
+                (frame.angle.to_degrees() * 1e3).round() / 1e3 + 0.0,
                 named.collect::<Vec<_>>().join(", "),
             );
         }
@@ -225,10 +154,7 @@ impl Linkage {
                 None if point.ground => ends.push(quoted(&format!("ground.{name}"))),
                 None => {}
             }
-            let bodies = self
-                .bodies
-                .iter()
-                .filter(|body| body.points.contains(name));
+            let bodies = self.bodies.iter().filter(|body| body.points.contains(name));
             ends.extend(bodies.map(|body| quoted(&format!("{}.{name}", body.name))));
             let kind = if point.ground && guide.is_none() {
                 "bearing"
@@ -257,10 +183,7 @@ impl Linkage {
                 .iter()
                 .find(|body| Some(&body.name) == guide.on.as_ref());
             let turned = match on {
-                Some(body) => {
-                    let (_, [cos, sin]) = self.frame(body)?;
-                    guide.angle - libm::atan2(sin, cos).to_degrees()
-                }
+                Some(body) => guide.angle - self.checked(body)?.angle.to_degrees(),
                 None => guide.angle,
             };
             let _ = write!(
@@ -288,7 +211,7 @@ impl Linkage {
                 quoted(&load.on)
             );
             if let Some(body) = self.bodies.iter().find(|body| body.name == load.on) {
-                let at = self.local(body, self.point(&load.at)?)?;
+                let at = self.on(body, &load.at)?;
                 let _ = writeln!(text, "at = {}", lengths(at));
             }
             if let Some([x, y]) = load.force {
@@ -332,7 +255,7 @@ impl Linkage {
 
     /// A range of a sliding drive that is larger than the linkage.
     fn wide_stroke(&self) -> String {
-        let far = self.points.iter().map(|p| libm::hypot(p.x, p.y));
+        let far = self.points.iter().map(|p| math::hypot(p.x, p.y));
         let size = 2.0 * far.fold(1.0, f64::max).ceil();
         format!("stroke = [\"-{size} mm\", \"{size} mm\"]\n")
     }
@@ -375,7 +298,8 @@ pub(crate) fn draw(request: &Request) -> Result<String> {
         answer(format!("{why}{cure}"), None, Vec::new(), String::new())
     };
     if drawn.drive.is_empty() {
-        let why = problem!("no joint is driven: choose a fixed joint that turns, or one that slides");
+        let why =
+            problem!("no joint is driven: choose a fixed joint that turns, or one that slides");
         return Ok(obstacle(&why));
     }
     let read = |text: &str| checked::parse("drawing.toml", text, request.files());
