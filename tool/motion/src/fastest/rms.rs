@@ -63,6 +63,9 @@ const SHARES: [f64; 10] = [
 const STEPS: u32 = 40;
 const NEAR: f64 = 0.02;
 
+/// Share of an RMS torque that may be rounding: at its peak all along, a motor exceeds a limit of that torque by a bit, or does not.
+const ROUNDING: f64 = 1e-12;
+
 /// Share by which the RMS torque may lie below its limit at the end: the target, and the most.
 const UNUSED: [f64; 2] = [1e-8, 1e-6];
 
@@ -154,7 +157,7 @@ pub(super) fn within<E>(
     let over = |cycle: &Cycle| cycle.load.rms / rms.of(&cycle.load) - 1.0;
     let limit = rms.of(&free.load);
     let mut cheap = [0.0, over(&free)];
-    if cheap[1] <= 0.0 {
+    if cheap[1] <= ROUNDING {
         return Ok((free, false));
     }
     let mut try_at = |share: f64, is_beside: bool| {
