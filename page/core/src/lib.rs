@@ -4,6 +4,7 @@
 
 #[cfg(target_family = "wasm")]
 mod abi;
+mod drawn;
 mod drive;
 mod fault;
 mod machine;
@@ -43,6 +44,8 @@ fn answered(request: &Request) -> Result<String> {
         "gentlest" => drive::gentlest(request),
         "quantities" => quantities::list(request),
         "set" => quantities::set(request),
+        "draw" => drawn::draw(request),
+        "linkage" => drawn::linkage(request),
         other => Err(Problem::new(format!("the core has no request {other:?}"))),
     }
 }
