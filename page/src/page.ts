@@ -3,6 +3,7 @@ import { AnswerPanel } from './answers';
 import type { Core } from './core';
 import { Curves } from './curves';
 import { h } from './dom';
+import { fromLinkage2 } from './draw/import';
 import { DrawPanel } from './draw/panel';
 import { DrivePanel } from './drive';
 import { Editor } from './editor';
@@ -50,7 +51,7 @@ export class Page {
       { id: 'draw', name: texts.draw, panel: this.draw.element },
     ]);
     const button = (name: string, act: () => void): HTMLButtonElement => h('button', { type: 'button', onclick: act }, name);
-    const file = h('input', { type: 'file', class: 'unseen', tabindex: -1, 'aria-hidden': 'true', multiple: true, accept: '.toml,.csv,.json,.linkage2,.xml,.pmks' });
+    const file = h('input', { type: 'file', class: 'unseen', tabindex: -1, 'aria-hidden': 'true', multiple: true, accept: '.toml,.csv,.linkage2' });
     file.addEventListener('change', () => {
       void this.read([...(file.files ?? [])]);
       file.value = '';
@@ -163,13 +164,12 @@ export class Page {
     if ('problem' in files) {
       this.say(`${texts.cannotRead} ${files.problem === 'large' ? texts.tooLarge : files.problem}`, true);
     } else if (files.foreign) {
-      const told = await this.bench.import(files.foreign.name, files.foreign.text);
-      if (!told) return;
-      if ('error' in told) this.say(`${texts.cannotRead} ${told.error.message} ${told.error.help}`, true);
+      const read = fromLinkage2(files.foreign.name, files.foreign.text);
+      if ('problem' in read) this.say(`${texts.cannotRead} ${files.foreign.name}: ${read.problem}`, true);
       else {
         this.inputs.select('draw');
-        this.draw.begin(told.answer.linkage);
-        this.say(`${texts.imported} ${told.answer.notes.join(' ')}`, true);
+        this.draw.begin(read.linkage);
+        this.say(`${texts.imported} ${read.notes}`, true);
       }
     } else if (files.source) {
       this.open(files.source);

@@ -42,12 +42,10 @@ export type Request =
   | ({ do: 'set'; values: Record<string, string> } & Source)
   /** What may be written at a place of the text (offset in UTF-16 units). */
   | ({ do: 'complete'; at: number } & Source)
-  /** A linkage under construction. */
-  | { do: 'draw'; linkage: Linkage }
-  /** The linkage of a machine file of type "linkage", to be changed by hand. */
-  | ({ do: 'linkage' } & Source)
-  /** A linkage from a file of another program. */
-  | { do: 'import'; name: string; text: string };
+  /** Whether a linkage under construction moves; its text is written by the page (draw/write.ts). */
+  | ({ do: 'draw' } & Source)
+  /** The pins and guides of a machine, to be changed by hand. */
+  | ({ do: 'linkage' } & Source);
 
 export type ExportForm = 'image' | 'c' | 'rust' | 'json' | 'st' | 'plcopen';
 
@@ -69,8 +67,7 @@ export interface Answers {
   set: { text: string };
   complete: Completion;
   draw: Drawn;
-  linkage: Linkage;
-  import: { linkage: Linkage; notes: string[] };
+  linkage: Pins;
 }
 
 export type Answer<D extends Request['do']> = { answer: Answers[D]; warnings: string[] } | { error: Fault };
@@ -226,14 +223,24 @@ export interface Linkage {
 }
 
 export interface Drawn {
-  /** Degrees of freedom by Grübler's count. */
-  freedoms: number;
-  /** What is missing or too much, in words; empty if the linkage moves. */
+  /** What hinders it, in words; empty if the linkage moves. The cure of a dead point proposes a line `stroke = […]`. */
   obstacle: string;
-  /** Range of the drive between dead points (deg or mm); null: it turns on and on. */
+  cure: string;
+  /** Range of the drive (deg or mm); null: it turns on and on. */
   range: [number, number] | null;
-  /** Dead points of the drive, and dead centres of links, in words with their places. */
+  /** Dead centres of links, in words with their places. */
   dead: string[];
-  /** The machine file; empty while the linkage does not move. */
-  text: string;
+}
+
+/** A machine as links, pins and guides at one position (m, rad). */
+export interface Pins {
+  title: string;
+  gravity: [number, number];
+  /** Two bodies, null is the ground; none of a joint that is neither pin nor guide. A guide has an angle, its second body slides. */
+  joints: { bodies: (string | null)[]; at: [number, number]; angle?: number }[];
+  links: { name: string; mass: number; inertia: number; com: [number, number]; points: { name: string; at: [number, number] }[] }[];
+  /** Index of the driven joint. */
+  drive: number;
+  /** What the machine has besides. */
+  lost: string[];
 }

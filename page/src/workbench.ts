@@ -137,10 +137,6 @@ export class Workbench {
     return told && 'answer' in told ? told.answer : undefined;
   }
 
-  import(name: string, text: string): ReturnType<typeof this.live.ask<'import'>> {
-    return this.live.ask<'import'>({ do: 'import', name, text });
-  }
-
   private async list(): Promise<void> {
     const told = await this.live.ask<'quantities'>({ do: 'quantities', ...this.source });
     if (told && 'answer' in told) this.tell('quantities', told.answer);

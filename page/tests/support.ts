@@ -47,6 +47,7 @@ export interface Opened {
 /** A page at a fragment, once `ready` has happened to it before it is loaded. */
 export async function open(fragment = '', options: BrowserContextOptions = {}, ready?: (page: Page) => Promise<unknown>): Promise<Opened> {
   const context = await browser!.newContext({ viewport: { width: 1440, height: 900 }, locale: 'en', reducedMotion: 'reduce', acceptDownloads: true, ...options });
+  context.setDefaultTimeout(90_000);
   const page = await context.newPage();
   const errors: string[] = [];
   page.on('pageerror', (error) => errors.push(error.message));

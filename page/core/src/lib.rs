@@ -4,13 +4,10 @@
 
 #[cfg(target_family = "wasm")]
 mod abi;
-mod draw;
 mod drawn;
 mod drive;
 mod fault;
-mod linkage;
 mod machine;
-mod pmks;
 mod quantities;
 mod request;
 
@@ -46,11 +43,10 @@ fn answered(request: &Request) -> Result<String> {
         "fastest" => drive::fastest(request),
         "gentlest" => drive::gentlest(request),
         "quantities" => quantities::list(request),
-        "linkage" => drawn::linkage(request),
-        "import" => pmks::import(request),
-        "draw" => draw::draw(request),
         "complete" => Ok(quantities::complete(request)),
         "set" => quantities::set(request),
+        "draw" => drawn::draw(request),
+        "linkage" => drawn::linkage(request),
         other => Err(Problem::new(format!("the core has no request {other:?}"))),
     }
 }

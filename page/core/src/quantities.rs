@@ -2,6 +2,7 @@
 
 use jred_file::keys::complete::candidates;
 use jred_file::keys::place::Place;
+use jred_file::number::rounding::significant;
 use jred_file::problem;
 use jred_file::text::key::words::plain;
 use jred_file::text::key::{ValueForm, ValueRange};
@@ -39,14 +40,18 @@ pub(crate) fn list(request: &Request) -> Result<String> {
     Ok(Value::from_iter(all).to_string())
 }
 
-/// From a third to three times the number, within the limits of its key.
+/// From a third to three times the number, half a turn around an angle, 100 mm or 1 around zero; within the limits of its key.
 fn range(quantity: &Quantity, place: Option<Place>) -> [f64; 2] {
     let number = quantity.number();
-    let around = match number {
-        0.0 => [-1.0, 1.0],
+    let [least, most] = match (quantity.unit(), number) {
+        ("deg", _) => [number - 180.0, number + 180.0],
+        ("mm", 0.0) => [-100.0, 100.0],
+        (_, 0.0) => [-1.0, 1.0],
+        _ if number < 0.0 => [number * 3.0, number / 3.0],
         _ => [number / 3.0, number * 3.0],
     };
-    let [least, most] = [around[0].min(around[1]), around[0].max(around[1])];
+    let digits = |x: f64| significant(x, 3).parse().unwrap_or(x);
+    let [least, most] = [least, most].map(digits);
     let form = place.map(|place| place.form);
     let limit = |si: f64| unit::read(quantity.unit()).map_or(si, |unit| unit.number(si));
     let [low, high] = match form {

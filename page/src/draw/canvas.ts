@@ -168,7 +168,7 @@ export class Canvas {
     const [x, y] = this.at(event);
     const { kind, name } = this.held;
     if (kind === 'point') this.sheet.change(movePoint(linkage, name, x, y), `drag ${name}`);
-    if (kind === 'com') this.sheet.change(changeBody(linkage, name, (body) => ({ com: inFrame(linkage, body, x, y) })), `com ${name}`);
+    if (kind === 'com') this.sheet.change(changeBody(linkage, name, (body) => ({ com: inFrame(linkage, body, x, y).map(round) as [number, number] })), `com ${name}`);
     this.line?.setAttribute('x2', String(x));
     this.line?.setAttribute('y2', String(-y));
   }

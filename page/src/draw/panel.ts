@@ -2,12 +2,17 @@
 import type { Core } from '../core';
 import { h, shown } from '../dom';
 import { History } from '../history';
-import type { Drawn, Linkage } from '../protocol';
+import type { Answer, Drawn, Linkage } from '../protocol';
 import type { Texts } from '../texts';
 import type { Workbench } from '../workbench';
 import { Canvas, type Selected, type Sheet, type Tool } from './canvas';
 import { properties } from './form';
 import { BEGIN, EMPTY, removeBody, removePoint } from './linkage';
+import { linkageOf } from './read';
+import { drivesGuide, freedoms, machineText, wideStroke } from './write';
+
+/** Name of the machine file of a drawing. */
+const NAME = 'drawing.toml';
 
 export class DrawPanel implements Sheet {
   readonly element: HTMLElement;
@@ -18,8 +23,6 @@ export class DrawPanel implements Sheet {
   private readonly form = h('div', { class: 'properties' });
   private readonly state = h('div', { class: 'drawn', role: 'status' });
   private readonly tools: HTMLButtonElement[];
-  /** The text that this linkage has written. */
-  private written: string | undefined;
 
   constructor(private readonly texts: Texts, private readonly bench: Workbench, private readonly live: Core) {
     this.canvas = new Canvas(texts, this);
@@ -85,19 +88,23 @@ export class DrawPanel implements Sheet {
 
   /** The linkage of the machine file. */
   async load(): Promise<void> {
-    if (this.bench.source.text === this.written) return;
     const told = await this.live.ask<'linkage'>({ do: 'linkage', ...this.bench.source });
     if (!told) return;
     if ('error' in told) {
       this.state.replaceChildren(h('p', { class: 'fault', lang: 'en' }, told.error.message));
       return;
     }
-    this.written = this.bench.source.text;
+    const linkage = linkageOf(told.answer);
+    if ('problem' in linkage) {
+      this.say([h('p', { class: 'fault' }, `${this.texts.notDrawable} ${linkage.problem}`)]);
+      return;
+    }
     this.selected = undefined;
-    this.history.push(told.answer);
+    this.history.push(linkage);
     this.canvas.fit();
     this.form.replaceChildren(...properties(this.texts, this));
-    void this.examine(false);
+    const { lost } = told.answer;
+    this.say(lost.length === 0 ? [] : [h('p', {}, `${this.texts.leavesOut} ${lost.join(', ')}`)]);
   }
 
   private changed(): void {
@@ -106,20 +113,38 @@ export class DrawPanel implements Sheet {
     const at = [...this.form.querySelectorAll('input, select, button')].indexOf(document.activeElement as Element);
     this.form.replaceChildren(...properties(this.texts, this));
     if (at >= 0) (this.form.querySelectorAll<HTMLElement>('input, select, button')[at])?.focus();
-    void this.examine(true);
+    void this.examine();
   }
 
-  private async examine(write: boolean): Promise<void> {
-    const told = await this.live.ask<'draw'>({ do: 'draw', linkage: this.linkage });
-    if (!told) return;
-    if ('error' in told) {
-      this.say([h('p', { class: 'fault', lang: 'en' }, `${told.error.message} ${told.error.help}`)]);
+  /** Whether it moves; then the machine file follows. */
+  private async examine(): Promise<void> {
+    const { linkage } = this;
+    if (linkage.drive === '') {
+      this.say([this.freedoms(), h('p', { class: 'fault' }, this.texts.noDriveDrawn)]);
       return;
     }
-    this.say(this.words(told.answer));
-    if (!write || told.answer.text === '') return;
-    this.written = told.answer.text;
-    this.bench.replace('drawing.toml', told.answer.text);
+    const ask = (stroke: string): Promise<Answer<'draw'> | undefined> => this.live.ask<'draw'>({ do: 'draw', name: NAME, text: machineText(linkage, stroke, null).replace(/\n\[motion\][^]*$/, '') });
+    let stroke = drivesGuide(linkage) ? wideStroke(linkage) : '';
+    let told = await ask(stroke);
+    const dead: string[] = [];
+    const proposed = told && 'answer' in told ? /stroke = \[.*?\]/.exec(told.answer.cure)?.[0] : undefined;
+    if (told && 'answer' in told && proposed !== undefined) {
+      dead.push(told.answer.obstacle);
+      stroke = proposed;
+      told = await ask(stroke);
+    }
+    if (!told || linkage !== this.linkage) return;
+    if ('error' in told) {
+      this.say([this.freedoms(), h('p', { class: 'fault', lang: 'en' }, `${told.error.message} ${told.error.help}`)]);
+      return;
+    }
+    const drawn = told.answer;
+    this.say(this.words({ ...drawn, dead: [...dead, ...drawn.dead] }));
+    if (drawn.obstacle === '') this.bench.replace(NAME, machineText(linkage, stroke, drawn.range));
+  }
+
+  private freedoms(): HTMLElement {
+    return h('p', {}, `${this.texts.freedoms} `, h('strong', {}, String(freedoms(this.linkage))));
   }
 
   private say(nodes: Node[]): void {
@@ -131,12 +156,11 @@ export class DrawPanel implements Sheet {
 
   private words(drawn: Drawn): Node[] {
     const { texts } = this;
-    const guided = this.linkage.guides.some(({ point }) => point === this.linkage.drive);
-    const unit = guided ? 'mm' : '°';
+    const unit = drivesGuide(this.linkage) ? 'mm' : '°';
+    if (drawn.obstacle !== '') return [this.freedoms(), h('p', { class: 'fault', lang: 'en' }, drawn.obstacle), h('p', { class: 'help', lang: 'en' }, drawn.cure)];
     return [
-      h('p', {}, `${texts.freedoms} `, h('strong', {}, String(drawn.freedoms)),
-        drawn.obstacle === '' ? `. ${drawn.range ? `${texts.driveMoves} ${shown(drawn.range[0])} … ${shown(drawn.range[1])} ${unit}` : texts.driveTurns}` : ''),
-      ...(drawn.obstacle === '' ? [] : [h('p', { class: 'fault', lang: 'en' }, drawn.obstacle)]),
+      this.freedoms(),
+      h('p', {}, drawn.range ? `${texts.driveMoves} ${shown(drawn.range[0])} … ${shown(drawn.range[1])} ${unit}` : texts.driveTurns),
       ...(drawn.dead.length === 0 ? [] : [h('p', {}, texts.deadPoints), h('ul', { lang: 'en' }, ...drawn.dead.map((words) => h('li', {}, words)))]),
     ];
   }
