@@ -42,7 +42,8 @@ if (process.argv[2] === "tests") {
     sourcemap: "inline",
   });
 } else {
-  await mkdir(`${here}dist`, { recursive: true });
+  await rm(`${here}dist`, { recursive: true, force: true });
+  await mkdir(`${here}dist`);
   await build({
     ...common,
     entryPoints: ["src/main.ts", "src/worker.ts", "src/offline.ts", "src/style.css"],

@@ -1,10 +1,12 @@
-/** The core in Node.js and in chromium: the command's numbers to the last bit, faults, panics, drawn linkages, size. */
+/** The core in Node.js and in chromium: the command's numbers to the last bit, faults, panics, size. */
 import assert from 'node:assert/strict';
 import { spawnSync } from 'node:child_process';
 import { readdir, readFile } from 'node:fs/promises';
 import { after, before, test } from 'node:test';
 import { gzipSync } from 'node:zlib';
-import type { Answers, GalleryMachine, Linkage, Request } from '../src/protocol';
+import { fromPmks } from '../src/draw/pmks';
+import { machineText } from '../src/draw/write';
+import type { Answers, GalleryMachine, Request } from '../src/protocol';
 import { Panic, Wasm } from '../src/wasm';
 import { begin, end, open } from './support';
 
@@ -97,58 +99,10 @@ test('every number of the gallery has a range around it, and can be set to what 
   }
 });
 
-test('a linkage of the gallery is drawn and written with the same curves', () => {
-  for (const name of ['linkage-four-bar.toml', 'linkage-press.toml']) {
-    const machine = machines.find((own) => own.name === name)!;
-    const linkage = ask({ do: 'linkage', ...machine });
-    const drawn = ask({ do: 'draw', linkage });
-    assert.equal(drawn.obstacle, '');
-    assert.equal(drawn.freedoms, 1);
-    assert.equal(drawn.range, null);
-    const column = (text: string, title: string): number[] => {
-      const { columns, rows } = ask({ do: 'curves', name, text, positions: 37 });
-      return rows.map((row) => row[columns.indexOf(title)]!);
-    };
-    const bare = machine.text.replace(/^flywheel.*$/m, '').replace(/\[\[drive_train\]\][^[]*(\[[^\]]*\]\n)?/, '');
-    for (const title of ['J_red [kg m^2]', 'U [J]']) {
-      const [own, other] = [column(bare, title), column(drawn.text, title)];
-      // The springs and the flywheel are left out of the drawing; a potential has no zero of its own.
-      if (title.startsWith('U') && /\[\[spring\]\]/.test(bare)) continue;
-      const scale = Math.max(...own.map(Math.abs));
-      const shift = title.startsWith('U') ? other[0]! - own[0]! : 0;
-      own.forEach((value, k) => assert.ok(Math.abs(value + shift - other[k]!) < 2e-5 * scale, `${name} ${title} ${k}: ${value} ${other[k]}`));
-    }
-  }
-});
-
-const CRANK: Linkage = {
-  title: 'Slider-crank',
-  points: [{ name: 'O', x: 0, y: 0, ground: true }, { name: 'A', x: 30, y: 40 }, { name: 'B', x: 200, y: 0 }],
-  bodies: [{ name: 'crank', points: ['O', 'A'], mass: 2 }, { name: 'rod', points: ['A', 'B'], mass: 1 }],
-  guides: [{ point: 'B', angle: 0, mass: 5 }],
-  drive: 'O',
-  speed: 90,
-  loads: [{ name: 'push', on: 'block B', at: 'B', opposing: 100 }],
-};
-
-test('degrees of freedom, dead points and drives of drawn linkages', () => {
-  const turning = ask({ do: 'draw', linkage: CRANK });
-  assert.deepEqual([turning.freedoms, turning.obstacle, turning.range], [1, '', null]);
-  // Driven by the slider, a crank of 50 mm with a rod of √(170² + 40²) mm stops where both are in line.
-  const sliding = ask({ do: 'draw', linkage: { ...CRANK, drive: 'B' } });
-  const rod = Math.hypot(170, 40);
-  assert.ok(sliding.range, sliding.obstacle);
-  assert.ok(sliding.range[0] >= rod - 50 - 200 - 0.01 && sliding.range[0] < rod - 50 - 200 + 5, `${sliding.range}`);
-  assert.ok(sliding.range[1] <= rod + 50 - 200 + 0.01 && sliding.range[1] > rod + 50 - 200 - 5, `${sliding.range}`);
-  assert.ok(sliding.dead.length > 0);
-  const free = ask({ do: 'draw', linkage: { ...CRANK, guides: [] } });
-  assert.deepEqual([free.freedoms, free.text], [2, '']);
-  assert.notEqual(free.obstacle, '');
-  const stiff = ask({ do: 'draw', linkage: { ...CRANK, points: CRANK.points.map((point) => ({ ...point, ground: true })) } });
-  assert.ok(stiff.freedoms < 1);
-  assert.notEqual(stiff.obstacle, '');
-  const nothing = ask({ do: 'draw', linkage: { title: '', points: [], bodies: [], guides: [], drive: '', loads: [] } });
-  assert.notEqual(nothing.obstacle, '');
+test('keys and words are completed', () => {
+  const labels = (text: string): string[] => ask({ do: 'complete', name: '', text: text.replace('|', ''), at: text.indexOf('|') }).candidates.map(({ label }) => label);
+  assert.deepEqual(labels('# π\n[mechanism]\ntype = "slider-|"\n'), ['slider-crank', 'inverted-slider-crank']);
+  assert.deepEqual(labels('[mechanism]\ntype = "slider-crank"\noff|\n'), ['offset']);
 });
 
 /** Punch press and Whitworth's quick return as PMKS+ shares them. */
@@ -156,27 +110,23 @@ const PUNCH = 'https://app.pmksplus.com/?2P.Ay,1E8.K,0.1011.MA,A,0,0,0.GB,B,0,Im
 const QUICK = '2P.Ay,1E8.K,0.1011.MA,A,0,0,0.GB,B,0,ku,0.KC,C,Fe,0,0.GD,D,095,1A7,0.HP,P,0,ku,0,CD,C,D..YRAB,AB,Fe,Fe,0,NS,c5cae9,A,B,,.YRCD,CD,Fe,Fe,3H,b4,303e9f,C,D,,.YPBP,BP,Fe,0,0,0,,B,P,,...N_w';
 
 test('a link of PMKS+ is imported', () => {
-  const { linkage } = ask({ do: 'import', name: 'link', text: PUNCH });
+  const imported = fromPmks(PUNCH);
+  assert.ok('linkage' in imported);
+  const { linkage } = imported;
   // 1.2 cm and −3.4 cm: "Im" is 18·64 + 48 thousandths, "0r8" −(53·64 + 8).
   assert.deepEqual(linkage.points.map(({ name, x, y, ground }) => [name, x, y, ground]), [['A', 0, 0, true], ['B', 0, 12, false], ['C', 0, -34, false]]);
   assert.deepEqual(linkage.bodies.map(({ name, mass, inertia }) => [name, mass, inertia]), [['AB', 2, 0.05], ['BC', 3, 0.4]]);
-  assert.equal(linkage.drive, 'A');
-  assert.equal(linkage.speed, 20);
-  const [guide] = linkage.guides;
-  assert.deepEqual([guide!.point, Math.round(guide!.angle), guide!.mass], ['C', 90, 6]);
+  assert.deepEqual([linkage.drive, linkage.speed], ['A', 20]);
+  assert.deepEqual(linkage.guides.map(({ point, angle, mass }) => [point, Math.round(angle), mass]), [['C', 90, 6]]);
   assert.deepEqual(linkage.loads.map(({ on, at, force }) => [on, at, force]), [['BC', 'C', [0, 400]]]);
-  // The press hangs in line; from another position it turns.
-  const turned = { ...linkage, points: linkage.points.map((point) => (point.name === 'B' ? { ...point, x: 12, y: 0 } : point)) };
-  assert.deepEqual([ask({ do: 'draw', linkage: turned }).freedoms, ask({ do: 'draw', linkage: turned }).obstacle], [1, '']);
 
-  const quick = ask({ do: 'import', name: 'link', text: QUICK }).linkage;
-  assert.equal(quick.guides[0]!.on, 'CD');
-  const drawn = ask({ do: 'draw', linkage: quick });
-  assert.deepEqual([drawn.freedoms, drawn.obstacle, drawn.range], [1, '', null]);
+  const quick = fromPmks(QUICK);
+  assert.ok('linkage' in quick);
+  assert.equal(quick.linkage.guides[0]!.on, 'CD');
+  const drawn = ask({ do: 'draw', name: 'drawing.toml', text: machineText(quick.linkage, '', null) });
+  assert.deepEqual([drawn.obstacle, drawn.range], ['', null]);
 
-  for (const text of ['', 'https://example.com/?a.b', PUNCH.slice(0, 60), '\u0000.,.,.,']) {
-    assert.ok(JSON.parse(core.ask({ do: 'import', name: 'link', text })).error.help, text);
-  }
+  for (const text of ['', 'https://example.com/?a.b', PUNCH.slice(0, 60), '\u0000.,.,.,']) assert.ok('problem' in fromPmks(text), text);
 });
 
 test('everything together is small enough', async () => {
