@@ -138,7 +138,7 @@ export class Plot {
           continue;
         }
         const [px, py] = [plot.valToPos(x, 'x', true), plot.valToPos(y, 'y', true)];
-        if (line.style === 'dots') ctx.fillRect(px - scale, py - scale, 2.4 * scale, 2.4 * scale);
+        if (line.style === 'dots') ctx.fillRect(px - 0.8 * scale, py - 0.8 * scale, 1.6 * scale, 1.6 * scale);
         else if (joined) ctx.lineTo(px, py);
         else ctx.moveTo(px, py);
         joined = true;

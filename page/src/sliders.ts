@@ -19,6 +19,7 @@ export class Sliders {
   /** Values that the core has not answered yet. */
   private pending: Record<string, string> = {};
   private asking = false;
+  private ends = false;
 
   constructor(private readonly texts: Texts, private readonly bench: Workbench) {
     const filter = h('input', { type: 'search', placeholder: texts.filter, 'aria-label': texts.filter });
@@ -39,9 +40,9 @@ export class Sliders {
     this.rows = new Map();
     const groups = new Map<string, Row[]>();
     for (const quantity of quantities) {
-      const at = quantity.key.lastIndexOf('.');
-      const name = at < 0 ? '' : quantity.key.slice(0, at);
-      const row = this.row(quantity, quantity.key.slice(at + 1));
+      // "mechanism.crank.com.1" is "com 1" of "mechanism › crank".
+      const [, name = '', own = quantity.key] = /^(?:(.*)\.)?([^.]*[^.\d][^.]*(?:\.\d+)*)$/.exec(quantity.key) ?? [];
+      const row = this.row(quantity, own.replaceAll('.', ' '));
       this.rows.set(quantity.key, row);
       groups.set(name, [...(groups.get(name) ?? []), row]);
     }
@@ -63,14 +64,13 @@ export class Sliders {
       field.value = slider.value;
       this.ask(quantity.key, slider.value);
     });
-    slider.addEventListener('change', () => this.bench.history.seal());
+    slider.addEventListener('change', () => this.ask(quantity.key, slider.value, true));
     field.addEventListener('change', () => {
       const bad = field.value === '' || !field.validity.valid;
       field.setAttribute('aria-invalid', String(bad));
       if (bad) return;
       slider.value = field.value;
-      this.ask(quantity.key, field.value);
-      this.bench.history.seal();
+      this.ask(quantity.key, field.value, true);
     });
     return row;
   }
@@ -95,7 +95,9 @@ export class Sliders {
     row.quantity = quantity;
   }
 
-  private ask(key: string, number: string): void {
+  /** The value that is `last` ends a step of undo. */
+  private ask(key: string, number: string, last = false): void {
+    this.ends ||= last;
     const unit = this.rows.get(key)!.quantity.unit;
     this.pending[key] = unit === '' ? number : `${number} ${unit}`;
     void this.send();
@@ -113,6 +115,8 @@ export class Sliders {
       this.fault.textContent = fault ? `${fault.message} ${fault.help}` : '';
     }
     this.asking = false;
+    if (this.ends) this.bench.history.seal();
+    this.ends = false;
   }
 
   private filter(words: string): void {

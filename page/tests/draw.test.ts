@@ -28,9 +28,14 @@ test('the four-bar turns at once and becomes the machine', async () => {
   await page.getByRole('button', { name: 'New: four-bar' }).click();
   await page.getByText('The drive turns on and on').waitFor();
   assert.match((await state(page))!, /Degrees of freedom: 1/);
+  // The rocker turns back where crank and coupler lie in line: the law of cosines in the triangle with rocker and ground.
+  const [crank, coupler, rocker, ground] = [Math.hypot(40, 60), Math.hypot(220, 110), Math.hypot(20, 170), 240] as const;
+  const at = (reach: number): number => (Math.acos((ground ** 2 + reach ** 2 - rocker ** 2) / (2 * ground * reach)) * 180) / Math.PI;
+  const angles = [...(await state(page))!.matchAll(/rocker at φ = ([\d.]+)/g)].map(([, angle]) => Number(angle));
+  for (const [k, angle] of [at(coupler + crank), at(coupler - crank) + 180].entries()) assert.ok(Math.abs(angles[k]! - angle) < 1e-4, `${angles[k]} is not ${angle}`);
   await page.getByRole('heading', { level: 1, name: 'Four-bar' }).waitFor();
   // The crank from (0, 0) to (40, 60) is √5200 mm long.
-  assert.match(await text(page), /type = "linkage"[^]*name = "crank"[^]*\["72\.1110255 mm", "0 mm"\]/);
+  assert.match(await text(page), /type = "linkage"[^]*name = "crank"[^]*\["72\.111026 mm", "0 mm"\]/);
   assert.deepEqual(errors, []);
 });
 

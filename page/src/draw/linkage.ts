@@ -132,6 +132,6 @@ export function inFrame(linkage: Linkage, body: Body, x: number, y: number): [nu
   if (!a || !b) return [0, 0];
   const length = Math.hypot(b.x - a.x, b.y - a.y) || 1;
   const [c, s] = [(b.x - a.x) / length, (b.y - a.y) / length];
-  const round = (value: number): number => Math.round(value * 1e4) / 1e4;
+  const round = (value: number): number => Math.round(value * 1e6) / 1e6;
   return [round((x - a.x) * c + (y - a.y) * s), round((y - a.y) * c - (x - a.x) * s)];
 }

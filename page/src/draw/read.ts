@@ -8,7 +8,7 @@ const NEAR = 1e-3;
 /** The linkage, or why the sheet cannot hold this machine. */
 export function linkageOf(pins: Pins): Linkage | { problem: string } {
   if (pins.joints.some(({ bodies }) => bodies.length === 0)) return { problem: 'gears, cams, slots or rigid joints' };
-  const mm = ([x, y]: [number, number]): [number, number] => [Math.round(x * 1e7) / 1e4, Math.round(y * 1e7) / 1e4];
+  const mm = ([x, y]: [number, number]): [number, number] => [Math.round(x * 1e9) / 1e6, Math.round(y * 1e9) / 1e6];
   const linkage: Linkage = { title: pins.title, points: [], bodies: [], guides: [], drive: '', speed: 60, loads: [], gravity: pins.gravity };
   const on = new Map<string, string[]>();
   const joint = (at: [number, number], wanted?: string): string => {
