@@ -3,7 +3,6 @@
 #[cfg(feature = "fs")]
 use std::path::Path;
 
-#[cfg(feature = "fs")]
 use jred_file::problem;
 use jred_file::text::problem::Problem;
 
@@ -19,7 +18,11 @@ use crate::check::check;
 /// A file that cannot be read, any error of [`parse`], or a load that repeats only after several turns.
 #[cfg(feature = "fs")]
 pub fn read(path: &Path) -> Result<MachineFile, Problem> {
-    let file = read_over_turns(path)?;
+    one_turn(read_over_turns(path)?)
+}
+
+/// Refuses loads that repeat only after several turns.
+fn one_turn(file: MachineFile) -> Result<MachineFile, Problem> {
     match file.turns() {
         1 => Ok(file),
         turns => Err(problem!(
@@ -46,6 +49,14 @@ pub fn read_over_turns(path: &Path) -> Result<MachineFile, Problem> {
 pub fn parse(name: &str, text: &str, files: impl Files) -> Result<MachineFile, Problem> {
     let unchecked = read::parse(name, text, files)?;
     check(unchecked).map_err(|problem| problem.in_text(name, text))
+}
+
+/// [`parse`], where loads must repeat every turn.
+///
+/// # Errors
+/// Any error of [`parse`], or a load that repeats only after several turns.
+pub fn parse_one_turn(name: &str, text: &str, files: impl Files) -> Result<MachineFile, Problem> {
+    one_turn(parse(name, text, files)?)
 }
 
 /// [`parse`] for a `text` that differs from one already read, but not in its machine and motion: the checks of its mechanics, which take most of the

@@ -4,6 +4,7 @@
     reason = "tests show paths that they made, and expect values of another library"
 )]
 
+mod complete;
 mod formula;
 mod import;
 mod keys;

@@ -17,6 +17,7 @@ pub mod joint_force;
 mod kept;
 pub mod leg;
 mod lines;
+pub mod motion_input;
 mod motor_load;
 mod obstacle;
 mod path_search;

@@ -6,6 +6,7 @@
 pub mod schema;
 pub mod sheet;
 mod text;
+#[cfg(feature = "workbook")]
 mod workbook;
 
 use std::borrow::Cow;

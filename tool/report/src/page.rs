@@ -17,6 +17,8 @@ use jred_file::units::Vocabulary;
 use jred_sizing::catalogue::MotorKind;
 use jred_sizing::explain::{Breakdown, Contributions, Lever, Remedies};
 use jred_sizing::judge::Assessment;
+use jred_sizing::select::size::Candidate;
+use serde_json::{Value, json};
 
 mod chart;
 mod document;
@@ -114,12 +116,7 @@ fn drive_pages(source: &Source, shown: Listing, whole: bool) -> Result<Option<Dr
     } = shown;
     let judged = &selection.judged(&candidate);
     let words = judged.drive.motor.kind.vocabulary();
-    let subject = Subject {
-        context: selection.context(&candidate),
-        judged,
-        duty,
-        rules: selection.rules,
-    };
+    let subject = subject(shown, &candidate, judged);
     let mut answer = Answer::words("");
     shown.first(&mut answer, judged);
     shown.others(&mut answer, usize::MAX);
@@ -174,6 +171,39 @@ fn drive_pages(source: &Source, shown: Listing, whole: bool) -> Result<Option<Dr
         holds: judged.holds(),
         words,
     }))
+}
+
+fn subject<'a>(
+    shown: Listing<'a>,
+    candidate: &Candidate<'a>,
+    judged: &'a Assessment<'a>,
+) -> Subject<'a> {
+    Subject {
+        context: shown.selection.context(candidate),
+        judged,
+        duty: shown.duty,
+        rules: shown.selection.rules,
+    }
+}
+
+/// The charts of the best or requested drive as data, for a page that draws them itself; `None` if the catalogue was empty.
+pub fn drive_charts(shown: Listing) -> Option<Value> {
+    let candidate = shown.shown()?;
+    let judged = &shown.selection.judged(&candidate);
+    let subject = subject(shown, &candidate, judged);
+    let charts = [
+        ("plane", Some(subject.plane())),
+        ("torque", Some(subject.torque())),
+        ("speed", Some(subject.speed())),
+        ("power", Some(subject.power())),
+        ("temperature", subject.rises()),
+        ("bus", subject.bus_voltage()),
+    ];
+    let charts = charts.into_iter();
+    let charts: Value = charts
+        .filter_map(|(name, chart)| Some(chart?.named(name)))
+        .collect();
+    Some(json!({ "drive": judged.drive.name(), "charts": charts }))
 }
 
 /// The ranked drives, and the refused ones with their reasons.

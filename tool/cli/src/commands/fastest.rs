@@ -1,7 +1,6 @@
 //! `jred fastest`: moves in minimum time.
 
 mod limits;
-mod motion;
 mod winding;
 
 use std::f64::consts::PI;
@@ -29,6 +28,7 @@ use jred_motion::contact::broken;
 use jred_motion::fastest::cycle::Cycle;
 use jred_motion::fastest::field::Field;
 use jred_motion::fastest::joint_force::reached;
+use jred_motion::fastest::motion_input::{MotionInput, of_motion};
 use jred_motion::fastest::ruled::{Judge, ruled};
 use jred_motion::fastest::winding::{Winding, cooled};
 use jred_motion::fastest::{KeptPart, MoveLimits, NoMotion, Reserve, Rms, Task};
@@ -43,7 +43,6 @@ use jred_sizing::select::filter::Filter;
 use jred_sizing::select::fit;
 use jred_sizing::study::chosen::ChosenDrive;
 use limits::limits;
-use motion::{MotionInput, of_motion};
 
 /// Share by which a speed may exceed the largest one, for the rounding of its unit.
 const ROUNDING: f64 = 1e-9;
@@ -117,12 +116,12 @@ pub fn fastest(options: &Options) -> Result<Completion> {
             found.map(|(cycle, warmth, judged)| (cycle, warmth, Some(judged)))
         }
     };
-    let (cycle, warmth, judged) = made.map_err(|(number, why)| no_motion(&why, number))?;
+    let (cycle, warmth, judged) = made.map_err(|(number, why)| why.problem(number))?;
     let cycle = cycle.with_costs(&file, actuator);
     let forces = reached(&file, &limits.forces, &cycle.trace).map_err(core_report)?;
     for force in &forces {
         let kept = force.kept_at_rest(&file);
-        kept.map_err(|why| no_motion(&why, None))?;
+        kept.map_err(|why| why.problem(None))?;
     }
     let broken = broken(&file, &cycle.trace).map_err(core_report)?;
     let trace = cycle.trace.of_axis(&file.axis());
@@ -177,11 +176,6 @@ fn reserve(options: &Options, file: &MachineFile) -> Reserve {
         Some(ReserveOption::Share(share)) => Reserve::of_motor(share),
         Some(ReserveOption::Rules) => Reserve::of(&file.rules),
     }
-}
-
-fn no_motion(why: &NoMotion, number: Option<usize>) -> miette::Report {
-    let which = number.map_or_else(String::new, |number| format!("move {number}: "));
-    miette!(help = why.cure(), "{which}{why}")
 }
 
 /// The move of the command line.
@@ -306,11 +300,7 @@ fn chosen(options: &Options, file: &MachineFile) -> Result<DriveInput> {
     Ok(DriveInput {
         name: own.name(),
         actuator: Actuator::new(&own, envelope),
-        limits: MoveLimits {
-            gearbox_torque: own.gearbox.and_then(|gearbox| gearbox.peak_torque),
-            gearbox_speed: own.gearbox.and_then(|gearbox| gearbox.max_speed),
-            ..MoveLimits::default()
-        },
+        limits: MoveLimits::of(&own),
         winding: Some(Winding::new(&own, file)),
         drive: Some(drive),
     })

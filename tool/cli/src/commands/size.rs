@@ -5,7 +5,6 @@ use std::path::Path;
 use miette::{Report, Result, miette};
 
 use crate::commands::core_error::{core_report, duty_report};
-use crate::commands::gentlest::report;
 use crate::commands::vary::catalogue;
 use crate::commands::{Completion, documents, print, print_answer};
 use crate::options::{MotionChoice, Size, SizeFormat};
@@ -200,7 +199,7 @@ fn suited(
 ) -> Result<(Option<Motion>, list::suited::MotionChoice)> {
     let suited = judging
         .best()
-        .map_err(|obstacle| report(&options.file, None, judging.file, &obstacle))?;
+        .map_err(|obstacle| list::gentlest::problem(&obstacle, judging.file, None))?;
     let choice = list::suited::MotionChoice::new(judging.file, &suited);
     if options.format != SizeFormat::Table {
         terminal::say(&choice.words());

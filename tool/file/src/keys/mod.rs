@@ -6,6 +6,7 @@
 
 #[rustfmt::skip]
 pub(crate) mod cam;
+pub mod complete;
 #[rustfmt::skip]
 pub(crate) mod drive;
 #[rustfmt::skip]
@@ -20,6 +21,7 @@ pub(crate) mod motion;
 mod parts;
 #[rustfmt::skip]
 mod project;
+pub mod place;
 #[rustfmt::skip]
 pub(crate) mod simulation;
 #[rustfmt::skip]

@@ -147,7 +147,7 @@ fn is_named(key: &Key) -> bool {
     inner(key).is_some() || matches!(key.form, ValueForm::Named(_))
 }
 
-fn header(key: &Key, path: &str) -> String {
+pub(super) fn header(key: &Key, path: &str) -> String {
     match key.form {
         ValueForm::Tables(..) => format!("[[{path}]]"),
         _ => format!("[{path}]"),
@@ -155,7 +155,7 @@ fn header(key: &Key, path: &str) -> String {
 }
 
 /// The keys that a table has with its values, each with the table that describes it.
-fn keys_of(
+pub(super) fn keys_of(
     table: &'static KeyTable,
     values: Option<&Table>,
 ) -> Vec<(&'static KeyTable, &'static Key)> {
@@ -187,7 +187,7 @@ fn keys_of(
 }
 
 /// The table that a key has under a header of its own.
-fn inner(key: &Key) -> Option<&'static KeyTable> {
+pub(super) fn inner(key: &Key) -> Option<&'static KeyTable> {
     match key.form {
         ValueForm::Table(table) | ValueForm::Tables(table, ..) => Some(table),
         _ => None,
@@ -195,7 +195,7 @@ fn inner(key: &Key) -> Option<&'static KeyTable> {
 }
 
 /// The default of a key, or an example.
-fn sample(key: &Key, slides: bool) -> String {
+pub(super) fn sample(key: &Key, slides: bool) -> String {
     match (key.need, key.form) {
         (Need::Default("0"), ValueForm::Quantity(kinds, _)) => {
             format!("\"0 {}\"", kinds[usize::from(slides)].unit)

@@ -8,6 +8,7 @@ use toml::de::DeValue;
 
 use super::key::{Kinds, ValueForm, ValueRange};
 use super::problem::{Problem, Result, quoted};
+use super::tree;
 use super::value::Value;
 use crate::number::rounding::figure;
 use crate::plain;
@@ -110,7 +111,7 @@ impl<'a> Item<'a> {
         let read = match self.value.get_ref() {
             DeValue::String(text) => quantity::read(text, kind),
             DeValue::Integer(_) | DeValue::Float(_) => {
-                let number = self.plain_number();
+                let number = tree::plain_number(self.value.get_ref());
                 if !number.is_some_and(f64::is_finite) {
                     Err(quantity::not_finite(kind))
                 } else if kind.unit == "%" {
@@ -134,16 +135,6 @@ impl<'a> Item<'a> {
             name: self.name.clone(),
             span: self.span(),
         })
-    }
-
-    fn plain_number(&self) -> Option<f64> {
-        match self.value.get_ref() {
-            DeValue::Float(float) => float.as_str().parse().ok(),
-            DeValue::Integer(integer) => i64::from_str_radix(integer.as_str(), integer.radix())
-                .ok()
-                .map(|n| n as f64),
-            _ => None,
-        }
     }
 
     /// The value that messages propose.
@@ -228,7 +219,7 @@ impl<'a> Item<'a> {
         if !is_number {
             return Err(self.wrong_type("a plain number without quotes and unit", &example));
         }
-        match self.plain_number() {
+        match tree::plain_number(self.value.get_ref()) {
             Some(number) if (min..=max).contains(&number) => Ok(number),
             Some(number) if number.is_finite() => Err(self
                 .problem(

@@ -18,6 +18,17 @@ pub fn parse(text: &str) -> Result<Spanned<DeTable<'_>>> {
     Ok(tree)
 }
 
+/// A number without quotes and unit.
+pub fn plain_number(value: &DeValue) -> Option<f64> {
+    match value {
+        DeValue::Float(float) => float.as_str().parse().ok(),
+        DeValue::Integer(integer) => i64::from_str_radix(integer.as_str(), integer.radix())
+            .ok()
+            .map(|n| n as f64),
+        _ => None,
+    }
+}
+
 /// Checks that a table contains no hidden characters.
 fn seen(table: &DeTable) -> Result<()> {
     for (key, value) in table {

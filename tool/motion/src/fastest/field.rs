@@ -4,6 +4,7 @@ use std::borrow::Cow;
 
 use jred::error::Error;
 use jred_file::model::machine::MachineFile;
+use jred_sizing::catalogue::Drive;
 use jred_sizing::select::fit::input_kind;
 
 use super::joint_force::{JointForces, Spot};
@@ -41,6 +42,15 @@ pub struct MoveLimits {
 }
 
 impl MoveLimits {
+    /// The limits of a drive's gearbox.
+    pub fn of(drive: &Drive) -> Self {
+        Self {
+            gearbox_torque: drive.gearbox.and_then(|gearbox| gearbox.peak_torque),
+            gearbox_speed: drive.gearbox.and_then(|gearbox| gearbox.max_speed),
+            ..Self::default()
+        }
+    }
+
     /// Whether jerk or torque rate is limited.
     pub const fn has_rates(&self) -> bool {
         self.jerk.is_some() || self.torque_rate.is_some()

@@ -21,6 +21,9 @@ use jred_sizing::judge::check::Check;
 use jred_sizing::select::fit::input_kind;
 
 mod data;
+mod obstacle;
+
+pub use obstacle::problem;
 
 /// Figures that differ by less are shown as the same.
 const FIGURE_TOLERANCE: f64 = 5e-4;

@@ -62,6 +62,12 @@ impl Chart {
         self
     }
 
+    /// The data, for a page that draws it itself.
+    pub(super) fn named(mut self, name: &str) -> Value {
+        self.data["name"] = name.into();
+        self.data
+    }
+
     /// The data for an element of the page, escaped so that user text cannot end it.
     pub(super) fn json(&self) -> String {
         self.data.to_string().replace('<', "\\u003c")

@@ -9,8 +9,10 @@
 use jred_file::plain;
 use jred_file::problem;
 use jred_file::text::problem::Result;
+use jred_file::text::tree;
 use std::ops::Range;
-use toml_edit::{Document as Toml, Item, Table, TableLike, Value};
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
 
 use jred_file::units::closest;
 use jred_file::units::literal;
@@ -59,6 +61,11 @@ impl Quantity {
         self.literal.shown()
     }
 
+    /// Its place in the text.
+    pub fn span(&self) -> Range<usize> {
+        self.span.clone()
+    }
+
     /// Whether it is a count, such as a number of teeth, or a number written like one.
     pub fn is_whole(&self) -> bool {
         self.written == Notation::Whole
@@ -102,9 +109,8 @@ impl Document {
     /// # Errors
     /// The text is not TOML.
     pub fn parse(text: String) -> Result<Self> {
-        let toml = Toml::parse(text.as_str()).map_err(|error| problem!("{error}"))?;
         let mut finder = Finder::default();
-        finder.table(toml.as_table());
+        finder.table(tree::parse(&text)?.get_ref());
         let mut quantities = finder.found;
         quantities.sort_by_key(|quantity| quantity.span.start);
         Ok(Self { text, quantities })
@@ -213,7 +219,7 @@ impl Document {
 }
 
 /// The steps of a path. Points inside double quotes do not separate.
-fn steps(path: &str) -> Vec<String> {
+pub fn steps(path: &str) -> Vec<String> {
     let (mut steps, mut quoted) = (vec![String::new()], false);
     for c in path.chars() {
         match c {
@@ -244,28 +250,14 @@ struct Finder {
 }
 
 impl Finder {
-    fn table(&mut self, table: &dyn TableLike) {
-        for (key, item) in table.iter() {
+    fn table(&mut self, table: &DeTable) {
+        for (key, value) in table {
+            let key = key.get_ref().as_ref();
             if !NOT_VARIED.contains(&key) {
                 self.steps.push(vec![key.to_owned()]);
-                self.item(item);
+                self.value(value);
                 self.steps.pop();
             }
-        }
-    }
-
-    fn item(&mut self, item: &Item) {
-        match item {
-            Item::Table(table) => self.table(table),
-            Item::ArrayOfTables(list) => {
-                let name = |table: &Table| name_of(table);
-                let names: Vec<Option<String>> = list.iter().map(name).collect();
-                for (k, table) in list.iter().enumerate() {
-                    self.element(k, &names, |finder| finder.table(table));
-                }
-            }
-            Item::Value(value) => self.value(value),
-            Item::None => {}
         }
     }
 
@@ -283,26 +275,27 @@ impl Finder {
         self.steps.pop();
     }
 
-    fn value(&mut self, value: &Value) {
-        let (literal, written) = match value {
-            Value::String(text) => (literal::read(text.value()).ok(), Notation::Text),
-            Value::Integer(number) => (
-                Some(Literal::plain(*number.value() as f64)),
-                Notation::Whole,
-            ),
-            Value::Float(number) => (Some(Literal::plain(*number.value())), Notation::Plain),
-            Value::InlineTable(table) => return self.table(table),
-            Value::Array(list) => {
-                let name = |value: &Value| value.as_inline_table().and_then(|t| name_of(t));
+    fn value(&mut self, value: &Spanned<DeValue>) {
+        let plain = || tree::plain_number(value.get_ref()).map(Literal::plain);
+        let (literal, written) = match value.get_ref() {
+            DeValue::String(text) => (literal::read(text).ok(), Notation::Text),
+            DeValue::Integer(_) => (plain(), Notation::Whole),
+            DeValue::Float(_) => (plain(), Notation::Plain),
+            DeValue::Table(table) => return self.table(table),
+            DeValue::Array(list) => {
+                let name = |value: &Spanned<DeValue>| {
+                    let name = value.get_ref().as_table()?.get("name")?;
+                    name.get_ref().as_str().map(ToOwned::to_owned)
+                };
                 let names: Vec<Option<String>> = list.iter().map(name).collect();
                 for (k, value) in list.iter().enumerate() {
                     self.element(k, &names, |finder| finder.value(value));
                 }
                 return;
             }
-            Value::Boolean(_) | Value::Datetime(_) => return,
+            DeValue::Boolean(_) | DeValue::Datetime(_) => return,
         };
-        if let (Some(literal), Some(span)) = (literal, value.span()) {
+        if let Some(literal) = literal {
             let first = |words: &Vec<String>| match words.first() {
                 Some(word) if word.contains('.') => format!("\"{word}\""),
                 word => word.cloned().unwrap_or_default(),
@@ -311,13 +304,9 @@ impl Finder {
                 path: self.steps.iter().map(first).collect::<Vec<_>>().join("."),
                 literal,
                 steps: self.steps.clone(),
-                span,
+                span: value.span(),
                 written,
             });
         }
     }
-}
-
-fn name_of(table: &dyn TableLike) -> Option<String> {
-    table.get("name")?.as_str().map(ToOwned::to_owned)
 }

@@ -1,6 +1,8 @@
 //! Cures where no motion exists.
 
 use jred_file::number::rounding::short;
+use jred_file::problem;
+use jred_file::text::problem::Problem;
 
 use super::NoMotion;
 use crate::fastest::field::Binding;
@@ -11,6 +13,12 @@ const LARGER_FORCE: &str =
     "allow a larger force in the joint (--max-reaction), or take weight or load off it";
 
 impl NoMotion {
+    /// The obstacle to a move, by its number if there are several.
+    pub fn problem(&self, number: Option<usize>) -> Problem {
+        let which = number.map_or_else(String::new, |number| format!("move {number}: "));
+        problem!(help = self.cure(), "{which}{self}")
+    }
+
     /// The cure.
     #[expect(clippy::too_many_lines, reason = "a cure for each variant")]
     pub fn cure(&self) -> String {

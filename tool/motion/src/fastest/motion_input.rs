@@ -1,16 +1,18 @@
 //! The motion to optimise: one move, or the motion of the file.
 
-use miette::{Result, miette};
-
 use jred_file::model::machine::MachineFile;
 use jred_file::number::rounding::short;
-use jred_motion::fastest::cycle::{Cycle, cycle, endless, single};
-use jred_motion::fastest::{MoveLimits, NoMotion, Rms, Task};
-use jred_motion::moves::{Chain, NoMoves, Part, chain};
-use jred_motion::path_dynamics::Actuator;
+use jred_file::problem;
+use jred_file::text::problem::Result;
+
+use super::cycle::{Cycle, cycle, endless, single};
+use super::{MoveLimits, NoMotion, Rms, Task};
+use crate::moves::{Chain, NoMoves, Part, chain};
+use crate::path_dynamics::Actuator;
 
 /// The motion to optimise.
-pub(super) enum MotionInput {
+#[derive(Debug)]
+pub enum MotionInput {
     /// One move.
     Move(Box<Task>),
     /// The motion of the file.
@@ -19,15 +21,18 @@ pub(super) enum MotionInput {
 
 impl MotionInput {
     /// The parts of the file's motion.
-    pub(super) const fn chain(&self) -> Option<&Chain> {
+    pub const fn chain(&self) -> Option<&Chain> {
         match self {
             Self::Move(_) => None,
             Self::Chain(chain) => Some(chain),
         }
     }
 
-    /// The fastest motion; otherwise the reason, with the number of the move.
-    pub(super) fn fastest(
+    /// The fastest motion.
+    ///
+    /// # Errors
+    /// The reason why there is none, with the number of the move.
+    pub fn fastest(
         &self,
         file: &MachineFile,
         actuator: &Actuator,
@@ -56,14 +61,13 @@ impl MotionInput {
 }
 
 /// The moves of the file's motion.
-pub(super) fn of_motion(
-    file: &MachineFile,
-    limits: &MoveLimits,
-    rms: Option<Rms>,
-) -> Result<MotionInput> {
+///
+/// # Errors
+/// The file has no motion, or one without moves from rest to rest.
+pub fn of_motion(file: &MachineFile, limits: &MoveLimits, rms: Option<Rms>) -> Result<MotionInput> {
     let motion = file.motion_or("give --from and --to, or ")?;
     let chain = chain(motion, &file.process()).map_err(|why| match why {
-        NoMoves::Still => miette!(
+        NoMoves::Still => problem!(
             help = "give --from and --to, or a [motion] with a move",
             "nothing moves in the motion of {}",
             file.name
@@ -72,21 +76,21 @@ pub(super) fn of_motion(
             let end = if at_end { "ends" } else { "begins" };
             let axis = file.axis();
             let unit = axis.coordinate.speed_unit();
-            miette!(
+            problem!(
                 help = "give --from and --to, or begin and end the cycle of [motion] at a position where the machine is at rest",
                 "the motion of {} {end} with {} {unit}, so its moves are not known",
                 file.name,
                 short(axis.rate(speed.abs()))
             )
         }
-        NoMoves::AllKept => miette!(
+        NoMoves::AllKept => problem!(
             help = "give --from and --to, or a [motion] with moves in addition to the constant speed",
             "{} moves at constant speed only, which is kept: there is nothing to optimise",
             file.name
         ),
     })?;
     if chain.endless && (limits.has_rates() || rms.is_some()) {
-        return Err(miette!(
+        return Err(problem!(
             help = "leave them out, or give one move with --from and --to",
             "the motion of {} turns endlessly: --max-jerk, --max-torque-rate and --max-rms are for moves from rest to rest",
             file.name

@@ -1,0 +1,29 @@
+/** The worker: answers one request after the other by the core, and replaces a core that panicked. */
+import type { Answer, Request } from './protocol';
+import { Panic, Wasm } from './wasm';
+
+async function compiled(): Promise<WebAssembly.Module> {
+  const response = await fetch(new URL('core.wasm', self.location.href));
+  if (!response.ok) throw new Error(`core.wasm: ${response.status} ${response.statusText}`);
+  // Not compiled as it streams: some static hosts serve the file without its media type.
+  return WebAssembly.compile(await response.arrayBuffer());
+}
+
+const module = compiled();
+let core: Wasm | undefined;
+
+async function answer(request: Request): Promise<Answer<Request['do']>> {
+  try {
+    core ??= new Wasm(await module);
+    return JSON.parse(core.ask(request)) as Answer<Request['do']>;
+  } catch (error) {
+    core = undefined;
+    const message = error instanceof Error ? error.message : String(error);
+    return { error: { message, help: '', places: [], ...(error instanceof Panic && { panic: true as const }) } };
+  }
+}
+
+self.addEventListener('message', (event: MessageEvent<{ id: number; request: Request }>) => {
+  const { id, request } = event.data;
+  void answer(request).then((found) => self.postMessage({ id, answer: found }));
+});

@@ -1,0 +1,137 @@
+/** A linkage is drawn: by pointer, by keyboard and by figures; what does not move is explained. */
+import assert from 'node:assert/strict';
+import { after, before, test } from 'node:test';
+import type { Page } from 'playwright-core';
+import { begin, end, open, sized, text } from './support';
+
+before(begin);
+after(end);
+
+async function sheet(page: Page): Promise<void> {
+  await page.getByRole('tab', { name: 'Draw' }).click();
+}
+
+async function drag(page: Page, from: [number, number], to: [number, number]): Promise<void> {
+  const box = (await page.locator('.sheet-canvas').boundingBox())!;
+  await page.mouse.move(box.x + from[0] * box.width, box.y + from[1] * box.height);
+  await page.mouse.down();
+  await page.mouse.move(box.x + to[0] * box.width, box.y + to[1] * box.height, { steps: 5 });
+  await page.mouse.up();
+}
+
+const state = (page: Page): Promise<string | null> => page.locator('.drawn').textContent();
+
+test('the four-bar turns at once and becomes the machine', async () => {
+  const { page, errors } = await open();
+  await sized(page);
+  await sheet(page);
+  await page.getByRole('button', { name: 'New: four-bar' }).click();
+  await page.getByText('The drive turns on and on').waitFor();
+  assert.match((await state(page))!, /Degrees of freedom: 1/);
+  // The rocker turns back where crank and coupler lie in line: the law of cosines in the triangle with rocker and ground.
+  const [crank, coupler, rocker, ground] = [Math.hypot(40, 60), Math.hypot(220, 110), Math.hypot(20, 170), 240] as const;
+  const at = (reach: number): number => (Math.acos((ground ** 2 + reach ** 2 - rocker ** 2) / (2 * ground * reach)) * 180) / Math.PI;
+  const angles = [...(await state(page))!.matchAll(/rocker at φ = ([\d.]+)/g)].map(([, angle]) => Number(angle));
+  for (const [k, angle] of [at(coupler + crank), at(coupler - crank) + 180].entries()) assert.ok(Math.abs(angles[k]! - angle) < 1e-4, `${angles[k]} is not ${angle}`);
+  await page.getByRole('heading', { level: 1, name: 'Four-bar' }).waitFor();
+  // The crank from (0, 0) to (40, 60) is √5200 mm long.
+  assert.match(await text(page), /type = "linkage"[^]*name = "crank"[^]*\["72\.111026 mm", "0 mm"\]/);
+  assert.deepEqual(errors, []);
+});
+
+test('a crank that is too long reaches dead points, which are named, and undo brings it back', async () => {
+  const { page } = await open();
+  await sized(page);
+  await sheet(page);
+  await page.getByRole('button', { name: 'New: four-bar' }).click();
+  await page.getByText('The drive turns on and on').waitFor();
+  const joint = page.locator('[data-point="A"]');
+  await joint.focus();
+  for (let k = 0; k < 14; k++) await page.keyboard.press('Shift+ArrowUp');
+  await page.getByText('The drive moves between').waitFor();
+  assert.match((await state(page))!, /dead point at φ/);
+  for (let k = 0; k < 3 && !/turns on and on/.test((await state(page))!); k++) {
+    await page.getByRole('button', { name: 'Undo' }).click();
+    await page.waitForTimeout(800);
+  }
+  assert.match((await state(page))!, /turns on and on/);
+});
+
+test('two degrees of freedom, none, and no drive are explained', async () => {
+  const { page } = await open();
+  await sized(page);
+  await sheet(page);
+  await page.getByRole('button', { name: 'New: four-bar' }).click();
+  await page.locator('[data-point="C"]').focus();
+  await page.keyboard.press('Enter');
+  await page.getByLabel('fixed to the frame').uncheck();
+  await page.getByText('3 degrees of freedom, not one').waitFor();
+  assert.match((await state(page))!, /Degrees of freedom: 3/);
+  await page.getByLabel('fixed to the frame').check();
+  await page.getByText('The drive turns on and on').waitFor();
+  await page.locator('[data-point="B"]').focus();
+  await page.keyboard.press('Enter');
+  await page.getByLabel('fixed to the frame').check();
+  await page.getByText('-1 degrees of freedom, not one').waitFor();
+  await page.getByLabel('fixed to the frame').uncheck();
+  await page.locator('[data-point="O"]').focus();
+  await page.keyboard.press('Enter');
+  await page.getByLabel('is driven').uncheck();
+  await page.getByText('No joint is driven').waitFor();
+});
+
+test('a slider-crank is drawn from nothing with the pointer', async () => {
+  const { page } = await open();
+  await sized(page);
+  await sheet(page);
+  await page.getByRole('button', { name: 'New: empty sheet' }).click();
+  await page.getByRole('button', { name: 'Link', exact: true }).click();
+  await drag(page, [0.3, 0.5], [0.35, 0.4]);
+  await drag(page, [0.35, 0.4], [0.7, 0.5]);
+  assert.equal(await page.locator('.sheet-canvas .joint').count(), 3);
+  await page.getByRole('button', { name: 'Move', exact: true }).click();
+  await page.locator('[data-point="A"]').focus();
+  await page.keyboard.press('Enter');
+  await page.getByLabel('fixed to the frame').check();
+  await page.getByLabel('is driven').check();
+  await page.locator('[data-point="C"]').focus();
+  await page.keyboard.press('Enter');
+  await page.getByLabel('slides along a line').check();
+  await page.getByLabel('Mass that slides').fill('12');
+  await page.getByLabel('Mass that slides').press('Enter');
+  await page.getByLabel('Force against the motion').fill('300');
+  await page.getByLabel('Force against the motion').press('Enter');
+  await page.getByText('The drive turns on and on').waitFor();
+  assert.match((await state(page))!, /Dead points:.*block C at/);
+  assert.match(await text(page), /type = "prismatic"[^]*opposing_force = "300 N"/);
+  const drive = await sized(page);
+  assert.match(drive, /\w/);
+});
+
+test('the pins of another machine come onto the sheet', async () => {
+  const { page } = await open('#machine=four-bar.toml');
+  await sized(page);
+  await sheet(page);
+  await page.getByRole('button', { name: 'New: empty sheet' }).click();
+  await page.getByRole('button', { name: 'Take over the machine file' }).click();
+  await page.locator('.sheet-canvas .joint').nth(3).waitFor();
+  assert.equal(await page.locator('.sheet-canvas .body').count(), 3);
+  assert.match((await state(page))!, /leaves out: .*motion/);
+});
+
+test('a file of Linkage comes onto the sheet, lengths in millimetres', async () => {
+  const { page } = await open();
+  await sized(page);
+  const px = 96 / 25.4;
+  const at = (id: number, x: number, y: number, more: string): string => `<connector id="${id}" x="${x * px}" y="${y * px}" ${more}/>`;
+  const link = (id: number, ...joints: number[]): string => `<Link id="${id}">${joints.map((joint) => `<connector id="${joint}"/>`).join('')}</Link>`;
+  const xml = `<linkage2><program scalefactor="1.0" units="Millimeters"/>${at(1, 0, 0, 'anchor="true" input="true" rpm="30"')}${at(2, 0, 30, '')}${at(4, 200, 0, 'anchor="true"')}${at(5, 20, 0, 'anchor="true"')}`
+    + `<connector id="3" x="${100 * px}" y="0" slider="true"><slidelimit id="5"/><slidelimit id="4"/></connector>${link(0, 1, 2)}${link(1, 2, 3)}${link(2, 5, 4)}</linkage2>`;
+  await page.locator('input[type=file]').setInputFiles({ name: 'slider.linkage2', mimeType: 'application/xml', buffer: Buffer.from(xml) });
+  await page.getByText('The drive turns on and on').waitFor();
+  const file = await text(page);
+  assert.match(file, /\["30 mm", "0 mm"\]/);
+  // The rod from (0, 30) to (100, 0): √10900 mm.
+  assert.match(file, /\["104\.403065 mm", "0 mm"\]/);
+  assert.match(file, /speed = "30 rpm"/);
+});
