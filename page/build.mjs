@@ -14,7 +14,7 @@ async function machines() {
   for (const name of (await readdir(folder)).filter((name) => name.endsWith(".toml")).sort()) {
     const text = await readFile(folder + name, "utf8");
     const files = {};
-    for (const [, other] of text.matchAll(/^file = "([^"]+)"/gm)) files[other] = await readFile(folder + other, "utf8");
+    for (const [, other] of text.matchAll(/"([^"/]+\.csv)"/g)) files[other] = await readFile(folder + other, "utf8");
     const title = /^title = "([^"]+)"/m.exec(text)?.[1] ?? name;
     all.push({ name, title, text, ...(Object.keys(files).length > 0 && { files }) });
   }

@@ -3,6 +3,7 @@ import assert from 'node:assert/strict';
 import { spawnSync } from 'node:child_process';
 import { readdir, readFile } from 'node:fs/promises';
 import { after, before, test } from 'node:test';
+import { isDeepStrictEqual } from 'node:util';
 import { gzipSync } from 'node:zlib';
 import { fromPmks } from '../src/draw/pmks';
 import { machineText } from '../src/draw/write';
@@ -32,21 +33,23 @@ const COMMANDS = { curves: ['reduce'], size: ['size'], fastest: ['fastest'], gen
 
 for (const [what, words] of Object.entries(COMMANDS)) {
   test(`${what} gives the command's JSON to the last bit`, () => {
+    const different: string[] = [];
     let given = 0;
     for (const machine of machines) {
       const path = `machines/${machine.name}`;
       const done = spawnSync(COMMAND, [...words, path, '--format', 'json'], { cwd: '..', encoding: 'utf8', maxBuffer: 1 << 28 });
       const told = JSON.parse(core.ask({ do: what, ...machine, name: path } as Request)) as { answer?: unknown; error?: { message: string } };
+      // The command breaks lines and draws a frame.
+      const bare = (text: string): string => text.replace(/[\s│]/g, '');
       if (done.status === 2) {
-        const message = done.stderr.replace(/\s*│?\s*/g, '');
-        assert.ok(told.error, `${machine.name}: the command says ${done.stderr}`);
-        assert.ok(message.includes(told.error.message.replace(/\s*/g, '')), `${machine.name}: ${told.error.message} is not in ${done.stderr}`);
+        if (!told.error || !bare(done.stderr).includes(bare(told.error.message))) different.push(`${machine.name}: ${told.error?.message}, ${done.stderr}`);
       } else {
-        assert.deepEqual(told.answer, JSON.parse(done.stdout), machine.name);
         given++;
+        if (!isDeepStrictEqual(told.answer, JSON.parse(done.stdout))) different.push(`${machine.name}: ${told.error?.message ?? 'other numbers'}`);
       }
     }
     console.log(`${what}: ${given} of ${machines.length} machines`);
+    assert.deepEqual(different, []);
     assert.ok(given > machines.length / 4);
   });
 }
