@@ -11,7 +11,6 @@ use crate::simulate::run::OutputRow;
 use jred_file::model::coordinate::Coordinate;
 use jred_file::model::motor::Motor;
 use jred_file::number::columns::{Column, ColumnQuantity};
-use jred_file::number::rounding::position;
 
 impl<M: Motor> Plant<'_, M> {
     /// The motor at a state, with a torque at its shaft; `asked` is the controller's request.
@@ -100,7 +99,7 @@ impl<M: Motor> Plant<'_, M> {
         } = self.stored(moment, DriveState { phi, omega })?;
         let shown = self.axis.state(&State { phi, omega, alpha });
         let own = [
-            position(self.axis.shown(phi)),
+            self.axis.shown(phi),
             shown.omega,
             shown.alpha,
             torque,
@@ -109,7 +108,7 @@ impl<M: Motor> Plant<'_, M> {
         let beside = self.machines.beside().iter();
         let positions = beside.map(|machine| {
             let [phi, ..] = machine.state([phi, omega, alpha]);
-            position(machine.file.axis().shown(phi))
+            machine.file.axis().shown(phi)
         });
         Ok(OutputRow {
             figures: own.into_iter().chain(positions).collect(),
