@@ -53,7 +53,7 @@ pub(super) fn write<'a>(
 /// Writes the requested documents of an answer, and prints it with sentences about them; then the error if no browser prints the page.
 ///
 /// # Errors
-/// As [`write`]; no browser prints the page.
+/// As [`write()`]; no browser prints the page.
 pub(super) fn finish(
     options: &Documents,
     mut answer: Answer,
