@@ -1,4 +1,4 @@
-//! What may be written at a place of a machine file.
+//! Keys and values for a place of a machine file.
 
 use jred_file::keys::complete::candidates;
 use jred_file::keys::place::Place;

@@ -1,4 +1,4 @@
-//! What may be written at a place of a machine file that is being written.
+//! Keys and values for a place of a machine file that is being written.
 
 use std::ops::Range;
 
@@ -9,14 +9,14 @@ use super::starter::{header, inner, sample};
 use crate::text::key::ValueForm;
 use crate::text::key::words::{plain, words_of};
 
-/// What may be written.
+/// A key or a value for the place.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Candidate {
     /// The key, word or value.
     pub label: String,
     /// Its meaning.
     pub detail: String,
-    /// What is inserted.
+    /// The text to insert.
     pub insert: String,
 }
 
