@@ -146,14 +146,13 @@ pub(crate) fn fastest(request: &Request) -> Result<String> {
     drive_train::refuse(&file, "fastest")?;
     file.refuse_timed("fastest")?;
     file.refuse_joint_friction("fastest")?;
-    let drive = match request.text("drive") {
-        Some(name) => asked(name, &file)?,
-        None => {
-            let (name, text) = (request.name(), request.source().to_owned());
-            let files = Box::new(request.files());
-            let study = Study::new(name, text, files, catalogue()?, None, Sampling::default())?;
-            ChosenDrive::choose(&study, None, &Filter::default(), None)?
-        }
+    let drive = if let Some(name) = request.text("drive") {
+        asked(name, &file)?
+    } else {
+        let (name, text) = (request.name(), request.source().to_owned());
+        let files = Box::new(request.files());
+        let study = Study::new(name, text, files, catalogue()?, None, Sampling::default())?;
+        ChosenDrive::choose(&study, None, &Filter::default(), None)?
     };
     let envelope = envelope(&drive, &file, request);
     for assumption in envelope.assumptions() {

@@ -37,7 +37,7 @@ pub(crate) fn list(request: &Request) -> Result<String> {
             "to": to,
         })
     });
-    Ok(Value::from_iter(all).to_string())
+    Ok(all.collect::<Value>().to_string())
 }
 
 /// From a third to three times the number, half a turn around an angle, 100 mm or 1 around zero; within the limits of its key.
@@ -80,7 +80,7 @@ pub(crate) fn complete(request: &Request) -> String {
         })
     });
     let [from, to] = [range.start, range.end].map(|at| utf16(text, at));
-    json!({ "from": from, "to": to, "candidates": Value::from_iter(found) }).to_string()
+    json!({ "from": from, "to": to, "candidates": found.collect::<Value>() }).to_string()
 }
 
 /// The text with some quantities changed.
