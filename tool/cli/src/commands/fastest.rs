@@ -31,7 +31,7 @@ use jred_motion::fastest::joint_force::reached;
 use jred_motion::fastest::motion_input::{MotionInput, of_motion};
 use jred_motion::fastest::ruled::{Judge, ruled};
 use jred_motion::fastest::winding::{Winding, cooled};
-use jred_motion::fastest::{KeptPart, MoveLimits, NoMotion, Reserve, Rms, Task};
+use jred_motion::fastest::{KeptPart, MoveLimits, Reserve, Rms, Task};
 use jred_motion::path_dynamics::{Actuator, PathDynamics};
 use jred_report::list;
 use jred_report::list::fastest::WindingHeat;

@@ -10,7 +10,6 @@ use crate::commands::{plan, series};
 use crate::options::gentlest::{EndAcceleration, Gentlest, RAMP};
 use crate::output::{self, Files};
 use jred_file::model::drive_train;
-use jred_file::model::machine::MachineFile;
 use jred_file::model::rules::RuleVerdict;
 use jred_file::model::variator;
 use jred_motion::contact::broken;
