@@ -55,4 +55,6 @@ if (process.argv[2] === "tests") {
   await cp(`${here}index.html`, `${here}dist/index.html`);
   await writeFile(`${here}dist/machines.json`, await machines());
   await core();
+  // What the service worker keeps for times without a network.
+  await writeFile(`${here}dist/files.json`, JSON.stringify((await readdir(`${here}dist`)).sort()));
 }

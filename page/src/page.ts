@@ -4,6 +4,7 @@ import type { Core } from './core';
 import { Curves } from './curves';
 import { h } from './dom';
 import { fromLinkage2 } from './draw/import';
+import { fromPmks } from './draw/pmks';
 import { DrawPanel } from './draw/panel';
 import { DrivePanel } from './drive';
 import { Editor } from './editor';
@@ -51,7 +52,7 @@ export class Page {
       { id: 'draw', name: texts.draw, panel: this.draw.element },
     ]);
     const button = (name: string, act: () => void): HTMLButtonElement => h('button', { type: 'button', onclick: act }, name);
-    const file = h('input', { type: 'file', class: 'unseen', tabindex: -1, 'aria-hidden': 'true', multiple: true, accept: '.toml,.csv,.linkage2' });
+    const file = h('input', { type: 'file', class: 'unseen', tabindex: -1, 'aria-hidden': 'true', multiple: true, accept: '.toml,.csv,.linkage2,.txt,.url' });
     file.addEventListener('change', () => {
       void this.read([...(file.files ?? [])]);
       file.value = '';
@@ -91,7 +92,8 @@ export class Page {
     addEventListener('dragover', (event) => event.preventDefault());
     addEventListener('drop', (event) => {
       event.preventDefault();
-      void this.read([...(event.dataTransfer?.files ?? [])]);
+      const { files, link } = { files: [...(event.dataTransfer?.files ?? [])], link: event.dataTransfer?.getData('text/plain') };
+      void this.read(files.length === 0 && link ? [new File([link], 'link')] : files);
     });
     addEventListener('beforeprint', () => {
       document.documentElement.dataset['printing'] = '';
@@ -164,7 +166,8 @@ export class Page {
     if ('problem' in files) {
       this.say(`${texts.cannotRead} ${files.problem === 'large' ? texts.tooLarge : files.problem}`, true);
     } else if (files.foreign) {
-      const read = fromLinkage2(files.foreign.name, files.foreign.text);
+      const { name, text } = files.foreign;
+      const read = text.trimStart().startsWith('<') ? fromLinkage2(name, text) : fromPmks(text);
       if ('problem' in read) this.say(`${texts.cannotRead} ${files.foreign.name}: ${read.problem}`, true);
       else {
         this.inputs.select('draw');

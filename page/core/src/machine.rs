@@ -38,7 +38,10 @@ pub(crate) fn curves(request: &Request) -> Result<String> {
         ..Sets::default()
     };
     let asked = reduce::Request {
-        over: Over::Angle,
+        over: match request.text("over") {
+            Some("time") => Over::Time,
+            _ => Over::Angle,
+        },
         positions: request.count("positions", 36).clamp(2, 10_000),
         sets,
         state: None,

@@ -68,7 +68,7 @@ fn range(quantity: &Quantity, place: Option<Place>) -> [f64; 2] {
     [least.max(low).min(number), most.min(high).max(number)]
 }
 
-/// What may be written at a place of the text.
+/// Keys and values for a place of the text.
 pub(crate) fn complete(request: &Request) -> String {
     let text = request.source();
     let (range, found) = candidates(text, bytes(text, request.count("at", 0)));

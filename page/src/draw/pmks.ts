@@ -32,7 +32,7 @@ function joint(part: string, unit: number) {
 }
 
 function read(text: string): { linkage: Linkage; notes: string } | { problem: string } {
-  const parts = decodeURIComponent(text.trim().split(/[?#]/).at(-1)!).split('.');
+  const parts = decodeURIComponent(/[?#](.*)/.exec(text)?.[1] ?? text.trim()).split('.');
   const [, , counts, units] = parts.splice(0, 4);
   const list = (): string[] => {
     const end = parts.indexOf('');

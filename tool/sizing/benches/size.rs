@@ -199,9 +199,10 @@ fn more_instants(bench: &mut Bench, ready: &mut Ready, file: &MachineFile) {
             );
         }
     }
-    // A few loops over the instants for all drives together are left.
+    // A few loops over the instants for all drives together are left; the powers of the mean gear torque are libm's, which has the same bits on every
+    // system and takes longer than that of the system.
     let what = "largest over smallest number of instructions of these";
-    bench.band(what, [1.0, 3.0], spread(&each));
+    bench.band(what, [1.0, 3.5], spread(&each));
 }
 
 /// More and more drives: each costs the same.

@@ -1,4 +1,4 @@
-//! What may be written at a place of a machine file that is being written.
+//! Keys and values for a place of a machine file that is being written.
 
 use std::ops::Range;
 
@@ -9,14 +9,14 @@ use super::starter::{header, inner, sample};
 use crate::text::key::ValueForm;
 use crate::text::key::words::{plain, words_of};
 
-/// What may be written.
+/// A key or a value for the place.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Candidate {
     /// The key, word or value.
     pub label: String,
     /// Its meaning.
     pub detail: String,
-    /// What is inserted.
+    /// The text to insert.
     pub insert: String,
 }
 
@@ -25,8 +25,8 @@ pub struct Candidate {
 struct Cursor {
     /// Keys of the tables and lists around it, from the top of the file.
     path: Vec<String>,
-    /// Depth of the path by brackets that are open.
-    open: Vec<usize>,
+    /// Brackets that are open: the depth of the path before each, its end, the number of elements before the place.
+    open: Vec<(usize, char, usize)>,
     /// The key before an equals sign.
     key: Option<String>,
     /// Whether the line is a header.
@@ -45,7 +45,11 @@ pub fn candidates(text: &str, at: usize) -> (Range<usize>, Vec<Candidate>) {
     // The line that is being written may be wrong; the others say which keys a table has.
     let end = rest.find('\n').map_or(text.len(), |end| at + end);
     let others = [&text[..line], &text[end..]].concat();
-    let file = [text, &others]
+    // In a list over several lines what is before it, closed.
+    let ends = Cursor::at(&text[..line]).open;
+    let ends: String = ends.iter().rev().map(|(_, end, _)| *end).collect();
+    let closed = [&text[..line], &ends].concat();
+    let file = [text, &others, &closed]
         .into_iter()
         .find_map(|text| text.parse::<Table>().ok());
     let file = Value::Table(file.unwrap_or_default());
@@ -86,16 +90,25 @@ impl Cursor {
                 '#' => break,
                 '=' => self.key = Some(std::mem::take(&mut word)),
                 '{' | '[' => {
-                    self.open.push(self.path.len());
                     // Without a key it is an element of a list.
-                    self.path
-                        .push(self.key.take().unwrap_or_else(|| "1".to_owned()));
+                    let before = self.open.last().map_or(0, |(_, _, count)| *count);
+                    let step = self.key.take().unwrap_or_else(|| (before + 1).to_string());
+                    let end = if c == '{' { '}' } else { ']' };
+                    self.open.push((self.path.len(), end, 0));
+                    self.path.push(step);
                 }
                 '}' | ']' => {
-                    self.path.truncate(self.open.pop().unwrap_or_default());
+                    let (depth, ..) = self.open.pop().unwrap_or_default();
+                    self.path.truncate(depth);
                     self.key = None;
                 }
-                ',' => (self.key, word) = (None, String::new()),
+                ',' => {
+                    (self.key, word) = (None, String::new());
+                    self.open
+                        .last_mut()
+                        .into_iter()
+                        .for_each(|open| open.2 += 1);
+                }
                 c if !c.is_whitespace() => word.push(c),
                 _ => {}
             }

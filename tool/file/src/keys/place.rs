@@ -9,9 +9,9 @@ use crate::text::key::{Key, KeyTable, ValueForm, of_axis};
 /// A described place.
 #[derive(Clone, Copy, Debug)]
 pub struct Place<'v> {
-    /// What it may hold.
+    /// The form of its value.
     pub form: ValueForm,
-    /// What it holds.
+    /// Its value.
     pub value: Option<&'v Value>,
     /// The last key of its path, with the table that lists it; `None` at the top of the file.
     pub key: Option<(&'static KeyTable, &'static Key)>,
@@ -80,7 +80,7 @@ impl<'v> Place<'v> {
     }
 }
 
-/// What a table or list holds under a key, a number or a name.
+/// The value of a table or list under a key, a number or a name.
 fn child<'v>(value: &'v Value, step: &str) -> Option<&'v Value> {
     match value {
         Value::Table(table) => table.get(step),
