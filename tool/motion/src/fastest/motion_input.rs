@@ -31,7 +31,7 @@ impl MotionInput {
     /// The fastest motion.
     ///
     /// # Errors
-    /// The reason why there is none, with the number of the move.
+    /// Why a move has no motion, with its number.
     pub fn fastest(
         &self,
         file: &MachineFile,
