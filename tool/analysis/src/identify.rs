@@ -27,7 +27,7 @@ mod visits;
 mod weak;
 
 use basis::Basis;
-use fit::{DELAY_STEP, Fit, fit, rest};
+use fit::{DELAY_STEP, Fit, fit, needed, rest};
 use matrix::DIAGONALS;
 use solution::Unfit;
 
@@ -144,7 +144,14 @@ fn ways(speed: &[f64]) -> [f64; 2] {
 
 /// The unknowns that this log may determine.
 fn basis_of(samples: &Samples, options: &Options) -> Result<Basis, Obstacle> {
-    let speed = visits::check(samples)?;
+    let least = Basis {
+        harmonics: FEWEST,
+        mean: false,
+        friction: 0,
+        cogging: Vec::new(),
+        least: 0,
+    };
+    let speed = visits::check(samples, needed(&least))?;
     let [forward, back] = ways(&speed);
     let share = forward.min(back) / (forward + back);
     let varied = share > BOTH_OFTEN && visits::both_ways(samples, &speed);

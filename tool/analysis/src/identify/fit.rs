@@ -15,7 +15,7 @@ use super::likelihood::{covariance, torque_variance};
 use super::matrix::{Band, Matrix, dot, factor, whiten};
 use super::smooth::{Smooth, half_window, noise, smooth, speed_noise};
 use super::solution::{Unfit, solve};
-use super::weak::Weak;
+use super::weak::{self, Weak};
 use super::{Options, Samples};
 
 /// Distance of the knots of the test functions (s).
@@ -36,6 +36,16 @@ const NEAR: f64 = 3e-3;
 /// Below this speed (rad/s), or a twentieth of the RMS speed if that is lower, friction is that of a joint at rest.
 const REST: f64 = 0.3;
 
+/// Samples between two knots.
+fn spacing(step: f64) -> usize {
+    ((KNOTS / step).round() as usize).max(2)
+}
+
+/// Rows of a log without faults, but for those at its ends.
+pub(super) fn most_rows(samples: &Samples) -> usize {
+    weak::number(samples.position.len(), spacing(samples.step))
+}
+
 /// The speed (rad/s) from which on the machine moves.
 pub(super) fn rest(speed: &[f64]) -> f64 {
     REST.min((dot(speed, speed) / speed.len().max(1) as f64).sqrt() / 20.0)
@@ -46,6 +56,11 @@ const ROUNDS: usize = 3;
 
 /// Least number of rows, as a multiple of the unknowns.
 pub(super) const ROWS: usize = 20;
+
+/// Least number of rows for these unknowns and the delay.
+pub(super) fn needed(basis: &Basis) -> usize {
+    ROWS * (basis.unknowns() + 1)
+}
 
 /// Positions over a turn.
 pub(super) const GRID: usize = 360;
@@ -124,7 +139,7 @@ impl Prepared {
     fn new(samples: &Samples, basis: &Basis, options: &Options, delay: f64) -> Result<Self, Unfit> {
         let (step, position) = (samples.step, &samples.position);
         let count = position.len();
-        let spacing = ((KNOTS / step).round() as usize).max(2);
+        let spacing = spacing(step);
         let weak = Weak::new(count, spacing, step);
         let position_noise = noise(position, &samples.faulty)
             .max(options.encoder_step.unwrap_or_default() / 12.0f64.sqrt())
@@ -161,7 +176,7 @@ impl Prepared {
             .map(|i| i >= edge && i + edge < weak.count && !faulty[i] && !resting[i])
             .collect();
         let used = kept.iter().filter(|kept| **kept).count();
-        let needed = ROWS * (basis.unknowns() + 1);
+        let needed = needed(basis);
         if used < needed {
             return Err(Unfit::Few { rows: used, needed });
         }

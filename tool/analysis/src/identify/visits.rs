@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use super::fit::rest;
+use super::fit::{most_rows, rest};
 use super::smooth::smooth;
 use super::{Obstacle, Samples, within_turn};
 
@@ -105,12 +105,17 @@ pub(super) fn both_ways(samples: &Samples, speed: &[f64]) -> bool {
     })
 }
 
-/// The smoothed speed; refuses a log that cannot determine a machine, whatever the fit.
-pub(super) fn check(samples: &Samples) -> Result<Vec<f64>, Obstacle> {
+/// The smoothed speed; refuses a log that cannot determine a machine, whatever the fit: `needed` rows at least.
+pub(super) fn check(samples: &Samples, needed: usize) -> Result<Vec<f64>, Obstacle> {
     let count = samples.position.len();
     let short = Obstacle::short(samples, count, BINS * IN_BIN);
     if count < SHORTEST {
         return Err(short);
+    }
+    // Many samples may have a short duration.
+    let rows = most_rows(samples);
+    if rows < needed {
+        return Err(Obstacle::short(samples, rows, needed));
     }
     let half = ((0.05 / samples.step) as usize).max(8);
     let speed = smooth(&samples.position, samples.step, half).speed;

@@ -40,12 +40,17 @@ fn spline(u: f64, times: usize) -> f64 {
     flip * terms.sum::<f64>() / factorial
 }
 
+/// The number of test functions.
+pub(super) fn number(samples: usize, spacing: usize) -> usize {
+    (samples / spacing).saturating_sub(DIAGONALS)
+}
+
 impl Weak {
     pub(super) fn new(samples: usize, spacing: usize, step: f64) -> Self {
         let weak = Self {
             spacing,
             step,
-            count: (samples / spacing).saturating_sub(DIAGONALS),
+            count: number(samples, spacing),
             weights: Default::default(),
         };
         Self {
@@ -71,7 +76,7 @@ impl Weak {
     fn each(&self, k: usize, mut call: impl FnMut(usize, usize)) {
         let block = k / self.spacing;
         let first = block.saturating_sub(DIAGONALS - 1);
-        for i in first..=block.min(self.count.saturating_sub(1)) {
+        for i in first..self.count.min(block + 1) {
             call(i, k - i * self.spacing);
         }
     }

@@ -57,6 +57,31 @@ fn a_log_that_does_not_determine_the_machine_says_why() {
     );
 }
 
+/// Many samples in a short time: 23 ms at 100 kHz; and 20 s whose times are in milliseconds, declared as microseconds.
+#[test]
+fn a_short_duration_is_refused_whatever_the_number_of_samples() {
+    let run_up: Vec<f64> = (0..2300).map(|k| f64::from(k) * 1e-5).collect();
+    let brief = Samples {
+        step: 1e-5,
+        position: run_up.iter().map(|t| 300.0 * t + 15e3 * t * t).collect(),
+        torque: run_up.iter().map(|t| (300.0 * t).sin()).collect(),
+        faulty: vec![false; 2300],
+    };
+    let refused = identify(&brief, &Options::default()).unwrap_err();
+    assert!(matches!(
+        refused,
+        Obstacle::Short {
+            rows: 0,
+            needed: 480,
+            ..
+        }
+    ));
+    let mut declared = log(&press(), Encoder::Fine, false, 3, 20.0).samples;
+    declared.step = 1e-6;
+    let refused = identify(&declared, &Options::default()).unwrap_err();
+    assert!(matches!(refused, Obstacle::Short { rows: 0, .. }));
+}
+
 /// Another zero of a machine without weight is seen in J alone.
 #[test]
 fn another_zero_is_found_with_and_without_weight() {
