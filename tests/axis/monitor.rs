@@ -253,6 +253,36 @@ fn what_is_unknown_is_reported() {
     });
 }
 
+/// A cycle of 520 ticks in the first half of the turn and 80 in the second, where a bin has 10 ticks in all reference cycles: the first half is watched,
+/// and friction and payload are those of its ticks.
+#[test]
+fn what_is_known_is_watched_beside_what_is_unknown() {
+    with_model_of::<Spline<f32>, SET>(&CRANK, Scale::SI, |model| {
+        let payload = |phase: Phase| if phase.to_bits() < 1 << 30 { 1.0 } else { -1.0 };
+        let mut monitor = Monitor::<f32, 512>::new(WATCH, payload, &model).unwrap();
+        let mut turn = |carried: f32, friction: f32, cycle: u32| {
+            // The places of a cycle are between those of the one before.
+            let place = |k: u32, of: u32| ((32 * k + cycle % 32) << 16) / (32 * of) << 15;
+            let first = (0..520).map(|k| place(k, 520));
+            let ticks = first.chain((0..80).map(|k| (1 << 31) + place(k, 80)));
+            let seen = ticks.enumerate().map(|(k, bits)| {
+                let phase = Phase::from_bits(bits);
+                let noise = if k % 2 == 0 { 0.01 } else { -0.01 };
+                monitor.tick(phase, carried * payload(phase) + friction + noise)
+            });
+            let unknown = seen.filter(|seen| *seen == Seen::Unknown).count();
+            (unknown, monitor.end_cycle(), monitor.is_watching())
+        };
+        for cycle in 0..2 * WATCH.reference {
+            turn(0.0, 0.0, cycle);
+        }
+        let (unknown, cycle, watching) = turn(0.02, 0.01, 0);
+        assert!(watching && cycle.judged && unknown == 80, "{cycle:?}");
+        assert_near("payload", cycle.payload.into(), 0.02, 2e-4);
+        assert_near("friction", cycle.friction.into(), 0.01, 2e-4);
+    });
+}
+
 #[test]
 fn monitors_that_cannot_be_are_refused() {
     with_model_of::<Spline<f32>, SET>(&CRANK, Scale::SI, |model| {

@@ -72,6 +72,8 @@ enum Stage {
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 struct Sums {
     ticks: u32,
+    /// Those in bins that are not known.
+    unknown: u32,
     jams: u32,
     off: i64,
     weighted: i64,
@@ -212,6 +214,7 @@ impl<N: Number, const BINS: usize> Monitor<N, BINS> {
             return Seen::Learning;
         }
         if bin.limit == 0 {
+            sums.unknown = sums.unknown.saturating_add(1);
             return Seen::Unknown;
         }
         let off = torque - bin.mean;
@@ -245,7 +248,10 @@ impl<N: Number, const BINS: usize> Monitor<N, BINS> {
         }
         let mut cycle = self.figures(&sums);
         // To an eighth.
-        if sums.ticks == 0 || self.ticks.abs_diff(sums.ticks) > self.ticks / 8 || sums.jams > 0 {
+        if sums.ticks == sums.unknown
+            || self.ticks.abs_diff(sums.ticks) > self.ticks / 8
+            || sums.jams > 0
+        {
             return cycle;
         }
         if self.stage == Stage::Cycles {
@@ -285,7 +291,7 @@ impl<N: Number, const BINS: usize> Monitor<N, BINS> {
     }
 
     fn figures(&self, sums: &Sums) -> Cycle {
-        let ticks = sums.ticks.max(1) as f32;
+        let ticks = sums.ticks.saturating_sub(sums.unknown).max(1) as f32;
         let payload = self.payload_scale * (sums.weighted as f32 / ticks);
         let off = sums.off as f32 / ticks;
         let mean = self.count.si(off);
@@ -320,8 +326,9 @@ impl<N: Number, const BINS: usize> Monitor<N, BINS> {
 
     /// The bins are learned: means, limits, and weights of the payload without their mean.
     fn finish_bins(&mut self) {
-        let known = self.bins.iter().filter(|bin| bin.is_known());
-        let ticks = known.fold(0u32, |sum, bin| sum.saturating_add(bin.ticks));
+        // Of all bins: a cycle is as long where too few ticks were.
+        let bins = self.bins.iter();
+        let ticks = bins.fold(0u32, |sum, bin| sum.saturating_add(bin.ticks));
         self.ticks = ticks / self.watch.reference.max(1);
         // Ticks of all cycles without a false alarm, on both sides.
         let ticks = 2.0 * self.watch.cycles as f32 * self.ticks.max(1) as f32;
