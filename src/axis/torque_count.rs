@@ -64,3 +64,11 @@ impl<N: Number> TorqueCount<N> {
 pub(super) fn nearest(counts: f32) -> i32 {
     (counts + if counts < 0.0 { -0.5 } else { 0.5 }) as i32
 }
+
+/// The covariance over these ticks of two figures with these sums, and this sum of their products. It is exact before the divisions: in single
+/// precision the difference of two large means would have lost its digits.
+pub(super) fn covariance(ticks: u32, [a, b]: [i64; 2], product: i64) -> f32 {
+    let squared = i128::from(ticks) * i128::from(product) - i128::from(a) * i128::from(b);
+    let ticks = ticks as f32;
+    squared as f32 / ticks / ticks
+}

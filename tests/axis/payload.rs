@@ -1,3 +1,5 @@
+use core::f64::consts::{SQRT_2, TAU};
+
 use jred::axis::{Observer, Payload};
 use jred::number::FrictionSign;
 use jred::table::Format;
@@ -62,6 +64,31 @@ fn payloads_are_found<F: Format>(scale: Scale) {
 fn a_payload_is_found() {
     payloads_are_found::<Spline<f32>>(Scale::SI);
     payloads_are_found::<Spline<Q31>>(bases());
+}
+
+/// A torque that varies little about a mean near the largest one, as one that is just excited does.
+#[test]
+fn a_large_mean_costs_no_accuracy() {
+    with_model_of::<Spline<f32>, SET>(&CRANK, Scale::SI, |model| {
+        let observer = Observer::with_bandwidth(60.0, TICK as f32, &model).unwrap();
+        for mean in [0.95, 0.951, 0.952, 0.953, 0.954] {
+            // An odd window: halves have no half tick. A wave so slow that the lag is nothing, of 1200 counts.
+            let mut estimate = Payload::new(50.0, 4001, &observer, &model).unwrap();
+            let deviation = 1200.0 * 50.0 / 1_048_576.0;
+            for k in 0..9000 {
+                let wave = (f64::from(k) * TAU / 4000.0).sin() * SQRT_2 * deviation;
+                let unit = mean * 50.0 + wave;
+                estimate.update((3.0 - unit) as f32, unit as f32);
+                if k == 1000 {
+                    estimate.restart();
+                }
+            }
+            let found = estimate.estimate();
+            assert!(found.excited);
+            assert_near("payload", found.payload.into(), 1.0, 0.002);
+            assert_near("offset", found.offset.into(), 3.0, 0.1);
+        }
+    });
 }
 
 /// Without a change of the unit's torque nothing is known, whatever the load.

@@ -1,6 +1,6 @@
 //! The torque that is usual in one part of the range.
 
-use super::super::torque_count::nearest;
+use super::super::torque_count::{covariance, nearest};
 use crate::number::Real;
 
 /// Sums of the reference cycles in a bin, then what is usual there; torques in counts.
@@ -50,8 +50,8 @@ impl Bin {
     /// Mean and variance relative to `mean`, in counts.
     pub(super) fn moments(&self) -> [f32; 2] {
         let mean = self.sum as f32 / self.ticks as f32;
-        let variance = self.squares as f32 / self.ticks as f32 - mean * mean;
-        // Of equal torques rounding may leave less than 0.
+        let variance = covariance(self.ticks, [self.sum; 2], self.squares);
+        // A sum at its limit may leave less than 0.
         [mean, if variance > 0.0 { variance } else { 0.0 }]
     }
 
