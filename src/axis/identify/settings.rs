@@ -33,7 +33,8 @@ pub struct IdentificationSettings {
     pub max_speed: f32,
     /// Mean of J (kg·m²) as far as it is known: within a factor of two.
     pub inertia: f32,
-    /// How much later the torque of a tick is read than its phase (s); negative if earlier: −½·period for a command that acts until the next tick.
+    /// How long before the instant of the phase the torque of a tick acted (s); negative if it acts later: −0.1 ms for a current that is sampled 0.1 ms
+    /// after the encoder, −½·period for a command that acts until the next tick.
     pub torque_delay: f32,
     /// Standard deviation of the torque's noise (N·m).
     pub torque_noise: f32,

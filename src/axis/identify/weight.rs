@@ -14,7 +14,7 @@ pub(super) struct Weights<T> {
     pub(super) plain: [T; WINDOWS],
     pub(super) first: [T; WINDOWS],
     pub(super) second: [T; WINDOWS],
-    /// Of the torque, which is later by a part of a tick.
+    /// Of the torque, which acted a part of a tick before.
     pub(super) torque: [T; WINDOWS],
 }
 
@@ -44,8 +44,8 @@ fn difference<T: Circular>(values: [T; WINDOWS]) -> [T; WINDOWS] {
     })
 }
 
-/// The weights of all ticks between two knots, times the period, and Σw·w of windows that are 0, 1, … knots apart. The torque is `late` by a part of a
-/// tick.
+/// The weights of all ticks between two knots, times the period, and Σw·w of windows that are 0, 1, … knots apart. The torque acted `late`, a part of
+/// a tick, before its sample.
 pub(super) fn weights<T: Circular>(
     ticks: u32,
     period: T,
