@@ -167,7 +167,8 @@ impl Prepared {
             k.checked_add_signed(late)
                 .and_then(|k| samples.faulty.get(k))
         };
-        let faulty = (0..count).map(|k| samples.faulty[k] || of_torque(k) == Some(&true));
+        // A torque before or after the log is not known.
+        let faulty = (0..count).map(|k| samples.faulty[k] || of_torque(k) != Some(&false));
         let faulty = weak.touched(faulty, near);
         let rest = rest(&raw);
         let resting = instruments.motion.speed.iter().map(|w| w.abs() < rest);

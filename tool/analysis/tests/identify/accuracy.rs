@@ -173,3 +173,17 @@ fn repeats_of_a_log_in_steps_of_a_current() {
         );
     }
 }
+
+/// A torque that is 0.4 s late ends before the last positions, and those rows do not count.
+#[test]
+fn a_torque_beyond_the_end_does_no_harm() {
+    let plant = four_bar();
+    let mut late = log(&plant, Encoder::Fine, false, 13, 30.0);
+    late.samples.torque.rotate_right(399);
+    late.samples.torque[..399].fill(0.0);
+    late.options.delay = Some(0.4);
+    let found = identify(&late.samples, &late.options).unwrap();
+    assert_eq!(found.faults, []);
+    let [inertia, _, torque] = errors(&plant, &found);
+    assert!(inertia < 0.01 && torque < 0.02, "{inertia} {torque}");
+}
