@@ -176,7 +176,8 @@ fn fitted(samples: &Samples, basis: &Basis, options: &Options) -> Result<Fit, Ob
         basis = basis.with_harmonics((basis.harmonics * 3 / 4).max(fewest));
         found = fit(samples, &basis, options, None, None);
     }
-    if let (Err(Unfit::Singular), 1..) = (&found, basis.friction) {
+    // Constant friction has fewer unknowns, and needs no angle in both directions.
+    if let (Err(_), 1..) = (&found, basis.friction) {
         basis = basis.with_friction(0);
         found = fit(samples, &basis, options, None, None);
     }

@@ -1,5 +1,7 @@
 //! Coulomb friction that depends on the angle, from a log of both directions.
 
+use std::f64::consts::TAU;
+
 use jred_analysis::identify::{Identified, identify};
 
 use super::plant::{Encoder, Plant, errors, four_bar, log_of, press, reversing};
@@ -55,4 +57,22 @@ fn constant_friction_stays_one_number() {
             found.coulomb.band
         );
     }
+}
+
+/// 3 s forwards and back have about 620 rows: 35 unknowns with c over the angle need 700, 25 with a constant c need 500.
+#[test]
+fn a_short_log_has_constant_friction() {
+    let plant = Plant {
+        cogging: [0.0; 2],
+        ..four_bar()
+    };
+    let there_and_back = |t: f64| {
+        let (o, most) = (TAU / 3.0, 3.0 * TAU);
+        let (s, c) = (o * t).sin_cos();
+        [most / o * (1.0 - c), most * s, most * o * c]
+    };
+    let mut log = log_of(&plant, Encoder::Fine, false, 1, 3.0, there_and_back);
+    log.options.cogging.clear();
+    let found = identify(&log.samples, &log.options).unwrap();
+    assert!(found.coulomb_waves.is_empty() && found.mean_load.is_some());
 }
