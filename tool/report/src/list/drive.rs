@@ -7,7 +7,7 @@ use crate::answer::Answer;
 use crate::answer::schema::Data;
 use crate::table::reading::{ColumnKind, Reading};
 use crate::table::rows::csv_line;
-use jred_file::number::rounding::{rounded, significant};
+use jred_file::number::rounding::{down, rounded, significant};
 use jred_file::plain;
 use jred_file::problem;
 use jred_file::text::problem::Result;
@@ -154,6 +154,7 @@ fn typed(value: f64, decimals: Option<i32>, is_limit: bool) -> f64 {
             };
             rounded / scale
         }
+        None if is_limit => down(value),
         None => significant(value, DIGITS).parse().unwrap_or(value),
     };
     // Without -0.
@@ -161,8 +162,19 @@ fn typed(value: f64, decimals: Option<i32>, is_limit: bool) -> f64 {
 }
 
 impl Parameter {
-    /// Sets value, range and remark.
-    fn fill(&mut self, settings: &Settings) {
+    /// The base of the value of which this is the exact one: a limit is a share of what the drive knows, so of the base as it is typed.
+    fn base_of(&self, exact: f64, is_limit: bool, parameters: &[Self]) -> f64 {
+        let is_base = |p: &&Self| p.base.is_none() && p.setting.is_some() && p.setting == self.base;
+        let known = parameters.iter().find(is_base).filter(|_| is_limit);
+        let known = known.map(|p| {
+            let factor = p.factor.unwrap_or(1.0);
+            typed(exact * factor, p.decimals, false) / factor
+        });
+        known.filter(|known| *known > 0.0).unwrap_or(exact)
+    }
+
+    /// Sets value, range and remark; `parameters` are those of the maker.
+    fn fill(&mut self, settings: &Settings, parameters: &[Self]) {
         let least = self.limits.first().copied().unwrap_or(f64::NEG_INFINITY);
         let largest = self.limits.get(1).copied().unwrap_or(f64::INFINITY);
         self.range = match self.limits.len() {
@@ -177,6 +189,7 @@ impl Parameter {
             Some(Setting::TorqueLimit | Setting::PeakCurrent | Setting::SpeedLimit)
         );
         let without_base = base.is_nan() && !value.is_nan();
+        let base = self.base_of(base, is_limit, parameters);
         let value = value / base * self.factor.unwrap_or(1.0);
         let value = value
             .is_finite()
@@ -214,8 +227,9 @@ impl DriveView<'_> {
     fn data(&self) -> DriveData {
         let mut makers = self.makers.to_vec();
         for Maker { parameters, .. } in &mut makers {
+            let all = parameters.clone();
             for parameter in &mut *parameters {
-                parameter.fill(self.settings);
+                parameter.fill(self.settings, &all);
             }
             parameters.sort_by_key(|parameter| parameter.value.is_none());
         }

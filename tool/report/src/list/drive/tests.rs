@@ -45,3 +45,20 @@ fn values_are_rounded_as_typed() {
     assert_eq!(typed(0.012_345_6, None, false).to_string(), "0.01235");
     assert_eq!(typed(-0.2, Some(0), false).to_string(), "0");
 }
+
+/// 0.0955 N m are typed as 96 mN m, of which 0.2865 N m are 2984.4 per mille.
+#[test]
+fn limits_are_never_above_their_figure() {
+    assert_eq!(typed(16.968, None, true).to_string(), "16.96");
+    assert_eq!(typed(12_346.0, None, true).to_string(), "12340");
+    assert_eq!(typed(16.968, None, false).to_string(), "16.97");
+    for maker in ["cia402", "ax8000"] {
+        let Maker { parameters, .. } = makers(Some(maker)).unwrap().remove(0);
+        let limit = parameters.iter().find(|p| p.number == "0x6072").unwrap();
+        let base = limit.base_of(0.0955, true, &parameters);
+        assert_eq!(
+            typed(0.2865 / base * 1e3, Some(0), true).to_string(),
+            "2984"
+        );
+    }
+}
