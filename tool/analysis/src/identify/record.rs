@@ -18,6 +18,12 @@ const SMOOTHER: f64 = 0.5;
 /// Equal largest torques in a row that are a limit of the drive.
 const EQUAL: usize = 3;
 
+/// Range of an angle within one turn, which rounded values may exceed.
+const ONE_TURN: f64 = 1.001 * TAU;
+
+/// In fewer rows a large step of the position is no jump.
+const LEAST_ROWS: usize = 100;
+
 /// Share of saturated samples from which on they are reported.
 const SATURATED: f64 = 0.002;
 
@@ -81,6 +87,13 @@ pub enum RecordFault {
         gap: f64,
         /// The longest that is possible at the log's largest speed (s).
         longest: f64,
+    },
+    /// The position jumps by more than half of its range, which is more than a turn: a counter overflows, or was reset.
+    Jump {
+        /// The row after the jump.
+        row: usize,
+        /// The jump (rad).
+        by: f64,
     },
     /// Most of the samples are missing, or the times scatter so much that their order says nothing.
     Scattered,
@@ -252,13 +265,36 @@ fn resampled(
     samples
 }
 
+/// The median of five values in a row; near the ends, the values.
+fn medians(values: &[f64]) -> Vec<f64> {
+    let mut medians = values.to_vec();
+    for (median, five) in medians.iter_mut().skip(2).zip(values.windows(5)) {
+        let mut five = five.to_vec();
+        five.sort_by(f64::total_cmp);
+        *median = five[2];
+    }
+    medians
+}
+
+/// A jump by more than `most` from one sample to the next.
+fn jump(rows: &Rows, position: &[f64], clock: &Clock, most: f64) -> Option<RecordFault> {
+    let steps = position.windows(2).zip(clock.places.windows(2));
+    let mut steps = steps.zip(rows.numbers.iter().skip(1));
+    let (row, by) = steps.find_map(|((pair, places), row)| {
+        let by = pair[1] - pair[0];
+        (places[1] - places[0] == 1 && by.abs() > most).then_some((*row, by))
+    })?;
+    (position.len() > LEAST_ROWS).then_some(RecordFault::Jump { row, by })
+}
+
 /// Positions without the jump of an encoder that counts within one turn; others stay.
 fn unwrapped(rows: &Rows, clock: &Clock) -> Result<Vec<f64>, RecordFault> {
     let mut values = rows.position.clone();
-    let [least, most] = range(&values);
-    // Rounded positions may exceed a turn.
-    if most - least > 1.001 * TAU {
-        return Ok(values);
+    // Without single wrong values.
+    let usual = medians(&values);
+    let [least, most] = range(&usual);
+    if most - least > ONE_TURN {
+        return jump(rows, &usual, clock, 0.5 * (most - least)).map_or(Ok(values), Err);
     }
     let mut turns = 0.0;
     let mut before = values.first().copied().unwrap_or_default();
@@ -271,6 +307,11 @@ fn unwrapped(rows: &Rows, clock: &Clock) -> Result<Vec<f64>, RecordFault> {
         .zip(rows.numbers.iter().skip(1))
     {
         let jump = *value - before;
+        // Farther than a turn from a usual value: a wrong value, which stays one within half a turn.
+        if *value < most - ONE_TURN || *value > least + ONE_TURN {
+            *value += turns - (jump / TAU).round() * TAU;
+            continue;
+        }
         before = *value;
         let over = (jump / TAU).round() * TAU;
         turns -= over;

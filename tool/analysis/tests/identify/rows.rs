@@ -169,3 +169,30 @@ fn a_constant_torque_and_lost_times_are_refused() {
     let lost = samples(&late, &position, &torque).unwrap_err();
     assert_eq!(lost, RecordFault::Scattered);
 }
+
+/// A row with another angle is one wrong value, and not a reason to leave the turns as they are; a counter that overflows is refused.
+#[test]
+fn turns_are_unwrapped_beside_wrong_values() {
+    let time: Vec<f64> = (0..3000).map(|k| f64::from(k) * 1e-3).collect();
+    let torque: Vec<f64> = time.iter().map(|t| (3.0 * t).sin()).collect();
+    let within: Vec<f64> = time.iter().map(|t| (9.0 * t).rem_euclid(TAU)).collect();
+    for wrong in [500f64.to_radians(), 65_535.0 / 4096.0 * TAU, -40.5 * TAU] {
+        let mut position = within.clone();
+        position[1000] = wrong;
+        let (read, _) = samples(&time, &position, &torque).unwrap();
+        for (k, (read, t)) in read.position.iter().zip(&time).enumerate() {
+            let off = (read - 9.0 * t).abs();
+            assert!(off < if k == 1000 { 3.2 } else { 1e-9 }, "{k}: {off}");
+        }
+    }
+    // 16 bits of 4096 counts a turn are 16 turns.
+    let overflowing: Vec<f64> = time
+        .iter()
+        .map(|t| (90.0 * t).rem_euclid(16.0 * TAU))
+        .collect();
+    let fault = samples(&time, &overflowing, &torque).unwrap_err();
+    let RecordFault::Jump { row: 1119, by } = fault else {
+        panic!("{fault:?}");
+    };
+    assert!((by / TAU + 16.0).abs() < 0.1, "{by}");
+}

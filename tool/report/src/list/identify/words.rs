@@ -1,5 +1,7 @@
 //! A log and its faults in words.
 
+use std::f64::consts::TAU;
+
 use miette::{Report, miette};
 
 use jred_analysis::identify::{Fault, Obstacle, RecordFault, Repair};
@@ -293,6 +295,12 @@ pub fn unreadable(name: &str, fault: &RecordFault) -> Report {
             "{name}: the encoder counts within one turn, and {} ms are missing before row {row}: above {} ms half a turn may be lost",
             short(gap * 1e3),
             short(longest * 1e3)
+        ),
+        RecordFault::Jump { row, by } => miette!(
+            help =
+                "log a position that counts turns without an overflow, or an angle within one turn",
+            "{name}: the position jumps by {} turns in row {row}: its counter overflows, or was reset",
+            short(by / TAU)
         ),
         RecordFault::Scattered => miette!(
             help = "give one file for each run without pauses in the recording",
