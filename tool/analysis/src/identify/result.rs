@@ -60,6 +60,9 @@ pub struct CurvePoint {
 pub struct Excitation {
     /// Duration of the log (s).
     pub duration: f64,
+    /// Time in motion (s).
+    #[serde(skip)]
+    pub moving: f64,
     /// Time between two samples (s).
     pub step: f64,
     /// Turns.
@@ -247,8 +250,10 @@ fn excitation(fit: &Fit, samples: &Samples, curves: &[CurvePoint]) -> Excitation
     let rest = rest(speed);
     let moving = speed.iter().map(|w| w.abs()).filter(|w| *w > rest);
     let travel = moving.sum::<f64>() * samples.step;
+    let moving = (forward + back) * samples.step;
     Excitation {
         duration: samples.step * samples.position.len() as f64,
+        moving,
         turns: travel / TAU,
         speed_variation: speed_variation(samples, speed),
         step: samples.step,

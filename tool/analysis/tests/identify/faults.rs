@@ -159,6 +159,7 @@ fn faults_are_found() {
         "{}",
         rested.excitation.turns
     );
+    assert!((rested.excitation.moving - 30.0).abs() < 0.1);
     // The encoder of one turn, with a gap in which it turns more than half a turn; and the same with an encoder that counts turns.
     let times = || (0..30_000).map(|k| f64::from(k) * STEP);
     let gapped: Vec<f64> = times().filter(|t| !(5.0..5.5).contains(t)).collect();
