@@ -102,7 +102,7 @@ impl Bus {
         for piece in stop.pieces() {
             parts(piece, walk.most, |part| walk.events(part));
         }
-        let stopped = walk.figures;
+        let stopped = walk.finish(0.0);
         BusFigures {
             burnt_peak: cycle.burnt_peak.max(stopped.burnt_peak),
             pulse: cycle.pulse.max(stopped.pulse),
@@ -197,6 +197,8 @@ struct Walk<'b> {
     most: f64,
     /// Energy above `base` (J).
     excess: f64,
+    /// Its largest value so far (J).
+    largest: f64,
     /// Energy of the resistor since its last pause (J).
     pulse: f64,
     /// Whether it has paused in this period.
@@ -219,6 +221,7 @@ impl<'b> Walk<'b> {
             rate,
             most,
             excess,
+            largest: f64::NEG_INFINITY,
             pulse,
             paused: false,
             figures: BusFigures {
@@ -230,6 +233,7 @@ impl<'b> Walk<'b> {
 
     fn finish(mut self, start: f64) -> BusFigures {
         self.figures.stored = start;
+        self.figures.highest = self.figures.highest.max(self.voltage(self.largest));
         if !self.paused {
             self.figures.pulse = self.figures.burnt;
         }
@@ -259,7 +263,9 @@ impl<'b> Walk<'b> {
     }
 
     fn seen(&mut self, excess: f64) {
-        self.figures.highest = self.figures.highest.max(self.voltage(excess));
+        if excess > self.largest {
+            self.largest = excess;
+        }
     }
 
     /// One of the [`parts`] of a piece.

@@ -1,6 +1,9 @@
 //! Current of the amplifier, energy of the DC bus, brake resistor.
 
+use std::borrow::Cow;
+
 use super::{Context, Grounds, Record};
+use crate::bus::curve::PowerCurve;
 use crate::bus::store::BusFigures;
 use crate::bus::supply::BusData;
 use crate::bus::{self, Need};
@@ -57,11 +60,9 @@ fn peak_current(context: &Context) -> f64 {
 /// Overload, bus and brake resistor; [`measure`] provides the largest current (A).
 pub(super) fn follow(context: &Context, peak_current: Option<f64>, findings: &mut impl Record) {
     overload(context, peak_current.unwrap_or(f64::NAN), findings);
-    let DriveBus {
-        mut data,
-        is_internal,
-        ..
-    } = fed(context);
+    let fed = fed(context);
+    let is_internal = fed.is_internal;
+    let mut data = fed.data;
     if data.regenerative {
         return;
     }
@@ -81,7 +82,7 @@ pub(super) fn follow(context: &Context, peak_current: Option<f64>, findings: &mu
     }
     // The course of the bus takes a pass over the cycle, so it needs all data.
     let known = match missing(context, &data) {
-        None => figures(context, &data),
+        None => fed.figures(context),
         Some(_) => None,
     };
     let Some(figures) = known else {
@@ -152,6 +153,10 @@ fn overload(context: &Context, peak: f64, findings: &mut impl Record) {
 /// The bus of a drive with its brake resistor: from the machine file, of the amplifier, or chosen from the catalogue.
 struct DriveBus<'a> {
     data: BusData,
+    /// Its power over the cycle, if it was needed.
+    curve: Option<PowerCurve>,
+    /// Its figures, if they were needed.
+    figures: Option<BusFigures>,
     chosen: Option<&'a Resistor>,
     /// Whether the resistor is that of the amplifier, whose resistance and peak power are the amplifier's own.
     is_internal: bool,
@@ -172,6 +177,8 @@ fn fed<'a>(context: &Context<'a>) -> DriveBus<'a> {
     );
     let mut fed = DriveBus {
         data,
+        curve: None,
+        figures: None,
         chosen: None,
         is_internal: false,
         need: None,
@@ -185,34 +192,47 @@ fn fed<'a>(context: &Context<'a>) -> DriveBus<'a> {
         return fed;
     }
     let curve = power(context);
-    let rises = data.bus().is_ok_and(|bus| {
-        let highest = bus.run(&curve).highest;
-        data.asks_for_a_resistor(highest)
-    });
+    let alone = data.bus().ok().map(|bus| bus.run(&curve));
+    let rises = alone.is_some_and(|alone| data.asks_for_a_resistor(alone.highest));
     if !rises {
+        fed.figures = alone;
+        fed.curve = Some(curve);
         return fed;
     }
-    let own = internal.filter(|own| {
+    let own = internal.and_then(|own| {
         let with = BusData {
-            resistor: Some(*own),
+            resistor: Some(own),
             ..data
         };
-        let run = with.bus().map(|bus| bus.run(&curve));
-        run.is_ok_and(|run| {
-            let pulse = own.pulse_energy.is_none_or(|most| run.pulse <= most);
-            let enough = run.burnt <= own.power * curve.period();
-            enough && pulse && data.max_voltage.is_none_or(|most| run.highest <= most)
-        })
+        let run = with.bus().ok()?.run(&curve);
+        let pulse = own.pulse_energy.is_none_or(|most| run.pulse <= most);
+        let enough = run.burnt <= own.power * curve.period();
+        let bounded = data.max_voltage.is_none_or(|most| run.highest <= most);
+        (enough && pulse && bounded).then_some((own, run))
     });
-    if own.is_some() {
+    if let Some((own, run)) = own {
         fed.is_internal = true;
-        fed.data.resistor = own;
-        return fed;
+        fed.data.resistor = Some(own);
+        fed.figures = Some(run);
+    } else {
+        fed.need = Need::of(&data, &curve);
+        fed.chosen = (fed.need).and_then(|need| need.proposal(context.resistors, drive.amplifier));
+        fed.data.resistor = fed.chosen.map(Resistor::on_bus);
     }
-    fed.need = Need::of(&data, &curve);
-    fed.chosen = (fed.need).and_then(|need| need.proposal(context.resistors, drive.amplifier));
-    fed.data.resistor = fed.chosen.map(Resistor::on_bus);
+    fed.curve = Some(curve);
     fed
+}
+
+impl DriveBus<'_> {
+    fn curve(&self, context: &Context) -> Cow<'_, PowerCurve> {
+        let known = self.curve.as_ref().map(Cow::Borrowed);
+        known.unwrap_or_else(|| Cow::Owned(power(context)))
+    }
+
+    fn figures(&self, context: &Context) -> Option<BusFigures> {
+        let run = || Some(self.data.bus().ok()?.run(&self.curve(context)));
+        self.figures.or_else(run)
+    }
 }
 
 /// The brake resistor chosen for a drive.
@@ -240,7 +260,7 @@ fn missing(context: &Context, data: &BusData) -> Option<&'static str> {
     }
 }
 
-fn power(context: &Context) -> bus::curve::PowerCurve {
+fn power(context: &Context) -> PowerCurve {
     let Context {
         cycle,
         coefficients,
@@ -259,10 +279,6 @@ fn power(context: &Context) -> bus::curve::PowerCurve {
     );
     let share = context.site.drive_stop;
     curve.with_stop(bus::stop(cycle, &coefficients, ratio, motor, share))
-}
-
-fn figures(context: &Context, data: &BusData) -> Option<BusFigures> {
-    Some(data.bus().ok()?.run(&power(context)))
 }
 
 /// Grounds of a rule of amplifier, bus or resistor.
@@ -299,8 +315,9 @@ pub(super) fn grounds(context: &Context, rule: Rule, finding: Finding) -> Ground
 
 /// Regenerated energy, and the brake resistor it would require.
 fn of_bus(context: &Context, finding: Finding) -> Grounds {
-    let DriveBus { data, need, .. } = fed(context);
-    let curve = power(context);
+    let fed = fed(context);
+    let (data, need) = (fed.data, fed.need);
+    let curve = fed.curve(context);
     let [_, back] = curve.energies();
     let rises = finding.value > data.chopper_voltage.unwrap_or(f64::INFINITY);
     let need = need.or_else(|| Need::of(&data, &curve).filter(|_| rises));
@@ -318,6 +335,7 @@ fn of_bus(context: &Context, finding: Finding) -> Grounds {
 
 /// Voltage of the bus over a cycle in the periodic state, \[time (s), voltage (V)\]; empty if data are missing.
 pub(super) fn trace(context: &Context) -> Vec<[f64; 2]> {
-    let bus = fed(context).data.bus();
-    bus.map_or_else(|_| Vec::new(), |bus| bus.trace(&power(context)))
+    let fed = fed(context);
+    let bus = fed.data.bus();
+    bus.map_or_else(|_| Vec::new(), |bus| bus.trace(&fed.curve(context)))
 }

@@ -19,7 +19,6 @@ mod group;
 mod order;
 mod survey;
 
-use group::{DriveWithId, RankBound};
 pub use group::{FIRST, Group};
 pub use order::{Certainty, Order};
 
@@ -154,7 +153,7 @@ impl<'c> Selection<'c> {
         let mut selection = Self::empty(catalogue, motors, cycle, site, rules);
         let screen = selection.screen(catalogue);
         selection.judge(&screen, drives);
-        selection.in_order(&screen)
+        selection.in_order()
     }
 
     /// The same as [`Selection::new`] on all cores: the same drives in the same order.
@@ -172,7 +171,7 @@ impl<'c> Selection<'c> {
             part
         };
         let judged = threads::fold(catalogue.motors.len(), SHARE, empty, judge, Self::join);
-        judged.in_order(&screen)
+        judged.in_order()
     }
 
     /// The first of all drives that fit; `None`: none fits. Drives that would rank after one that fits are not judged.
@@ -199,13 +198,9 @@ impl<'c> Selection<'c> {
             if !first(&Order::from(drive, &Outcome::NOTHING, id)) {
                 continue;
             }
-            let placed = DriveWithId { drive, id };
-            let (found, outcome) = selection.bound(&screen, &placed);
-            if !outcome.fails() && first(&found.bound) {
-                let candidate = selection.in_full(&placed);
-                if !candidate.outcome.fails() && first(&Order::of(&candidate)) {
-                    best = Some(candidate);
-                }
+            let (order, outcome) = selection.bound(&screen, id, drive);
+            if !outcome.fails() && first(&order) {
+                best = Some(selection.in_full(&order));
             }
         }
         best
@@ -243,7 +238,7 @@ impl<'c> Selection<'c> {
 
     fn judge(&mut self, screen: &Screen<'c>, drives: impl Iterator<Item = (DriveId, Drive<'c>)>) {
         drives.for_each(|(id, drive)| {
-            let (unranked, outcome) = self.bound(screen, &DriveWithId { drive, id });
+            let (unranked, outcome) = self.bound(screen, id, drive);
             let group = if outcome.fails() {
                 &mut self.refused
             } else {
@@ -253,12 +248,10 @@ impl<'c> Selection<'c> {
         });
     }
 
-    /// A drive with a lower bound on its rank.
-    fn bound(&self, screen: &Screen<'c>, drive: &DriveWithId<'c>) -> (RankBound<'c>, Outcome) {
-        let DriveWithId { drive, id } = *drive;
+    /// The sort key of a suitable drive; of a refused one a lower bound.
+    fn bound(&self, screen: &Screen<'c>, id: DriveId, drive: Drive<'c>) -> (Order<'c>, Outcome) {
         let outcome = screen.judge(id, drive, &self.motors[id.motor()]);
-        let bound = Order::from(drive, &outcome, id);
-        (RankBound { drive, bound }, outcome)
+        (Order::from(drive, &outcome, id), outcome)
     }
 
     fn join(mut self, other: Self) -> Self {
@@ -267,14 +260,11 @@ impl<'c> Selection<'c> {
         self
     }
 
-    fn in_order(mut self, screen: &Screen<'c>) -> Self {
+    fn in_order(mut self) -> Self {
         let mut groups =
             [&mut self.fit, &mut self.refused].map(|group| std::mem::replace(group, Group::none()));
         for group in &mut groups {
-            group.rank(
-                |drive| self.in_full(drive),
-                |drive| self.bound(screen, drive).0,
-            );
+            group.rank(|drive| self.in_full(drive));
         }
         [self.fit, self.refused] = groups;
         self
@@ -292,13 +282,13 @@ impl<'c> Selection<'c> {
             return group.clone();
         }
         let mut all = group.known().to_vec();
-        all.extend(threads::map(&group.rest, |drive| self.in_full(drive)));
+        all.extend(threads::map(&group.rest, |order| self.in_full(order)));
         threads::sort_by_key(&mut all, Order::of);
         Group::of(all)
     }
 
-    fn in_full(&self, drive: &DriveWithId<'c>) -> Candidate<'c> {
-        let DriveWithId { drive, id } = *drive;
+    fn in_full(&self, order: &Order<'c>) -> Candidate<'c> {
+        let Order { drive, id, .. } = *order;
         let motor = &self.motors[id.motor()];
         Candidate {
             drive,
@@ -315,17 +305,19 @@ impl<'c> Selection<'c> {
 
     /// The first suitable drive of each motor, with its rank among all suitable drives: the first `count`.
     pub fn first_of_motors(&self, count: usize) -> Vec<(usize, Candidate<'c>)> {
-        let of = |ranked: &[Candidate<'c>]| {
-            let mut seen = HashSet::new();
-            let first = (1..).zip(ranked.iter().copied());
-            let first = first.filter(|(_, candidate)| seen.insert(candidate.id.motor()));
-            first.take(count).collect::<Vec<_>>()
-        };
-        let known = of(self.fit.known());
-        if known.len() >= count || self.fit.rest.is_empty() {
-            return known;
-        }
-        of(self.completed(&self.fit).known())
+        let known = self.fit.known();
+        let mut rest = self.fit.rest.clone();
+        rest.sort_unstable();
+        let known = known.iter().map(|drive| (drive.id, Ok(*drive)));
+        let all = known.chain(rest.iter().map(|order| (order.id, Err(order))));
+        let mut seen = HashSet::new();
+        let first = (1..).zip(all).filter(|(_, (id, _))| seen.insert(id.motor()));
+        let first = first.take(count);
+        let first = first.map(|(rank, (_, drive))| {
+            let drive = drive.unwrap_or_else(|order| self.in_full(order));
+            (rank, drive)
+        });
+        first.collect()
     }
 
     /// The rules that refused drives violate, the most frequent first. As in the ranking, rules that follow time are judged only if all others are
@@ -366,8 +358,8 @@ impl<'c> Selection<'c> {
         [&self.fit, &self.refused].into_iter().find_map(|group| {
             let known = group.known().iter().find(|c| wanted(&c.drive)).copied();
             known.or_else(|| {
-                let found = group.rest.iter().filter(|placed| wanted(&placed.drive));
-                let found = found.map(|placed| self.in_full(placed));
+                let found = group.rest.iter().filter(|order| wanted(&order.drive));
+                let found = found.map(|order| self.in_full(order));
                 found.min_by_key(Order::of)
             })
         })
@@ -380,7 +372,7 @@ impl<'c> Selection<'c> {
         for certainty in Certainty::ALL {
             let class = self.fit.survey().class(certainty);
             let known = self.fit.known().get(rank - 1).copied();
-            let first = known.or_else(|| Some(self.in_full(&class.first?.placed())));
+            let first = known.or_else(|| Some(self.in_full(&class.first?)));
             if let Some(first) = first.filter(|_| class.count > 0) {
                 classes.push(Class {
                     certainty,
@@ -397,7 +389,7 @@ impl<'c> Selection<'c> {
     /// The rules that are not checked for some of the suitable drives.
     pub fn gaps(&self) -> Vec<Gap> {
         let gaps = self.fit.survey().gaps().filter_map(|(rule, gap)| {
-            let example = gap.example?.placed();
+            let example = gap.example?;
             let context = self.context_of(example.drive, &self.motors[example.id.motor()]);
             Some(Gap {
                 rule,

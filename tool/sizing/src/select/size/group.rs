@@ -3,7 +3,7 @@
 use super::Candidate;
 use super::order::Order;
 use super::survey::Survey;
-use crate::catalogue::{Drive, DriveId};
+use crate::catalogue::Drive;
 use crate::judge::Outcome;
 
 /// Number of suitable and of refused drives that are fully evaluated and sorted; see [`Selection`](super::Selection).
@@ -17,42 +17,13 @@ const NEAR: usize = 2 * FIRST;
 pub struct Group<'c> {
     first: Vec<Candidate<'c>>,
     /// Candidates for the first ranks while drives are checked.
-    near: Vec<RankBound<'c>>,
+    near: Vec<Order<'c>>,
     /// Lower bound on the rank of every drive in `rest`; `None` if `rest` is empty.
     limit: Option<Order<'c>>,
-    pub(super) rest: Vec<DriveWithId<'c>>,
+    /// Of suitable drives their keys, of refused ones lower bounds.
+    pub(super) rest: Vec<Order<'c>>,
     /// Counts over all suitable drives; for refused ones nothing is counted.
     survey: Survey<'c>,
-}
-
-/// A drive and its id; small, because this is all that is stored for most drives of a large catalogue.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct DriveWithId<'c> {
-    pub(super) drive: Drive<'c>,
-    pub(super) id: DriveId,
-}
-
-/// A drive that is not fully evaluated, and a lower bound on its rank.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct RankBound<'c> {
-    pub(super) drive: Drive<'c>,
-    pub(super) bound: Order<'c>,
-}
-
-impl<'c> RankBound<'c> {
-    fn of(candidate: &Candidate<'c>) -> Self {
-        Self {
-            drive: candidate.drive,
-            bound: Order::of(candidate),
-        }
-    }
-
-    pub(super) const fn placed(&self) -> DriveWithId<'c> {
-        DriveWithId {
-            drive: self.drive,
-            id: self.bound.id,
-        }
-    }
 }
 
 impl<'c> Group<'c> {
@@ -60,7 +31,7 @@ impl<'c> Group<'c> {
     pub(crate) fn of(all: Vec<Candidate<'c>>) -> Self {
         let mut group = Self::none();
         for candidate in &all {
-            group.count(&RankBound::of(candidate), &candidate.outcome);
+            group.count(&Order::of(candidate), &candidate.outcome);
         }
         group.first = all;
         group
@@ -78,20 +49,20 @@ impl<'c> Group<'c> {
     }
 
     /// Adds a drive that is not fully evaluated, and its outcome as far as known.
-    pub(super) fn add(&mut self, drive: RankBound<'c>, outcome: &Outcome) {
+    pub(super) fn add(&mut self, drive: Order<'c>, outcome: &Outcome) {
         self.count(&drive, outcome);
         self.put(drive);
     }
 
-    fn count(&mut self, drive: &RankBound<'c>, outcome: &Outcome) {
+    fn count(&mut self, drive: &Order<'c>, outcome: &Outcome) {
         if !outcome.fails() {
             self.survey.add(drive, outcome);
         }
     }
 
-    fn put(&mut self, drive: RankBound<'c>) {
-        if self.limit.is_some_and(|limit| drive.bound >= limit) {
-            self.rest.push(drive.placed());
+    fn put(&mut self, drive: Order<'c>) {
+        if self.limit.is_some_and(|limit| drive >= limit) {
+            self.rest.push(drive);
             return;
         }
         self.near.push(drive);
@@ -103,10 +74,9 @@ impl<'c> Group<'c> {
 
     /// Keeps the `count` drives with the lowest bounds near; the others join the rest.
     fn keep_near(&mut self, count: usize) {
-        let (_, next, _) = self.near.select_nth_unstable_by_key(count, |d| d.bound);
-        self.limit = Some(next.bound);
-        let far = self.near.drain(count..).map(|d| d.placed());
-        self.rest.extend(far);
+        let (_, next, _) = self.near.select_nth_unstable(count);
+        self.limit = Some(*next);
+        self.rest.extend(self.near.drain(count..));
     }
 
     /// Joins two unsorted groups.
@@ -119,23 +89,29 @@ impl<'c> Group<'c> {
         self.rest.extend(other.rest);
     }
 
-    /// Sorts the first drives, evaluating fully only those whose bounds allow them to be among the first. The bounds of the rest are recomputed if
-    /// necessary.
-    pub(super) fn rank(
-        &mut self,
-        judge: impl Fn(&DriveWithId<'c>) -> Candidate<'c>,
-        bound: impl Fn(&DriveWithId<'c>) -> RankBound<'c>,
-    ) {
+    /// Sorts the first drives, evaluating fully only those whose bounds allow them to be among the first.
+    pub(super) fn rank(&mut self, judge: impl Fn(&Order<'c>) -> Candidate<'c>) {
         loop {
-            let near = self.near.drain(..).map(|drive| judge(&drive.placed()));
-            self.first.extend(near);
-            self.first.sort_unstable_by_key(Order::of);
+            self.near.sort_unstable();
+            let mut judged = 0;
+            while let Some(next) = self.near.get(judged) {
+                let last = self.first.get(FIRST - 1).map(Order::of);
+                if last.is_some_and(|last| last <= *next) {
+                    self.limit = Some(*next);
+                    break;
+                }
+                let share = self.near[judged..].iter().take(FIRST);
+                self.first.extend(share.map(&judge));
+                self.first.sort_unstable_by_key(Order::of);
+                judged += FIRST;
+            }
+            self.rest.extend(self.near.drain(..).skip(judged));
             let last = self.first.get(FIRST - 1).map(Order::of);
             if (self.limit).is_none_or(|limit| last.is_some_and(|last| last <= limit)) {
                 break;
             }
             // The bounds were not close enough: continue with many more drives.
-            self.near = self.rest.drain(..).map(|drive| bound(&drive)).collect();
+            self.near = std::mem::take(&mut self.rest);
             let more = 4 * self.first.len();
             self.limit = None;
             if more < self.near.len() {
@@ -145,11 +121,8 @@ impl<'c> Group<'c> {
         // Beyond the limit, drives that are not evaluated may rank between those that are.
         if let Some(limit) = self.limit {
             let known = self.first.partition_point(|c| Order::of(c) <= limit);
-            self.rest
-                .extend(self.first.drain(known..).map(|c| DriveWithId {
-                    drive: c.drive,
-                    id: c.id,
-                }));
+            let far = self.first.drain(known..).map(|c| Order::of(&c));
+            self.rest.extend(far);
         }
     }
 
@@ -176,7 +149,7 @@ impl<'c> Group<'c> {
     /// All drives; those beyond [`Group::known`] are unordered.
     pub fn drives(&self) -> impl Iterator<Item = Drive<'c>> {
         let first = self.first.iter().map(|c| c.drive);
-        first.chain(self.rest.iter().map(|u| u.drive))
+        first.chain(self.rest.iter().map(|order| order.drive))
     }
 
     /// Counts over the suitable drives.

@@ -75,7 +75,7 @@ pub struct Order<'c> {
     /// For suitable drives.
     warns: bool,
     power: RoundedFigure,
-    drive: Drive<'c>,
+    pub(super) drive: Drive<'c>,
     pub(super) id: DriveId,
 }
 
@@ -122,11 +122,6 @@ impl<'c> Order<'c> {
     pub fn is_as_good_as(&self, other: &Order) -> bool {
         let of = |order: &Order| (order.certainty, order.power, order.warns);
         of(self) <= of(other)
-    }
-
-    /// The drive's id.
-    pub(super) const fn id(&self) -> DriveId {
-        self.id
     }
 
     /// The key of a drive with this outcome. It does not fall when shares of limits or their number grow, so a partial outcome gives a lower bound. A

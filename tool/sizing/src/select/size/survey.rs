@@ -1,7 +1,6 @@
 //! Counts over all suitable drives: by certainty, and by rules that are not checked.
 
-use super::group::RankBound;
-use super::order::Certainty;
+use super::order::{Certainty, Order};
 use crate::judge::Outcome;
 use jred_file::model::rule::Rule;
 
@@ -18,7 +17,7 @@ pub(super) struct Survey<'c> {
 pub(super) struct Class<'c> {
     pub(super) count: usize,
     /// The first in order: the rank of a suitable drive does not depend on the shares of its limits.
-    pub(super) first: Option<RankBound<'c>>,
+    pub(super) first: Option<Order<'c>>,
 }
 
 /// Drives for which a rule is not checked.
@@ -26,7 +25,7 @@ pub(super) struct Class<'c> {
 pub(super) struct Gap<'c> {
     pub(super) count: usize,
     /// One of them, independent of the division of the work.
-    pub(super) example: Option<RankBound<'c>>,
+    pub(super) example: Option<Order<'c>>,
 }
 
 impl<'c> Survey<'c> {
@@ -46,7 +45,7 @@ impl<'c> Survey<'c> {
     };
 
     /// Adds a suitable drive.
-    pub(super) fn add(&mut self, drive: &RankBound<'c>, outcome: &Outcome) {
+    pub(super) fn add(&mut self, drive: &Order<'c>, outcome: &Outcome) {
         let class = &mut self.classes[Certainty::of(&drive.drive, outcome) as usize];
         class.count += 1;
         class.offer(drive);
@@ -87,8 +86,8 @@ impl<'c> Survey<'c> {
 }
 
 impl<'c> Class<'c> {
-    fn offer(&mut self, drive: &RankBound<'c>) {
-        if (self.first.as_ref()).is_none_or(|first| drive.bound < first.bound) {
+    fn offer(&mut self, drive: &Order<'c>) {
+        if (self.first.as_ref()).is_none_or(|first| drive < first) {
             self.first = Some(*drive);
         }
     }
@@ -96,11 +95,11 @@ impl<'c> Class<'c> {
 
 impl<'c> Gap<'c> {
     /// The example is the first in the catalogue, regardless of how the work is divided.
-    fn add(&mut self, drive: &RankBound<'c>) {
+    fn add(&mut self, drive: &Order<'c>) {
         self.count += 1;
         if self
             .example
-            .is_none_or(|first| drive.bound.id() < first.bound.id())
+            .is_none_or(|first| drive.id < first.id)
         {
             self.example = Some(*drive);
         }
