@@ -26,7 +26,7 @@ export class Core {
   /** The worker has answered once; the first time it also loads and compiles. */
   private warm = false;
 
-  constructor(private readonly start: () => Worker) {}
+  constructor(private readonly start: (name: string) => Worker) {}
 
   /** The answer, or undefined if a newer request of the lane took its place. */
   ask<D extends Request['do']>(request: Extract<Request, { do: D }>, lane: string = request.do): Promise<Answer<D> | undefined> {
@@ -73,11 +73,18 @@ export class Core {
   }
 
   private begin(): Worker {
-    const worker = this.start();
+    const name = `worker ${Math.random()}`;
+    const worker = this.start(name);
     worker.addEventListener('message', (event: MessageEvent<{ id: number; answer: Answer<Request['do']> }>) => {
       if (worker !== this.worker || event.data.id !== this.number) return;
       const job = this.running;
       this.running = undefined;
+      if (!this.warm) {
+        // The worker holds this lock as long as it lives.
+        void navigator.locks?.request(name, () => {
+          if (worker === this.worker) this.fail('the worker has ended');
+        });
+      }
       this.warm = true;
       clearTimeout(this.timer);
       job?.settle(event.data.answer);

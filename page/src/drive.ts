@@ -53,11 +53,12 @@ export class DrivePanel {
     else this.drive(answer.refused[0], this.texts.noneFits.replace('{drives}', String(drives)));
   }
 
-  /** The same drive for a text that has just changed; the ranking follows. */
+  /** The first drive for a text that has just changed; the others follow. */
   private judged(answer: SizeAnswer): void {
     const drive = answer.asked ?? answer.fit[0] ?? answer.refused[0];
     this.release.hidden = !this.bench.pinned;
-    this.drive(drive, this.bench.pinned ? this.texts.chosenByYou : this.texts.rankingFollows);
+    const first = answer.counts.fit > 0 ? this.texts.rankingFollows : this.texts.noneFits.replace('{drives}', String(answer.counts.drives));
+    this.drive(drive, this.bench.pinned ? this.texts.chosenByYou : first);
   }
 
   private drive(drive: SizedDrive | undefined, words: string): void {

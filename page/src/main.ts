@@ -19,7 +19,7 @@ async function start(): Promise<void> {
     app.replaceChildren(h('main', {}, h('p', { class: 'plain' }, texts.noWasm)));
     return;
   }
-  const worker = (): Worker => new Worker(new URL('worker.js', document.baseURI), { type: 'module' });
+  const worker = (name: string): Worker => new Worker(new URL('worker.js', document.baseURI), { type: 'module', name });
   const live = new Core(worker);
   const slow = new Core(worker);
   let machines: GalleryMachine[];

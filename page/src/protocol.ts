@@ -22,8 +22,8 @@ export type Request =
   | ({ do: 'curves'; positions?: number; over?: 'angle' | 'time' } & Source)
   /** The machine drawn: an SVG, and a track to move its groups by. */
   | ({ do: 'drawing' } & Source)
-  /** `jred size`. With a `drive` ("MOTOR+GEARBOX") that drive alone is judged, which takes a few milliseconds: for sliders. */
-  | ({ do: 'size'; drive?: string; explain?: boolean; top?: number } & Source)
+  /** `jred size`. With a `drive` ("MOTOR+GEARBOX") that drive alone is judged, with `best` that which ranks first: for sliders. */
+  | ({ do: 'size'; drive?: string; best?: boolean; explain?: boolean; top?: number } & Source)
   /** The duty of a drive in the torque-speed plane, its limits, and its course over the cycle; without `drive` of the first that fits. */
   | ({ do: 'charts'; drive?: string } & Source)
   /** `jred fastest`; without `drive` of the first that fits. */

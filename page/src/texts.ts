@@ -45,7 +45,7 @@ export const en = {
   sizing: 'Sizing …',
   fitting: '{fit} of {drives} drives satisfy every rule; this is the first.',
   noneFits: 'None of {drives} drives satisfies every rule; this is the closest. See "What may change".',
-  rankingFollows: 'This drive with the new values; the ranking follows when they rest.',
+  rankingFollows: 'Ranks first with the new values; the other drives follow when they rest.',
   chosenByYou: 'Chosen by you.',
   backToBest: 'Back to the first of the ranking',
   direct: 'direct drive',

@@ -1,7 +1,7 @@
 /**
  * The machine on the bench: its source, its history, and what the core says about it. Views listen to the parts that they show.
  *
- * After a change the curves, the drawing and the chosen drive follow at once; the whole catalogue is sized when the text has rested.
+ * After a change the curves, the drawing and the drive that ranks first follow at once; all others are ranked when the text has rested.
  */
 import type { Core } from './core';
 import { settled } from './dom';
@@ -25,7 +25,7 @@ export interface Events {
   drawing: Drawing;
   quantities: Quantity[];
   charts: Charts;
-  /** The chosen drive, judged alone for this text. */
+  /** The drive that ranks first, or that the user has chosen, judged alone for this text. */
   judged: SizeAnswer;
   /** The whole catalogue. */
   sized: SizeAnswer;
@@ -147,18 +147,25 @@ export class Workbench {
     const version = this.version;
     const drawing = this.live.ask<'drawing'>({ do: 'drawing', ...source });
     const curves = this.live.ask<'curves'>({ do: 'curves', positions: 360, ...source });
-    const drive = this.drive;
-    const judged = drive === undefined ? undefined : this.live.ask<'size'>({ do: 'size', drive, ...source });
-    const charts = drive === undefined ? undefined : this.live.ask<'charts'>({ do: 'charts', drive, ...source });
+    const choice = this.pinned && this.drive !== undefined ? { drive: this.drive } : { best: true };
+    const judged = this.live.ask<'size'>({ do: 'size', ...choice, ...source });
     const [drawn, curved] = [await drawing, await curves];
     if (drawn && 'answer' in drawn) this.tell('drawing', drawn.answer);
     if (curved && 'answer' in curved) this.tell('curves', curved.answer);
     const failed = [drawn, curved].find((told) => told && 'error' in told);
     if (drawn && curved && version === this.version) this.judge(failed && 'error' in failed ? failed.error : undefined);
     const sized = await judged;
-    if (sized && 'answer' in sized) this.tell('judged', sized.answer);
-    const plotted = await charts;
-    if (plotted && 'answer' in plotted) this.tell('charts', plotted.answer);
+    if (!sized || 'error' in sized) return;
+    this.tell('judged', sized.answer);
+    if (!this.pinned) this.drive = firstOf(sized.answer) ?? this.drive;
+    await this.plot();
+  }
+
+  private async plot(): Promise<void> {
+    const drive = this.drive;
+    if (drive === undefined) return;
+    const charts = await this.live.ask<'charts'>({ do: 'charts', drive, ...this.source });
+    if (charts && 'answer' in charts) this.tell('charts', charts.answer);
   }
 
   private judge(fault: Fault | undefined): void {
@@ -179,15 +186,18 @@ export class Workbench {
       return;
     }
     this.tell('sized', told.answer);
-    const best = told.answer.fit[0] ?? told.answer.refused[0];
-    const drive = this.pinned ? this.drive : best && driveName(best);
+    const drive = this.pinned ? this.drive : firstOf(told.answer);
     if (drive !== undefined && drive !== this.drive) {
       this.drive = drive;
-      const charts = await this.live.ask<'charts'>({ do: 'charts', drive, ...this.source });
-      if (charts && 'answer' in charts) this.tell('charts', charts.answer);
+      await this.plot();
     }
     void this.list();
   }
+}
+
+function firstOf({ fit, refused }: SizeAnswer): string | undefined {
+  const first = fit[0] ?? refused[0];
+  return first && driveName(first);
 }
 
 /** The name by which a drive is asked for. */

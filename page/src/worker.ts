@@ -9,11 +9,20 @@ async function compiled(): Promise<WebAssembly.Module> {
   return WebAssembly.compile(await response.arrayBuffer());
 }
 
+/** A lock with the name of this worker is held as long as it lives: the page notices its end. */
+const held = new Promise<void>((granted) => {
+  if (!navigator.locks) return granted();
+  void navigator.locks.request(self.name, () => {
+    granted();
+    return new Promise(() => undefined);
+  });
+});
 const module = compiled();
 let core: Wasm | undefined;
 
 async function answer(request: Request): Promise<Answer<Request['do']>> {
   try {
+    await held;
     core ??= new Wasm(await module);
     return JSON.parse(core.ask(request)) as Answer<Request['do']>;
   } catch (error) {

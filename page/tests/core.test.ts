@@ -54,6 +54,35 @@ for (const [what, words] of Object.entries(COMMANDS)) {
   });
 }
 
+test('the drive that is found while a slider moves is the first of the ranking', () => {
+  let found = 0;
+  for (const machine of machines) {
+    const told = (best: boolean): Answers['size'] | undefined => (JSON.parse(core.ask({ do: 'size', best, ...machine })) as { answer?: Answers['size'] }).answer;
+    const [best, all] = [told(true), told(false)];
+    if (!all || all.fit.length === 0) continue;
+    found++;
+    assert.deepEqual(best!.fit[0], all.fit[0], machine.name);
+  }
+  assert.ok(found > machines.length / 4);
+});
+
+test('what follows a slider is fast', () => {
+  const press = machines.find(({ name }) => name === 'press.toml')!;
+  const median = (request: Request): number => {
+    const times = Array.from({ length: 9 }, () => {
+      const start = performance.now();
+      core.ask(request);
+      return performance.now() - start;
+    });
+    return times.sort((a, b) => a - b)[4]!;
+  };
+  const curves = median({ do: 'curves', positions: 360, ...press });
+  const best = median({ do: 'size', best: true, ...press });
+  const all = median({ do: 'size', ...press });
+  console.log(`press: curves ${curves.toFixed(1)} ms, first drive ${best.toFixed(1)} ms, whole catalogue ${all.toFixed(1)} ms`);
+  assert.ok(best < all);
+});
+
 test('chromium answers with the same bytes as Node.js', async () => {
   const { page } = await open();
   const requests = machines.flatMap((machine) => (['curves', 'size'] as const).map((what) => ({ do: what, ...machine })));

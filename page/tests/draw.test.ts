@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
 import type { Page } from 'playwright-core';
-import { begin, end, open, sized, text } from './support';
+import { begin, end, holds, open, sized, text } from './support';
 
 before(begin);
 after(end);
@@ -103,7 +103,7 @@ test('a slider-crank is drawn from nothing with the pointer', async () => {
   await page.getByLabel('Force against the motion').press('Enter');
   await page.getByText('The drive turns on and on').waitFor();
   assert.match((await state(page))!, /Dead points:.*block C at/);
-  assert.match(await text(page), /type = "prismatic"[^]*opposing_force = "300 N"/);
+  await holds(page, /mass = "12 kg"[^]*type = "prismatic"[^]*opposing_force = "300 N"/);
   const drive = await sized(page);
   assert.match(drive, /\w/);
 });

@@ -1,4 +1,5 @@
 /** A server of the built page and a browser, for tests. */
+import assert from 'node:assert/strict';
 import { createServer, type Server } from 'node:http';
 import { readFile } from 'node:fs/promises';
 import { extname, join, normalize } from 'node:path';
@@ -71,13 +72,17 @@ export function field(page: Page, label: string): ReturnType<Page['getByRole']> 
   return page.getByRole('spinbutton', { name: label });
 }
 
-/** Types a text over the whole text of the machine file. */
+/** Pastes a text over the whole text of the machine file. */
 export async function write(page: Page, text: string): Promise<void> {
   await page.getByRole('tab', { name: 'Text' }).click();
   await page.locator('.cm-content').waitFor();
   await page.locator('.cm-content').focus();
   await page.keyboard.press('Control+a');
-  await page.keyboard.insertText(text);
+  await page.locator('.cm-content').evaluate((editor, pasted) => {
+    const clipboardData = new DataTransfer();
+    clipboardData.setData('text/plain', pasted);
+    editor.dispatchEvent(new ClipboardEvent('paste', { clipboardData, bubbles: true, cancelable: true }));
+  }, text);
 }
 
 export async function text(page: Page): Promise<string> {
@@ -86,4 +91,10 @@ export async function text(page: Page): Promise<string> {
     [...document.querySelectorAll<HTMLButtonElement>('.exports button')].find((button) => button.textContent === 'Machine file')!.click();
   })]);
   return readFile(await download.path(), 'utf8');
+}
+
+/** Waits until the machine file is what it should be: a drawing becomes a text once the core has answered. */
+export async function holds(page: Page, wanted: RegExp): Promise<void> {
+  for (let k = 0; k < 50 && !wanted.test(await text(page)); k++) await page.waitForTimeout(200);
+  assert.match(await text(page), wanted);
 }

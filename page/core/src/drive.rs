@@ -66,7 +66,19 @@ fn sized<T>(request: &Request, answer: impl FnOnce(Listing, &Catalogue) -> Resul
     let duty = Duty::new(&file, motion, Sampling::default()).map_err(Problem::from)?;
     let cycle = Cycle::new(&duty);
     let warnings = warnings(&file).map_err(Problem::of)?;
-    let mut selection = Selection::new(&catalogue, &motors, &cycle, &file.site, &file.rules);
+    let (site, rules) = (&file.site, &file.rules);
+    let best = if request.field("best") == true {
+        Selection::best(&catalogue, &motors, &cycle, site, rules)
+    } else {
+        None
+    };
+    let mut selection = match best {
+        Some(best) => {
+            let alone = std::iter::once((best.id(), best.drive));
+            Selection::among(alone, &catalogue, &motors, &cycle, site, rules)
+        }
+        None => Selection::new(&catalogue, &motors, &cycle, site, rules),
+    };
     filter.sift(&mut selection);
     let selection = selection;
     let nearest = 3;

@@ -123,8 +123,11 @@ impl Bus {
         let (mut from, mut most) = (0, 0.0);
         for (k, (h, [a, b])) in pieces.iter().enumerate() {
             let area = 0.5 * h * (a + b);
-            drawn += area.max(0.0);
-            back += (-area).max(0.0);
+            if area < 0.0 {
+                back -= area;
+            } else {
+                drawn += area;
+            }
             if drawn - back > most {
                 (from, most) = (k + 1, drawn - back);
             }
@@ -269,7 +272,7 @@ impl<'b> Walk<'b> {
     }
 
     /// One of the [`parts`] of a piece.
-    fn events(&mut self, (mut h, [mut a, mut b]): PowerPiece) {
+    fn events(&mut self, (mut h, [mut a, b]): PowerPiece) {
         if self.bus.regenerative {
             let area = 0.5 * h * (a + b);
             self.figures.supplied += area.max(0.0);
@@ -308,11 +311,11 @@ impl<'b> Walk<'b> {
                 self.pause();
                 self.moves(h, [a, b], self.full)
             };
-            a += (b - a) * (taken / h).min(1.0);
-            h = if taken >= h { 0.0 } else { h - taken };
-            if h <= 0.0 {
-                b = a;
+            if taken >= h {
+                return;
             }
+            a += (b - a) * (taken / h);
+            h -= taken;
         }
     }
 
@@ -396,11 +399,16 @@ impl<'b> Walk<'b> {
     }
 
     fn burn(&mut self, energy: f64, peak: f64) {
-        let energy = energy.max(0.0);
-        self.figures.burnt += energy;
-        self.figures.burnt_peak = self.figures.burnt_peak.max(peak);
-        self.pulse += energy;
-        self.figures.pulse = self.figures.pulse.max(self.pulse);
+        if energy > 0.0 {
+            self.figures.burnt += energy;
+            self.pulse += energy;
+        }
+        if peak > self.figures.burnt_peak {
+            self.figures.burnt_peak = peak;
+        }
+        if self.pulse > self.figures.pulse {
+            self.figures.pulse = self.pulse;
+        }
     }
 
     fn pause(&mut self) {

@@ -311,7 +311,9 @@ impl<'c> Selection<'c> {
         let known = known.iter().map(|drive| (drive.id, Ok(*drive)));
         let all = known.chain(rest.iter().map(|order| (order.id, Err(order))));
         let mut seen = HashSet::new();
-        let first = (1..).zip(all).filter(|(_, (id, _))| seen.insert(id.motor()));
+        let first = (1..)
+            .zip(all)
+            .filter(|(_, (id, _))| seen.insert(id.motor()));
         let first = first.take(count);
         let first = first.map(|(rank, (_, drive))| {
             let drive = drive.unwrap_or_else(|order| self.in_full(order));

@@ -97,10 +97,7 @@ impl<'c> Gap<'c> {
     /// The example is the first in the catalogue, regardless of how the work is divided.
     fn add(&mut self, drive: &Order<'c>) {
         self.count += 1;
-        if self
-            .example
-            .is_none_or(|first| drive.id < first.id)
-        {
+        if self.example.is_none_or(|first| drive.id < first.id) {
             self.example = Some(*drive);
         }
     }
