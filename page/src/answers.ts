@@ -11,7 +11,15 @@ import { driveName, type Workbench } from './workbench';
 interface Remedy {
   lever: string;
   now: number;
-  range: { value: number; rule: string | null }[];
+  /** Not alone sufficient: null. */
+  range: [End, End] | null;
+  best: End | null;
+  best_use: number | null;
+}
+
+interface End {
+  value: number;
+  rule: string | null;
 }
 
 interface Change {
@@ -87,14 +95,17 @@ export class AnswerPanel {
     const explained = answer.explanation as { change?: Change; 'nearest refused'?: Change[] } | undefined;
     const all = [...(explained?.change ? [explained.change] : []), ...(explained?.['nearest refused'] ?? [])];
     const levers: Record<string, string> = { 'gear-ratio': this.texts.leverRatio, 'cycle-time': this.texts.leverTime, 'moving-mass': this.texts.leverMass, 'process-load': this.texts.leverLoad };
-    const end = ({ value, rule }: { value: number; rule: string | null }, lever: Remedy): string =>
+    const end = ({ value, rule }: End, lever: Remedy): string =>
       `${lever.lever === 'gear-ratio' ? shown(value) : `× ${shown(value, 3)}`}${rule ? ` (${rule})` : ''}`;
     return all.map(({ drive, holds, misses, remedies }) => h('div', {},
       h('h3', { lang: 'en' }, drive),
       h('p', {}, holds ? this.texts.holds : `${this.texts.misses} ${misses.map(({ rule, used }) => `${rule} ${shown(100 * used, 4)} %`).join(', ')}`),
       table(holds ? this.texts.mayChange : this.texts.mustChange, [this.texts.lever, this.texts.from, this.texts.to],
-        remedies.filter(({ range }) => range.length === 2).map((remedy) =>
-          [levers[remedy.lever] ?? remedy.lever, end(remedy.range[0]!, remedy), end(remedy.range[1]!, remedy)]))));
+        remedies.map((remedy) => {
+          const at = remedy.best ? `, ${this.texts.atBest} ${end(remedy.best, remedy)} ${shown(100 * (remedy.best_use ?? NaN), 4)} %` : '';
+          const ends = remedy.range ? remedy.range.map((of) => end(of, remedy)) : ['–', this.texts.notAlone + at];
+          return [levers[remedy.lever] ?? remedy.lever, ...ends];
+        }))));
   }
 
   private flywheel(answer: Answers['flywheel']): Node[] {

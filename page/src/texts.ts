@@ -95,6 +95,8 @@ export const en = {
   leverTime: 'cycle time',
   leverMass: 'moving masses',
   leverLoad: 'process loads',
+  notAlone: 'does not suffice alone',
+  atBest: 'at best',
   lever: 'Quantity',
   from: 'From',
   to: 'To',

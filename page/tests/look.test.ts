@@ -116,3 +116,19 @@ for (const [fragment, words] of [['#1.broken', 'damaged'], ['#7.abcd', 'another 
     assert.deepEqual(errors, []);
   });
 }
+
+test('every question is answered', async () => {
+  const { page, errors } = await open();
+  await sized(page);
+  for (const [tab, button, words] of [
+    ['What may change', 'Find out what may change', /process load/i], ['Motions', 'Find the fastest motion', /Cycle time/], ['Motions', 'Find the gentlest motion', /RMS/],
+    ['Flywheel', 'Find the flywheel', /\w/],
+  ] as const) {
+    await page.getByRole('tab', { name: tab }).click();
+    const asked = page.locator('.asked').filter({ has: page.getByRole('button', { name: button }) });
+    await asked.getByRole('button', { name: button }).click();
+    await asked.locator('.result > *').first().waitFor({ timeout: 60_000 });
+    assert.match(await asked.locator('.result').innerText(), words);
+  }
+  assert.deepEqual(errors, []);
+});

@@ -262,7 +262,7 @@ fn what_is_known_is_watched_beside_what_is_unknown() {
         let mut monitor = Monitor::<f32, 512>::new(WATCH, payload, &model).unwrap();
         let mut turn = |carried: f32, friction: f32, cycle: u32| {
             // The places of a cycle are between those of the one before.
-            let place = |k: u32, of: u32| ((32 * k + cycle % 32) << 16) / (32 * of) << 15;
+            let place = |k: u32, of: u32| (((32 * k + cycle % 32) << 16) / (32 * of)) << 15;
             let first = (0..520).map(|k| place(k, 520));
             let ticks = first.chain((0..80).map(|k| (1 << 31) + place(k, 80)));
             let seen = ticks.enumerate().map(|(k, bits)| {
