@@ -197,7 +197,7 @@ export const en = {
   freedoms: 'Degrees of freedom:',
   driveMoves: 'The drive moves between',
   driveTurns: 'The drive turns on and on.',
-  deadPoints: 'Dead points:',
+  deadCentres: 'Dead centres:',
   imported: 'Imported. Check what the other program does not know:',
   privacy: 'Everything is computed in this browser; nothing is sent.',
 };

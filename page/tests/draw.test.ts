@@ -102,7 +102,7 @@ test('a slider-crank is drawn from nothing with the pointer', async () => {
   await page.getByLabel('Force against the motion').fill('300');
   await page.getByLabel('Force against the motion').press('Enter');
   await page.getByText('The drive turns on and on').waitFor();
-  assert.match((await state(page))!, /Dead points:.*block C at/);
+  assert.match((await state(page))!, /Dead centres:.*block C at/);
   await holds(page, /mass = "12 kg"[^]*type = "prismatic"[^]*opposing_force = "300 N"/);
   const drive = await sized(page);
   assert.match(drive, /\w/);

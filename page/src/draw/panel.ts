@@ -161,7 +161,7 @@ export class DrawPanel implements Sheet {
     return [
       this.freedoms(),
       h('p', {}, drawn.range ? `${texts.driveMoves} ${shown(drawn.range[0])} … ${shown(drawn.range[1])} ${unit}` : texts.driveTurns),
-      ...(drawn.dead.length === 0 ? [] : [h('p', {}, texts.deadPoints), h('ul', { lang: 'en' }, ...drawn.dead.map((words) => h('li', {}, words)))]),
+      ...(drawn.dead.length === 0 ? [] : [h('p', {}, texts.deadCentres), h('ul', { lang: 'en' }, ...drawn.dead.map((words) => h('li', {}, words)))]),
     ];
   }
 }
