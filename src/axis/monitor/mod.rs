@@ -40,7 +40,7 @@
 //!
 //! # Cost
 //!
-//! On a Cortex-M4F a tick takes 126 instructions, the end of a cycle 320 (`scripts/test counts`). After the torque's conversion a tick has integers only
+//! On a Cortex-M4F a tick takes 126 instructions, the end of a cycle 400 (`scripts/test counts`). After the torque's conversion a tick has integers only
 //! and no division, in every number type; the end of a cycle has a few divisions and a root in single precision, and the
 //! end of learning one root per bin. Memory: 40 bytes per bin.
 
