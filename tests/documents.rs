@@ -15,7 +15,7 @@ fn documents(folder: &Path, found: &mut Vec<PathBuf>) {
     for entry in fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();
         let name = path.file_name().unwrap().to_string_lossy();
-        if path.is_dir() && !name.starts_with('.') && name != "target" {
+        if path.is_dir() && !name.starts_with('.') && !matches!(&*name, "target" | "node_modules") {
             documents(&path, found);
         } else if name.ends_with(".md") {
             found.push(path);

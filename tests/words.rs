@@ -29,7 +29,7 @@ fn files(folder: &Path, end: &str, found: &mut Vec<PathBuf>) {
     for entry in fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();
         let name = path.file_name().unwrap().to_string_lossy();
-        if name.starts_with('.') || name == "target" || name == "vendor" {
+        if name.starts_with('.') || matches!(&*name, "target" | "vendor" | "node_modules") {
             continue;
         }
         if path.is_dir() {
