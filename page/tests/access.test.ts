@@ -56,7 +56,7 @@ test('every plot has its numbers as a table', async () => {
   await sized(page);
   for (const plot of await page.locator('figure.plot:visible').all()) {
     await plot.getByText('As a table').click();
-    assert.ok((await plot.locator('tbody tr').count()) > 10);
+    await plot.locator('tbody tr').nth(10).waitFor();
   }
 });
 

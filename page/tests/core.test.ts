@@ -2,6 +2,7 @@
 import assert from 'node:assert/strict';
 import { spawnSync } from 'node:child_process';
 import { readdir, readFile } from 'node:fs/promises';
+import { resolve } from 'node:path';
 import { after, before, test } from 'node:test';
 import { isDeepStrictEqual } from 'node:util';
 import { gzipSync } from 'node:zlib';
@@ -12,7 +13,7 @@ import { Panic, Wasm } from '../src/wasm';
 import { begin, end, open } from './support';
 
 const DIST = process.env['JRED_PAGE'] ?? 'dist';
-const COMMAND = process.env['JRED_COMMAND'] ?? '../target/debug/jred';
+const COMMAND = resolve(process.env['JRED_COMMAND'] ?? '../target/debug/jred');
 /** Most of everything, gzipped (kB). The aim is 800: reading any machine file, sizing, motions, tables and reports still take 1,450 of it. */
 const CEILING = 1700;
 
