@@ -2,25 +2,14 @@
 
 use std::collections::BTreeSet;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
+
+use super::words::files;
 
 /// The repository; `None` in the published package, which has no documents.
 fn repository() -> Option<&'static Path> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     root.join("docs").is_dir().then_some(root)
-}
-
-/// All files `*.md` in the folder and below it, without hidden ones and compiler output.
-fn documents(folder: &Path, found: &mut Vec<PathBuf>) {
-    for entry in fs::read_dir(folder).unwrap() {
-        let path = entry.unwrap().path();
-        let name = path.file_name().unwrap().to_string_lossy();
-        if path.is_dir() && !name.starts_with('.') && !matches!(&*name, "target" | "node_modules") {
-            documents(&path, found);
-        } else if name.ends_with(".md") {
-            found.push(path);
-        }
-    }
 }
 
 /// The text without its blocks of code.
@@ -60,7 +49,7 @@ fn anchors(text: &str) -> BTreeSet<String> {
 fn links_lead_somewhere() {
     let Some(root) = repository() else { return };
     let mut all = Vec::new();
-    documents(root, &mut all);
+    files(root, ".md", &mut all);
     let mut broken = Vec::new();
     for document in &all {
         let text = fs::read_to_string(document).unwrap();
@@ -103,7 +92,7 @@ fn paths_exist() {
     ];
     let Some(root) = repository() else { return };
     let mut all = Vec::new();
-    documents(root, &mut all);
+    files(root, ".md", &mut all);
     let mut missing = Vec::new();
     for document in &all {
         let text = prose(&fs::read_to_string(document).unwrap());

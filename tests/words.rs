@@ -25,7 +25,8 @@ const CEILINGS: [(&str, [usize; 3]); 14] = [
 /// A count may be this much below its ceiling; then the ceiling must fall.
 const SLACK: usize = 4;
 
-fn files(folder: &Path, end: &str, found: &mut Vec<PathBuf>) {
+/// All files with this ending in the folder and below it, without hidden ones, compiler output and what others wrote.
+pub(super) fn files(folder: &Path, end: &str, found: &mut Vec<PathBuf>) {
     for entry in fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();
         let name = path.file_name().unwrap().to_string_lossy();

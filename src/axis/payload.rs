@@ -58,7 +58,7 @@ pub struct PayloadEstimate {
 }
 
 impl<N: Number> Payload<N> {
-    /// For torques d and u up to `largest` (N·m) and a memory of `window` ticks, such as those of a cycle.
+    /// For torques d and u up to `largest` (N·m) and a memory of `window` ticks, such as those of a cycle; an odd one is one shorter.
     ///
     /// # Errors
     /// A torque that is not positive and finite; a window outside 64 to 2²⁰ ticks.

@@ -67,11 +67,9 @@ fn sized<T>(request: &Request, answer: impl FnOnce(Listing, &Catalogue) -> Resul
     let cycle = Cycle::new(&duty);
     let warnings = warnings(&file).map_err(Problem::of)?;
     let (site, rules) = (&file.site, &file.rules);
-    let best = if request.field("best") == true {
-        Selection::best(&catalogue, &motors, &cycle, site, rules)
-    } else {
-        None
-    };
+    let best = (request.field("best") == true)
+        .then(|| Selection::best(&catalogue, &motors, &cycle, site, rules))
+        .flatten();
     let mut selection = match best {
         Some(best) => {
             let alone = std::iter::once((best.id(), best.drive));

@@ -123,10 +123,10 @@ impl Bus {
         let (mut from, mut most) = (0, 0.0);
         for (k, (h, [a, b])) in pieces.iter().enumerate() {
             let area = 0.5 * h * (a + b);
-            if area < 0.0 {
-                back -= area;
-            } else {
+            if area > 0.0 {
                 drawn += area;
+            } else if area < 0.0 {
+                back -= area;
             }
             if drawn - back > most {
                 (from, most) = (k + 1, drawn - back);
