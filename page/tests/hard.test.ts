@@ -1,7 +1,7 @@
 /** What goes wrong in a browser: no network, no storage, no script, a dead worker, huge texts, large letters; and how smooth it is. */
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
-import { begin, end, field, open, sized, text, unplug, url, write } from './support';
+import { begin, end, field, open, serve, sized, text, unplug, url, write } from './support';
 
 before(begin);
 after(end);
@@ -125,5 +125,5 @@ test('the page works without a network', async () => {
   await page.getByRole('tab', { name: 'Text' }).click();
   await page.locator('.cm-content').waitFor();
   await page.context().close();
-  await begin();
+  await serve();
 });

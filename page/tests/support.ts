@@ -15,7 +15,8 @@ let server: Server | undefined;
 let browser: Browser | undefined;
 let address = '';
 
-export async function begin(): Promise<void> {
+/** Starts the server. */
+export async function serve(): Promise<void> {
   server = createServer((request, response) => {
     const path = normalize(decodeURIComponent(new URL(request.url ?? '/', 'http://x').pathname));
     readFile(join(DIST, path.endsWith('/') ? `${path}index.html` : path)).then(
@@ -24,6 +25,10 @@ export async function begin(): Promise<void> {
   });
   await new Promise<void>((ready) => server!.listen(0, 'localhost', ready));
   address = `http://localhost:${(server.address() as { port: number }).port}/`;
+}
+
+export async function begin(): Promise<void> {
+  await serve();
   browser = await chromium.launch({ executablePath: process.env['JRED_BROWSER'] ?? '/usr/bin/chromium', args: ['--no-sandbox'] });
 }
 
