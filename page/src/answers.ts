@@ -1,7 +1,7 @@
 /** What the core says about the machine: rules, other drives, what would have to change, motions, flywheel. */
 import { Asked } from './asked';
 import { checksOf, ruleTable, verdict } from './bars';
-import { h, shown, table } from './dom';
+import { filled, h, shown, table } from './dom';
 import { motionsPanel } from './motions';
 import type { Answers, SizeAnswer, SizedDrive } from './protocol';
 import { Tabs } from './tabs';
@@ -66,7 +66,7 @@ export class AnswerPanel {
     if (!drive) return;
     const open = this.rules.scrollTop;
     this.rules.replaceChildren(
-      h('p', { lang: 'en' }, driveName(drive)),
+      h('p', { lang: 'en', title: driveName(drive) }, this.bench.parts(drive).join(' + ')),
       ruleTable(checksOf(drive), this.texts),
       ...(drive.assumptions.length > 0 ? [h('h3', {}, this.texts.assumptions), h('ul', { lang: 'en' }, ...drive.assumptions.map((words) => h('li', {}, words)))] : []));
     this.rules.scrollTop = open;
@@ -83,7 +83,7 @@ export class AnswerPanel {
     const head = [texts.rank, texts.drive, texts.ratedPower, texts.ratio, texts.verdict, texts.violates, ''];
     const unchecked = (answer['not checked'] as { rule: string; drives: number; missing: string; cure: string }[] | undefined) ?? [];
     this.others.replaceChildren(
-      table(texts.fittingDrives.replace('{fit}', String(answer.counts.fit)).replace('{drives}', String(answer.counts.drives)), head,
+      table(filled(texts.fittingDrives, answer.counts), head,
         answer.fit.map((drive, k) => row(drive, String(drive.rank ?? k + 1)))),
       h('p', { lang: 'en', class: 'note' }, answer.ranking),
       table(texts.refusedDrives, head, answer.refused.map((drive) => row(drive, '–'))),

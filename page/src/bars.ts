@@ -25,9 +25,16 @@ export function used(check: Check): number | undefined {
   return undefined;
 }
 
-/** Those that use most of their limits first; then those that are not checked. */
+/** Violations and warnings first, then those that use most of their limits, then those that are not checked. */
 export function byUse(checks: Check[]): Check[] {
-  return [...checks].sort((a, b) => (used(b) ?? -1) - (used(a) ?? -1));
+  const order = (check: Check): number => ['fail', 'warn'].indexOf(check.verdict) >>> 0;
+  return [...checks].sort((a, b) => order(a) - order(b) || (used(b) ?? -1) - (used(a) ?? -1));
+}
+
+/** The limit is a least value: more is better. */
+function isLeast(check: Check): boolean {
+  const share = used(check);
+  return share !== undefined && share !== 1 && check.value! > check.limit! !== share > 1;
 }
 
 /** A bar that ends at 150 % of the limit, with a stroke at 100 %. */
@@ -62,10 +69,11 @@ export function shortBars(checks: Check[], most: number, texts: Texts): HTMLElem
 
 export function ruleTable(checks: Check[], texts: Texts): HTMLElement {
   const figure = (value: number | null, unit: string): string => (value === null ? '–' : `${shown(value)} ${unit}`);
+  const limit = (check: Check): string => (isLeast(check) ? `${texts.atLeast} ` : '') + figure(check.limit, check.unit);
   return table(texts.rulesOfDrive, [texts.rule, texts.figure, texts.limit, texts.used, texts.verdict, texts.basis], byUse(checks).map((check) => [
     h('span', { lang: 'en' }, check.rule),
     figure(check.value, check.unit),
-    figure(check.limit, check.unit),
+    limit(check),
     h('span', { class: 'use' }, percent(check), bar(check)),
     verdict(check.verdict, texts),
     h('span', { lang: 'en', class: 'note' }, `${check.note}${check.source ? ` (${check.source})` : ''}`),

@@ -67,6 +67,11 @@ export function shown(value: number | null | undefined, digits = 4): string {
   return Math.abs(short) >= 1e6 || (short !== 0 && Math.abs(short) < 1e-4) ? short.toExponential() : String(short);
 }
 
+/** Words with the numbers of their `{keys}`. */
+export function filled(words: string, numbers: Record<string, number>): string {
+  return words.replaceAll(/\{(\w+)\}/g, (whole, key: string) => numbers[key]?.toLocaleString(document.documentElement.lang) ?? whole);
+}
+
 /** A unit for reading: "kg m^2" → "kg m²". */
 export function unitShown(unit: string): string {
   return unit === 'deg' ? '°' : unit.replaceAll('^2', '²').replaceAll('^3', '³');

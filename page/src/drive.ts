@@ -1,17 +1,10 @@
 /** The chosen drive: its name, its duty in the torque-speed plane, and the limits of which it uses most. */
 import { checksOf, shortBars, used } from './bars';
-import { h, shown } from './dom';
+import { filled, h, shown } from './dom';
 import { ofChart, Plot } from './plots';
 import type { Charts, Fault, SizeAnswer, SizedDrive } from './protocol';
 import type { Texts } from './texts';
 import { driveName, type Workbench } from './workbench';
-
-interface Part {
-  part: string;
-  maker: string;
-  order: string;
-  key: string;
-}
 
 export class DrivePanel {
   readonly element: HTMLElement;
@@ -19,8 +12,6 @@ export class DrivePanel {
   private readonly state = h('p', { class: 'state', role: 'status' });
   private readonly bars = h('div', {});
   private readonly plane: Plot;
-  /** Orders of parts by their keys, from all answers so far. */
-  private readonly orders = new Map<string, string>();
   private readonly release: HTMLButtonElement;
   private readonly brief: (words: string) => void;
 
@@ -44,20 +35,18 @@ export class DrivePanel {
   }
 
   private sized(answer: SizeAnswer): void {
-    for (const part of (answer['bill of materials'] as Part[] | undefined) ?? []) this.orders.set(part.key, `${part.maker} ${part.order}`);
-    const { fit, drives } = answer.counts;
     const best = answer.fit[0];
     this.release.hidden = !this.bench.pinned;
     if (this.bench.pinned) return;
-    if (best) this.drive(best, this.texts.fitting.replace('{fit}', String(fit)).replace('{drives}', String(drives)));
-    else this.drive(answer.refused[0], this.texts.noneFits.replace('{drives}', String(drives)));
+    if (best) this.drive(best, filled(this.texts.fitting, answer.counts));
+    else this.drive(answer.refused[0], filled(this.texts.noneFits, answer.counts));
   }
 
   /** The first drive for a text that has just changed; the others follow. */
   private judged(answer: SizeAnswer): void {
     const drive = answer.asked ?? answer.fit[0] ?? answer.refused[0];
     this.release.hidden = !this.bench.pinned;
-    const first = answer.counts.fit > 0 ? this.texts.rankingFollows : this.texts.noneFits.replace('{drives}', String(answer.counts.drives));
+    const first = answer.counts.fit > 0 ? this.texts.rankingFollows : filled(this.texts.noneFits, answer.counts);
     this.drive(drive, this.bench.pinned ? this.texts.chosenByYou : first);
   }
 
@@ -70,11 +59,11 @@ export class DrivePanel {
       return;
     }
     const checks = checksOf(drive);
-    const parts = [drive.motor, drive.gearbox, drive.amplifier].filter((key): key is string => key !== null);
-    const named = parts.map((key) => this.orders.get(key) ?? key);
+    const named = this.bench.parts(drive);
     const ratio = drive.gearbox === null ? this.texts.direct : `i\u00a0=\u00a0${shown(drive.ratio)}`;
     this.name.replaceChildren(h('strong', { lang: 'en', title: driveName(drive) }, named.join(' + ')), `, ${ratio}, ${shown(drive['rated power [W]'], 3)}\u00a0W`);
-    this.say(words);
+    const count = (verdict: string): number => checks.filter((check) => check.verdict === verdict).length;
+    this.say(`${words} ${filled(this.texts.notPassed, { warn: count('warn'), unchecked: count('not-checked') })}`);
     this.bars.replaceChildren(shortBars(checks, 8, this.texts));
     const closest = checks.reduce<typeof checks[number] | undefined>((most, check) => ((used(check) ?? 0) > (most ? used(most)! : 0) && check.verdict !== 'warn' ? check : most), undefined);
     this.brief(`${named.slice(0, 2).join(' + ')}${closest ? ` · ${closest.rule} ${shown(100 * used(closest)!, 3)} %` : ''}`);

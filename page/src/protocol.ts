@@ -122,6 +122,7 @@ export interface SizeAnswer {
   refused: SizedDrive[];
   asked?: SizedDrive;
   explanation?: Record<string, unknown>;
+  'bill of materials'?: { key: string; maker: string; order: string }[];
   [key: string]: unknown;
 }
 

@@ -42,7 +42,7 @@ export class Sliders {
     for (const quantity of quantities) {
       // "mechanism.crank.com.1" is "com 1" of "mechanism › crank".
       const [, name = '', own = quantity.key] = /^(?:(.*)\.)?([^.]*[^.\d][^.]*(?:\.\d+)*)$/.exec(quantity.key) ?? [];
-      const row = this.row(quantity, own.replaceAll('.', ' '));
+      const row = this.row(quantity, pairEnd(own, quantity.help).replaceAll('.', ' '));
       this.rows.set(quantity.key, row);
       groups.set(name, [...(groups.get(name) ?? []), row]);
     }
@@ -141,6 +141,12 @@ function range({ number, unit, min, max }: Quantity): [number, number] {
   if (number === 0) return unit === 'deg' ? [-180, 180] : [-10, 10];
   if (unit === '%' && number > 0) return [0, Math.max(100, number)];
   return number > 0 ? [0, 2 * number] : [2 * number, 0];
+}
+
+/** "com.1" of a pair `[u, v]` → "com.u" */
+function pairEnd(own: string, help: string): string {
+  const ends = help.includes('[u, v]') ? 'uv' : /\bx and y\b/.test(help) ? 'xy' : '12';
+  return own.replace(/\.([12])$/, (_, k: string) => `.${ends[Number(k) - 1]}`);
 }
 
 /** "motion.segment.1" → "motion › segment 1" */

@@ -6,7 +6,7 @@
 import type { Core } from './core';
 import { settled } from './dom';
 import { History } from './history';
-import type { Answer, Answers, Charts, Columns, Drawing, Fault, Quantity, Request, SizeAnswer, Source } from './protocol';
+import type { Answer, Answers, Charts, Columns, Drawing, Fault, Quantity, Request, SizeAnswer, SizedDrive, Source } from './protocol';
 
 /** Who changed the text; its own view does not follow. */
 export type By = 'slider' | 'text' | 'draw' | 'open' | 'history';
@@ -45,6 +45,8 @@ export class Workbench {
   pinned = false;
   /** The last fault, as the event. */
   fault: Fault | undefined;
+  /** Orders of parts by their keys, from all answers so far. */
+  private readonly orders = new Map<string, string>();
   private listeners: { [E in keyof Events]?: Listener<E>[] } = {};
   private rest = settled(REST, () => void this.settle());
   private version = 0;
@@ -120,6 +122,11 @@ export class Workbench {
     return this.slow.ask<D>({ ...this.source, ...request } as unknown as Extract<Request, { do: D }>);
   }
 
+  /** Motor, gearbox and amplifier as they are ordered, or by their keys where no answer has said it. */
+  parts({ motor, gearbox, amplifier }: SizedDrive): string[] {
+    return [motor, gearbox, amplifier].filter((key) => key !== null).map((key) => this.orders.get(key) ?? key);
+  }
+
   cancel(lane: string): void {
     this.slow.cancel(lane);
   }
@@ -185,6 +192,7 @@ export class Workbench {
       this.tell('unsized', told.error);
       return;
     }
+    for (const { key, maker, order } of told.answer['bill of materials'] ?? []) this.orders.set(key, `${maker} ${order}`);
     this.tell('sized', told.answer);
     const drive = this.pinned ? this.drive : firstOf(told.answer);
     if (drive !== undefined && drive !== this.drive) {

@@ -34,7 +34,7 @@ test('a slider changes text, curves and drive, and can be undone', async () => {
   await mass.press('Enter');
   await page.waitForFunction(() => document.querySelector('.drive .state')!.textContent!.includes('drives satisf'), undefined, { timeout: 30_000 });
   const after = await text(page);
-  assert.ok(after.replace('"200.0 kg"', '"42 kg"') === before, 'only the mass has changed');
+  assert.ok(after.replace('"200 kg"', '"42 kg"') === before, 'only the mass has changed');
   await page.getByRole('button', { name: 'Undo' }).click();
   assert.ok((await text(page)) === before);
   await page.getByRole('button', { name: 'Redo' }).click();

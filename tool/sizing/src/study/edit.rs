@@ -73,14 +73,16 @@ impl Quantity {
 
     /// `number` in `unit`, as written in place of the quantity.
     fn text(&self, number: f64, unit: &str) -> String {
+        let float = format!("{number:?}");
+        let short = float.strip_suffix(".0").unwrap_or(&float);
         match self.written {
-            Notation::Text => format!("\"{}\"", format!("{number:?} {unit}").trim_end()),
-            _ if !unit.is_empty() => format!("\"{number:?} {unit}\""),
+            Notation::Text => format!("\"{}\"", format!("{short} {unit}").trim_end()),
+            _ if !unit.is_empty() => format!("\"{short} {unit}\""),
             // Whole numbers stay whole, so that counts may be varied.
             Notation::Whole if number.fract() == 0.0 && number.abs() < 1e15 => {
                 format!("{number:.0}")
             }
-            _ => format!("{number:?}"),
+            _ => float,
         }
     }
 }

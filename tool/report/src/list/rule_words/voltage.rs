@@ -50,12 +50,12 @@ fn largest(part: &str, basis: Basis) -> String {
     match basis {
         Basis::Stated => format!("largest bus voltage of the {part}"),
         Basis::Mains([stated, highest]) => format!(
-            "largest bus voltage of the {part}, made for {} V mains (class up to {} V, + 10 %)",
+            "largest bus voltage of the {part} without braking, made for {} V mains (class up to {} V, + 10 %)",
             short(stated),
             short(highest)
         ),
         Basis::Figures(bus, Some(highest)) => format!(
-            "largest bus voltage of the {part}, whose data are for {} V (mains up to {} V, + 10 %)",
+            "largest bus voltage of the {part} without braking, whose data are for {} V (mains up to {} V, + 10 %)",
             short(bus),
             short(highest)
         ),
