@@ -32,7 +32,7 @@ use matrix::DIAGONALS;
 use solution::Unfit;
 
 pub use fault::{Fault, Obstacle};
-pub use place::{OTHER, against_design, judge_scale, shift};
+pub use place::{OTHER, Reading, against_design, judge_reading, shift};
 pub use record::{RecordFault, Repair, samples};
 pub use result::{Cogging, CurvePoint, Estimate, Excitation, Identified};
 pub use shaft::{Shaft, of_motor, referred, without_drive};
@@ -82,6 +82,8 @@ pub struct Options {
     pub cogging: Vec<u32>,
     /// The delay of the logged torque (s), if known.
     pub delay: Option<f64>,
+    /// Coulomb friction of the design (N·m) at equal steps of a turn from φ = 0 on; empty if it is not known.
+    pub friction: Vec<f64>,
     /// Smallest step of the position (rad).
     pub encoder_step: Option<f64>,
 }
@@ -148,6 +150,7 @@ fn basis_of(samples: &Samples, options: &Options) -> Result<Basis, Obstacle> {
         harmonics: FEWEST,
         mean: false,
         friction: 0,
+        shape: Vec::new(),
         cogging: Vec::new(),
         least: 0,
     };
@@ -162,9 +165,22 @@ fn basis_of(samples: &Samples, options: &Options) -> Result<Basis, Obstacle> {
         harmonics: HARMONICS,
         mean: share > BOTH_WAYS,
         friction: if varied { FRICTION } else { 0 },
+        shape: if varied {
+            shape(&options.friction)
+        } else {
+            Vec::new()
+        },
         cogging,
         least: low.into_iter().max().unwrap_or(0) as usize,
     })
+}
+
+/// A curve without its mean; empty if it is constant.
+fn shape(curve: &[f64]) -> Vec<f64> {
+    let mean = curve.iter().sum::<f64>() / curve.len().max(1) as f64;
+    let shape: Vec<f64> = curve.iter().map(|c| c - mean).collect();
+    let varies = shape.iter().any(|c| c.abs() > 1e-6 * mean.abs());
+    if varies { shape } else { Vec::new() }
 }
 
 /// The fit with as many harmonics as the rows suffice for, and with the delay searched for if it is far from the usual one.

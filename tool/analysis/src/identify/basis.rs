@@ -1,9 +1,12 @@
 //! The unknowns: harmonics of J, of V′ and of friction, and cogging.
 
+use std::f64::consts::TAU;
+
 use jred_file::math;
 
-/// Which unknowns there are, in this order: J's mean, cosines and sines; V′'s cosines and sines; a mean load; b; c's mean, cosines and sines; cogging.
-#[derive(Clone, Debug, PartialEq, Eq)]
+/// Which unknowns there are, in this order: J's mean, cosines and sines; V′'s cosines and sines; a mean load; b; c's mean, the factor of
+/// the design's c, c's cosines and sines; cogging.
+#[derive(Clone, Debug, PartialEq)]
 pub(super) struct Basis {
     /// Highest harmonic of J and of V′.
     pub(super) harmonics: usize,
@@ -11,6 +14,8 @@ pub(super) struct Basis {
     pub(super) mean: bool,
     /// Highest harmonic of c; 0 in one direction, where it is the same as one of V′.
     pub(super) friction: usize,
+    /// The design's c without its mean (N·m) at equal steps of a turn: its corners at dead centres would need many harmonics. Empty: not an unknown.
+    pub(super) shape: Vec<f64>,
     /// Orders of the cogging above the harmonics.
     pub(super) cogging: Vec<u32>,
     /// The highest order of cogging that is a harmonic of V′; 0 without one.
@@ -50,9 +55,14 @@ impl Basis {
         self.viscous() + 1
     }
 
+    /// The first wave of c.
+    pub(super) fn coulomb_waves(&self) -> usize {
+        self.coulomb() + 1 + usize::from(!self.shape.is_empty())
+    }
+
     /// The first of the cogging.
     pub(super) fn cog(&self) -> usize {
-        self.coulomb() + 1 + 2 * self.friction
+        self.coulomb_waves() + 2 * self.friction
     }
 
     pub(super) fn unknowns(&self) -> usize {
@@ -83,7 +93,11 @@ impl Basis {
 
     /// Factors of the unknowns in c.
     pub(super) fn friction_row(&self, phi: f64) -> Vec<f64> {
-        row(self.friction, phi)
+        let mut row = row(self.friction, phi);
+        if !self.shape.is_empty() {
+            row.insert(1, in_turn(&self.shape, phi)[0]);
+        }
+        row
     }
 
     pub(super) fn at(&self, theta: &[f64], waves: &[[f64; 2]], phi: f64) -> AtPosition {
@@ -104,7 +118,10 @@ impl Basis {
             at.inertia_curvature -= order * order * value;
             at.stiffness += order * (v[2 * k - 1] * c - v[2 * k - 2] * s);
         }
-        let c = theta[self.coulomb() + 1..].chunks(2).take(self.friction);
+        if !self.shape.is_empty() {
+            at.friction_slope = theta[self.coulomb() + 1] * in_turn(&self.shape, phi)[1];
+        }
+        let c = theta[self.coulomb_waves()..].chunks(2).take(self.friction);
         for ((k, ab), [cos, sin]) in (1..).zip(c).zip(waves.iter().skip(1)) {
             at.friction_slope += f64::from(k) * (ab[1] * cos - ab[0] * sin);
         }
@@ -118,10 +135,10 @@ impl Basis {
 
     /// The unknowns of this basis that one with fewer harmonics has too.
     pub(super) fn columns_of(&self, fewer: &Self) -> Vec<usize> {
-        let (potential, coulomb) = (self.potential(), self.coulomb());
+        let (potential, waves) = (self.potential(), self.coulomb_waves());
         (0..fewer.inertias())
             .chain(potential..potential + 2 * fewer.harmonics)
-            .chain(self.mean_load()..=coulomb + 2 * fewer.friction)
+            .chain(self.mean_load()..waves + 2 * fewer.friction)
             .chain(self.cog()..self.unknowns())
             .collect()
     }
@@ -142,6 +159,16 @@ impl Basis {
             ..self.clone()
         }
     }
+}
+
+/// Value and slope of a curve that is given at equal steps of a turn, between which it is straight.
+pub(super) fn in_turn(curve: &[f64], phi: f64) -> [f64; 2] {
+    let count = curve.len();
+    let place = phi.rem_euclid(TAU) / TAU * count as f64;
+    let before = (place as usize).min(count.saturating_sub(1));
+    let rise = curve[(before + 1) % count] - curve[before];
+    let value = curve[before] + (place - before as f64) * rise;
+    [value, rise * count as f64 / TAU]
 }
 
 /// 1, and cosine and sine of each harmonic.

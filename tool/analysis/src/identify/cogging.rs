@@ -105,6 +105,7 @@ fn left(fit: &Fit) -> Vec<Candidate> {
         harmonics: 0,
         mean: false,
         friction: 0,
+        shape: Vec::new(),
         cogging: orders.collect(),
         least: 0,
     };

@@ -94,6 +94,13 @@ pub enum Fault {
         /// The factor.
         by: f64,
     },
+    /// The curves are those of the design if the log is of the other shaft.
+    Shaft,
+    /// The curves are those of the design times this factor.
+    Torque {
+        /// The factor.
+        by: f64,
+    },
     /// J is not positive at an angle: what was taken out is more than the log has.
     NotPositive {
         /// The angle of the smallest J (rad).

@@ -59,7 +59,7 @@ impl Fit {
         let most = basis.friction;
         let found = (0..most).find(|&friction| {
             let wide = basis.with_friction((friction + NEXT).min(most));
-            let tested: Vec<usize> = (wide.coulomb() + 1 + 2 * friction..wide.cog()).collect();
+            let tested: Vec<usize> = (wide.coulomb_waves() + 2 * friction..wide.cog()).collect();
             tests.insignificant(&wide, &tested)
         });
         basis.with_friction(match found {

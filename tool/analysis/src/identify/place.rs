@@ -126,47 +126,90 @@ const SCALES: [f64; 4] = [0.25, 0.5, 2.0, 4.0];
 /// A deviation of J from the design above this share of its maximum is no tolerance.
 pub const OTHER: f64 = 0.5;
 
-/// The mean square by which J and V′ are off the design, at the best shift, as shares of its largest values.
-fn off(found: &Identified, designed: &[[f64; 2]]) -> f64 {
-    let most = designed.iter().fold([1e-150f64; 2], |[a, b], [j, v]| {
-        [a.max(j.abs()), b.max(v.abs())]
-    });
-    let own = found
-        .curves
-        .iter()
-        .map(|p| [p.inertia.value, p.potential_slope.value]);
-    let [own, design]: [Vec<[f64; 2]>; 2] = [own.collect(), designed.to_vec()];
+/// A root mean square deviation of J and V′ below this share of their largest values is that of the same machine.
+const SAME: f64 = 0.2;
+
+/// Torques of this share are those of the design: masses differ as much.
+const ALIKE: std::ops::RangeInclusive<f64> = 0.7..=1.4;
+
+/// Another way to read a log.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Reading {
+    /// With positions times a factor.
+    Scaled(f64),
+    /// As that of the motor instead of the drive link, or the other way round.
+    OtherShaft,
+}
+
+/// The sum of squares by which J and V′ are off the design, at the best shift, as shares of its largest values.
+fn off(own: impl Iterator<Item = [f64; 2]>, designed: &[[f64; 2]]) -> f64 {
+    let own: Vec<[f64; 2]> = own.collect();
+    let size = |of: fn(&[f64; 2]) -> f64| designed.iter().map(of).fold(0.0, f64::max);
+    // Without weight and springs J alone tells.
+    let most = [size(|[j, _]| j.abs()), size(|[_, v]| v.abs())];
+    let most = most.map(|most| if most > 0.0 { most } else { f64::INFINITY });
     let at = |by: usize| -> f64 {
         let shifted = own.iter().cycle().skip(by);
         let square = |(a, b): (&[f64; 2], &[f64; 2])| {
             ((a[0] - b[0]) / most[0]).powi(2) + ((a[1] - b[1]) / most[1]).powi(2)
         };
-        shifted.zip(&design).map(square).sum()
+        shifted.zip(designed).map(square).sum()
     };
     (0..own.len()).map(at).fold(f64::INFINITY, f64::min)
 }
 
-/// Replaces the faults of another machine, or of an unexplained torque, by that of wrong counts, if positions of another scale give the design. `scaled`
-/// identifies the machine with positions times a factor.
-pub fn judge_scale(
+fn curves_of(found: &Identified) -> impl Iterator<Item = [f64; 2]> {
+    let each = found.curves.iter();
+    each.map(|p| [p.inertia.value, p.potential_slope.value])
+}
+
+/// Replaces the faults by that of wrong counts, of the wrong shaft or of a wrong torque, if such a log of the design would give these curves. `read`
+/// identifies the machine with the log read in another way.
+pub fn judge_reading(
     found: &mut Identified,
     designed: &[[f64; 2]],
-    scaled: impl Fn(f64) -> Option<Identified>,
+    read: impl Fn(Reading) -> Option<Identified>,
 ) {
-    let most = designed.iter().fold(0.0, |most: f64, [j, _]| most.max(*j));
-    let mut both = found.curves.iter().zip(designed);
-    let other = both.any(|(p, [j, _])| (p.inertia.value - j).abs() > OTHER * most);
-    let noisy = |fault: &Fault| matches!(fault, Fault::Noisy { .. });
-    let reversed = |fault: &Fault| matches!(fault, Fault::Reversed { .. });
-    if !other && !found.faults.iter().any(noisy) || found.faults.iter().any(reversed) {
+    if found
+        .faults
+        .iter()
+        .any(|fault| matches!(fault, Fault::Reversed { .. }))
+    {
         return;
     }
-    let each = SCALES
-        .iter()
-        .filter_map(|&by| Some((by, off(&scaled(by)?, designed))));
-    let best = each.min_by(|a, b| a.1.total_cmp(&b.1));
-    if let Some((by, _)) = best.filter(|best| best.1 < CAUSE * off(found, designed)) {
-        found.faults = vec![Fault::Scale { by }];
+    let here = off(curves_of(found), designed);
+    let both = || curves_of(found).zip(designed);
+    let most = designed.iter().fold(0.0, |most: f64, [j, _]| most.max(*j));
+    let other = both().any(|([j, _], [designed, _])| (j - designed).abs() > OTHER * most);
+    let noisy = |fault: &Fault| matches!(fault, Fault::Noisy { .. });
+    let mut causes = Vec::new();
+    if other || found.faults.iter().any(noisy) {
+        let scales = SCALES.map(Reading::Scaled);
+        let readings = scales.into_iter().chain([Reading::OtherShaft]);
+        causes.extend(readings.filter_map(|reading| {
+            let fault = match reading {
+                Reading::Scaled(by) => Fault::Scale { by },
+                Reading::OtherShaft => Fault::Shaft,
+            };
+            Some((fault, off(curves_of(&read(reading)?), designed)))
+        }));
+    }
+    let squares: f64 = designed.iter().map(|[j, _]| j * j).sum();
+    let by = both().map(|([j, _], [d, _])| j * d).sum::<f64>() / squares;
+    if by > 0.0 && !ALIKE.contains(&by) {
+        let scaled = curves_of(found).map(|[j, v]| [j / by, v / by]);
+        let more = both().map(|([j, _], [d, _])| j - d).sum::<f64>() / designed.len() as f64;
+        // A rotor that was not taken out is a constant more.
+        let constant = off(curves_of(found).map(|[j, v]| [j - more, v]), designed);
+        let scaled = off(scaled, designed);
+        if scaled < CAUSE * constant {
+            causes.push((Fault::Torque { by }, scaled));
+        }
+    }
+    let same = SAME.powi(2) * designed.len() as f64;
+    let best = causes.into_iter().min_by(|a, b| a.1.total_cmp(&b.1));
+    if let Some((fault, _)) = best.filter(|best| best.1 < same.min(CAUSE * here)) {
+        found.faults = vec![fault];
     }
 }
 

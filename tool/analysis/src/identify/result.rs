@@ -6,6 +6,7 @@ use std::f64::consts::TAU;
 use schemars::JsonSchema;
 use serde::Serialize;
 
+use super::basis::in_turn;
 use super::cogging::cogging;
 use super::fault::Fault;
 use super::fit::{DELAY_STEP, Fit, GRID, rest};
@@ -94,6 +95,12 @@ pub struct Identified {
     pub viscous: Estimate,
     /// Coulomb friction, the mean over the angle (N·m).
     pub coulomb: Estimate,
+    /// Factor of the design's Coulomb friction without its mean, which the identified friction has in it; null if that does not depend on the angle, and
+    /// in one direction.
+    pub coulomb_shape: Option<Estimate>,
+    /// The design's Coulomb friction without its mean.
+    #[serde(skip)]
+    pub(super) shape: Vec<f64>,
     /// Coefficients of Coulomb friction that depends on the angle: cosine and sine of each harmonic (N·m).
     pub coulomb_waves: Vec<Estimate>,
     /// Cogging.
@@ -130,7 +137,10 @@ impl Identified {
             let (sin, cos) = math::sin_cos(f64::from(k) * phi);
             c[0].value * cos + c[1].value * sin
         });
-        let coulomb = self.coulomb.value + waves.sum::<f64>();
+        let shape = self
+            .coulomb_shape
+            .map_or(0.0, |factor| factor.value * in_turn(&self.shape, phi)[0]);
+        let coulomb = self.coulomb.value + shape + waves.sum::<f64>();
         let cogging = self.cogging.iter().map(|cog| {
             let (s, c) = math::sin_cos(f64::from(cog.order) * phi);
             cog.cosine.value * c + cog.sine.value * s
@@ -220,7 +230,9 @@ pub(super) fn identified(
         mean_load: basis.mean.then(|| one(basis.mean_load())),
         viscous: one(basis.viscous()),
         coulomb: one(basis.coulomb()),
-        coulomb_waves: (basis.coulomb() + 1..basis.cog()).map(one).collect(),
+        coulomb_shape: (!basis.shape.is_empty()).then(|| one(basis.coulomb() + 1)),
+        shape: basis.shape.clone(),
+        coulomb_waves: (basis.coulomb_waves()..basis.cog()).map(one).collect(),
         cogging: cogging.collect(),
         delay: Estimate {
             value: options.delay.unwrap_or(fit.delay),

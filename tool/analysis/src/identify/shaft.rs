@@ -17,6 +17,16 @@ jred_file::words! {
     }
 }
 
+impl Shaft {
+    /// The other of the two.
+    pub const fn other(self) -> Self {
+        match self {
+            Self::Motor => Self::Link,
+            Self::Link => Self::Motor,
+        }
+    }
+}
+
 /// Half window of the filter of the acceleration (s).
 const WINDOW: f64 = 0.025;
 

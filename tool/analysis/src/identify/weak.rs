@@ -5,7 +5,7 @@
 //! Σ Δt [ẅ_i·G_m(y) − ½·w_i·g_m′(y)·ω²]       J = Σ a_m·g_m,  G_m′ = g_m
 //! ```
 
-use super::basis::Basis;
+use super::basis::{Basis, in_turn};
 use super::matrix::{Band, DIAGONALS, Matrix, dot};
 use jred_file::math;
 
@@ -113,9 +113,12 @@ impl Weak {
             }
             let sign = if *omega == 0.0 { 0.0 } else { omega.signum() };
             of_w[coulomb] = sign;
-            for (m, [c, s]) in waves.iter().enumerate().skip(1).take(basis.friction) {
-                of_w[coulomb + 2 * m - 1] = sign * c;
-                of_w[coulomb + 2 * m] = sign * s;
+            if !basis.shape.is_empty() {
+                of_w[coulomb + 1] = sign * in_turn(&basis.shape, *phi)[0];
+            }
+            let of_c = of_w[basis.coulomb_waves()..].chunks_mut(2);
+            for (into, [c, s]) in of_c.zip(waves.iter().skip(1)).take(basis.friction) {
+                into.copy_from_slice(&[sign * c, sign * s]);
             }
             for (q, at) in basis.cogging.iter().zip(0..) {
                 let (s, c) = math::sin_cos(f64::from(*q) * phi);

@@ -3,8 +3,8 @@
 use std::f64::consts::TAU;
 
 use jred_analysis::identify::{
-    Fault, Obstacle, Options, RecordFault, Repair, Samples, against_design, identify, judge_scale,
-    samples,
+    Fault, Obstacle, Options, Reading, RecordFault, Repair, Samples, against_design, identify,
+    judge_reading, samples,
 };
 
 use super::plant::{Encoder, Plant, STEP, VARIED, errors, four_bar, log, log_of, motion, press};
@@ -326,15 +326,42 @@ fn wrong_counts_are_named() {
     for wrong in [0.25, 2.0] {
         let mut found = scaled(wrong).unwrap();
         against_design(&mut found, &design);
-        judge_scale(&mut found, &design, |by| scaled(wrong * by));
+        judge_reading(&mut found, &design, |reading| match reading {
+            Reading::Scaled(by) => scaled(wrong * by),
+            Reading::OtherShaft => None,
+        });
         let [Fault::Scale { by }] = found.faults[..] else {
             panic!("{wrong}: {:?}", found.faults);
         };
         assert!((by * wrong - 1.0).abs() < 1e-12);
     }
     let mut right = scaled(1.0).unwrap();
-    judge_scale(&mut right, &design, |_| {
+    judge_reading(&mut right, &design, |_| {
         panic!("a good log is not identified again")
     });
     assert_eq!(right.faults, []);
+    // Another machine is none of these, though larger positions make its J smaller; a torque of another scale is one.
+    for (plant, by, torque) in [(press(), 1.0, false), (four_bar(), 0.5, true)] {
+        let mut log = log(&plant, Encoder::Fine, false, 19, 15.0);
+        for torque in &mut log.samples.torque {
+            *torque *= by;
+        }
+        let read = |by: f64| {
+            let mut samples = log.samples.clone();
+            for phi in &mut samples.position {
+                *phi *= by;
+            }
+            identify(&samples, &log.options).ok()
+        };
+        let mut found = read(1.0).unwrap();
+        judge_reading(&mut found, &design, |reading| match reading {
+            Reading::Scaled(by) => read(by),
+            Reading::OtherShaft => None,
+        });
+        match found.faults[..] {
+            [Fault::Torque { by: found }] if torque => assert!((found - by).abs() < 0.02),
+            [] if !torque => {}
+            _ => panic!("{:?}", found.faults),
+        }
+    }
 }

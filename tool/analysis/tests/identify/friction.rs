@@ -2,9 +2,11 @@
 
 use std::f64::consts::TAU;
 
-use jred_analysis::identify::{Identified, identify};
+use jred_analysis::identify::{CurvePoint, Identified, identify};
 
-use super::plant::{Encoder, Plant, errors, four_bar, log_of, press, reversing};
+use super::plant::{
+    Encoder, Log, OTHER, Plant, errors, four_bar, log_of, motion, press, reversing,
+};
 
 fn found(plant: &Plant, seed: u64) -> Identified {
     let log = log_of(plant, Encoder::Fine, false, seed, 40.0, reversing);
@@ -36,6 +38,44 @@ fn friction_over_the_angle_is_found() {
         assert!(outside.count() < 150, "c is outside its band");
         assert!(!found.coulomb_waves.is_empty() && found.mean_load.is_some());
     }
+}
+
+/// A guide's friction follows |x′| and has corners at the dead centres, which eight harmonics round by 7 % of it; the design knows its form, not its size.
+#[test]
+fn friction_with_the_form_of_the_design_is_found_with_its_corners() {
+    let mut plant = press();
+    plant.coulomb_corners = 1.5 * plant.coulomb;
+    let mut log = log_of(&plant, Encoder::Fine, false, 1, 40.0, reversing);
+    let inside = |log: &Log| {
+        let found = identify(&log.samples, &log.options).unwrap();
+        let off = |p: &CurvePoint| (p.coulomb.value - plant.friction(p.phi)).abs();
+        let [inertia, inside, torque] = errors(&plant, &found);
+        assert!(inertia < 0.01 && torque < 0.02, "{inertia} {torque}");
+        let most = found.curves.iter().map(off).fold(0.0, f64::max);
+        let of_c = found.curves.iter().filter(|p| off(p) <= p.coulomb.band);
+        (most, of_c.count(), inside, found)
+    };
+    let (rounded, ..) = inside(&log);
+    assert!(rounded > 0.06 * plant.coulomb_corners, "{rounded}");
+    // Designed with twice the friction.
+    let angles = (0..3600).map(|k| f64::from(k) * TAU / 3600.0);
+    log.options.friction = angles
+        .map(|phi| 1.0 + 3.0 * plant.coulomb * phi.sin().abs())
+        .collect();
+    let (most, of_c, of_j, found) = inside(&log);
+    assert!(most < 0.02 * plant.coulomb_corners, "{most}");
+    assert!(of_c > 200 && of_j > 0.6, "{of_c} {of_j}");
+    let factor = found.coulomb_shape.unwrap();
+    assert!((factor.value - 0.5).abs() < 2.0 * factor.band, "{factor:?}");
+    // In one direction it is a part of V′.
+    let mut one = log_of(&plant, Encoder::Fine, false, 1, 30.0, |t| {
+        motion(t, &OTHER, 1.5 * TAU, 4.0)
+    });
+    one.options.friction.clone_from(&log.options.friction);
+    assert_eq!(
+        identify(&one.samples, &one.options).unwrap().coulomb_shape,
+        None
+    );
 }
 
 #[test]

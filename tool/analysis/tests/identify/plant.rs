@@ -67,6 +67,8 @@ pub(super) struct Plant {
     pub(super) coulomb: f64,
     /// Factor of cos φ in Coulomb friction (N·m).
     pub(super) coulomb_wave: f64,
+    /// Factor of |sin φ|, whose corners are those of a guide at the dead centres (N·m).
+    pub(super) coulomb_corners: f64,
     pub(super) cogging: [f64; 2],
 }
 
@@ -78,6 +80,7 @@ pub(super) fn press() -> Plant {
         viscous: 0.4,
         coulomb: 3.0,
         coulomb_wave: 0.0,
+        coulomb_corners: 0.0,
         cogging: [0.25, 0.2],
     }
 }
@@ -88,6 +91,7 @@ pub(super) fn four_bar() -> Plant {
         viscous: 0.02,
         coulomb: 0.4,
         coulomb_wave: 0.0,
+        coulomb_corners: 0.0,
         cogging: [0.04, 0.03],
     }
 }
@@ -111,7 +115,7 @@ impl Plant {
 
     /// Coulomb friction.
     pub(super) fn friction(&self, phi: f64) -> f64 {
-        self.coulomb + self.coulomb_wave * phi.cos()
+        self.coulomb + self.coulomb_wave * phi.cos() + self.coulomb_corners * phi.sin().abs()
     }
 
     pub(super) fn torque(&self, [phi, omega, alpha]: [f64; 3]) -> f64 {
@@ -242,6 +246,7 @@ pub(super) fn log_of(
         options: Options {
             cogging: vec![COGGING as u32],
             delay: None,
+            friction: Vec::new(),
             encoder_step: Some(step),
         },
     }

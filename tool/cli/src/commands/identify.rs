@@ -12,17 +12,22 @@ use crate::output::{self, Files};
 use jred::Domain;
 use jred::machine::Reducible as _;
 use jred_analysis::checked;
-use jred_analysis::identify::{self, Options, Shaft};
+use jred_analysis::identify::{self, Options, Reading, Shaft};
 use jred_file::model::machine::MachineFile;
 use jred_file::model::variator;
 use jred_file::number::rounding::short;
 use jred_file::plain;
 use jred_file::read::{self, LogLayout};
-use jred_report::list::identify::{Designed, IdentifyView, LogResult, Signs, refusal, unreadable};
+use jred_report::list::identify::{
+    Designed, IdentifyView, LogResult, Signs, refusal, slopes, unreadable,
+};
 use jred_report::page;
 
 /// The longest delay of a logged torque (s).
 const LONGEST_DELAY: f64 = 0.05;
+
+/// Friction has corners at dead centres, which need more positions than the curves.
+const FINER: usize = 10;
 
 /// Runs the command.
 ///
@@ -40,9 +45,11 @@ pub(super) fn run(options: &Identify) -> Result<Completion> {
         ));
     }
     refuse(options)?;
-    let designed = designed(&file).map_err(core_report)?;
+    let fine = designed(&file).map_err(core_report)?;
+    let friction: Vec<f64> = fine.iter().map(|at| at.coulomb).collect();
+    let designed: Vec<Designed> = fine.into_iter().step_by(FINER).collect();
     let each = options.logs.iter();
-    let logs = each.map(|log| one(options, &file, &designed, log));
+    let logs = each.map(|log| one(options, &file, &designed, &friction, log));
     let logs = logs.collect::<Result<Vec<LogResult>>>()?;
     let shown = IdentifyView {
         file: &file,
@@ -81,6 +88,14 @@ fn refuse(options: &Identify) -> Result<()> {
             short(delay * 1e3)
         ));
     }
+    let twice = |k: usize| options.logs[..k].contains(&options.logs[k]);
+    if let Some(k) = (0..options.logs.len()).find(|k| twice(*k)) {
+        return Err(miette!(
+            help = "give each log once: it is no repetition of itself",
+            "{} is given twice",
+            plain::path(&options.logs[k])
+        ));
+    }
     let mut orders = options.cogging.clone();
     orders.sort_unstable();
     let mut neighbours = orders.iter().zip(orders.iter().skip(1));
@@ -99,6 +114,7 @@ fn one(
     options: &Identify,
     file: &MachineFile,
     designed: &[Designed],
+    friction: &[f64],
     path: &PathBuf,
 ) -> Result<LogResult> {
     let layout = LogLayout {
@@ -122,47 +138,54 @@ fn one(
     for position in &mut samples.position {
         *position = sign * (*position - zero);
     }
-    let geared = options.shaft == Shaft::Motor;
-    let ratio = if geared {
-        file.drive_train.ratio()
-    } else {
-        1.0
+    let ratio_of = |shaft| match shaft {
+        Shaft::Motor => file.drive_train.ratio(),
+        Shaft::Link => 1.0,
     };
+    let ratio = ratio_of(options.shaft);
     let counts = options.counts_per_turn.map(f64::from);
     let request = Options {
         cogging: options.cogging.clone(),
         delay: options.delay,
+        friction: friction.to_vec(),
         encoder_step: counts.map(|counts| TAU / counts / ratio.abs()),
     };
-    // With positions times a factor.
-    let found = |scale: f64| {
+    let found = |reading: Reading| {
+        let (scale, shaft) = match reading {
+            Reading::Scaled(scale) => (scale, options.shaft),
+            Reading::OtherShaft => (1.0, options.shaft.other()),
+        };
         let mut samples = samples.clone();
         for position in &mut samples.position {
             *position *= scale;
         }
+        let finer = scale * (ratio / ratio_of(shaft)).abs();
         let request = Options {
-            encoder_step: request.encoder_step.map(|step| scale * step),
+            encoder_step: request.encoder_step.map(|step| finer * step),
             ..request.clone()
         };
-        if geared {
-            let rotor = options.rotor_inertia.unwrap_or_default();
-            identify::of_motor(&samples, file, rotor, &request)
-        } else {
-            identify::identify(&samples, &request)
+        match shaft {
+            Shaft::Motor => {
+                let rotor = options.rotor_inertia.unwrap_or_default();
+                identify::of_motor(&samples, file, rotor, &request)
+            }
+            Shaft::Link => identify::identify(&samples, &request),
         }
     };
-    let scaled = |scale: f64| found(scale).ok();
-    let mut found = found(1.0).map_err(|why| refusal(&name, &why, &repairs))?;
-    let curves = designed.iter().map(|at| [at.inertia, at.potential_slope]);
-    let curves: Vec<[f64; 2]> = curves.collect();
+    let read = |reading| found(reading).ok();
+    let mut found = found(Reading::Scaled(1.0)).map_err(|why| refusal(&name, &why, &repairs))?;
+    let slopes = slopes(designed, found.direction());
+    let curves = designed.iter().zip(slopes);
+    let curves: Vec<[f64; 2]> = curves.map(|(at, slope)| [at.inertia, slope]).collect();
     identify::against_design(&mut found, &curves);
-    identify::judge_scale(&mut found, &curves, scaled);
+    identify::judge_reading(&mut found, &curves, read);
     Ok(LogResult {
         name,
         repairs,
         found,
         cogging: request.cogging,
         counts,
+        shaft: options.shaft,
         encoder_step: request.encoder_step,
         signs: Signs {
             torque: options.reverse_torque,
@@ -173,9 +196,10 @@ fn one(
     })
 }
 
-/// The curves of the design.
+/// The curves of the design, `FINER` times as fine as they are shown.
 fn designed(file: &MachineFile) -> std::result::Result<Vec<Designed>, jred::error::Error> {
-    let positions = (0..360).map(|k| f64::from(k) * TAU / 360.0);
+    let count = 360 * FINER;
+    let positions = (0..count).map(|k| k as f64 * TAU / count as f64);
     let each = positions.map(|phi| {
         let reduction = file.bare_reduction(phi)?;
         Ok(Designed {

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use std::fs;
 
 use super::{COUNTED, example, of_text};
-use crate::support::shipped;
+use crate::support::{jred_of, shipped};
 
 /// An answer to a log of this text, with single spaces.
 fn words(text: &str, options: &str) -> (i32, String) {
@@ -82,4 +82,59 @@ fn a_rotor_that_was_not_taken_out_is_named() {
             && !out.contains("another unit"),
         "{out}"
     );
+}
+
+/// A log of the drive link that is taken for one of the motor; and the log of one direction, whose V′ has friction in it, of the machine of the design.
+#[test]
+fn the_other_shaft_is_named_and_friction_is_no_deviation() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = fs::read_to_string(shipped("press.toml")).unwrap();
+    let file = jred_analysis::checked::read(&shipped("press.toml")).unwrap();
+    let [log, machine] = ["log.csv", "press.toml"].map(|name| folder.path().join(name));
+    fs::write(&machine, text).unwrap();
+    let mut rows = "time [s],position [rad],torque [N m]\n".to_owned();
+    for k in 0..20_000 {
+        let t = f64::from(k) * 1e-3;
+        let o = [2.8, 7.1, 13.2, 18.0];
+        let a = [2.0, 1.2, 0.9, 0.6];
+        let waves = || o.iter().zip(a);
+        let phi = 9.4 * t - waves().map(|(o, a)| a / o * (o * t).cos()).sum::<f64>();
+        let omega = 9.4 + waves().map(|(o, a)| a * (o * t).sin()).sum::<f64>();
+        let alpha = waves().map(|(o, a)| a * o * (o * t).cos()).sum::<f64>();
+        let at = file.bare_reduction(phi).unwrap();
+        let torque = at.inertia * alpha
+            + 0.5 * at.inertia_slope * omega * omega
+            + at.potential_slope
+            + at.viscous * omega
+            + at.coulomb;
+        writeln!(rows, "{t:.3},{phi:.6},{torque:.4}").unwrap();
+    }
+    fs::write(&log, rows).unwrap();
+    let run = |options: &str| {
+        let line = format!("identify {{}} --machine {{}} --delay 0ms {options}");
+        jred_of(&line, [&log, &machine])
+    };
+    let run_of_link = run("--shaft link");
+    assert_eq!(run_of_link.code, 0, "{}", run_of_link.out);
+    let words = run_of_link
+        .out
+        .split("V' against the design")
+        .nth(1)
+        .unwrap();
+    let off = words
+        .split('%')
+        .next()
+        .unwrap()
+        .split_whitespace()
+        .last()
+        .unwrap();
+    assert!(off.parse::<f64>().unwrap() < 4.0, "{off}");
+    let of_motor = run("");
+    assert!(
+        of_motor.out.contains("run again with --shaft link"),
+        "{}",
+        of_motor.out
+    );
+    let twice = jred_of("identify {} {} --machine machines/press.toml", [&log, &log]);
+    assert!(twice.err.contains("is given twice"), "{}", twice.err);
 }

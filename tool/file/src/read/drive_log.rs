@@ -25,7 +25,7 @@ const COLUMNS: [ColumnSpec; 4] = [
 ];
 
 /// A header to suggest.
-const EXAMPLE: &str = "\"time [s],position [deg],torque [N m]\" (or position [counts] with --counts-per-turn, current [A] with --torque-constant)";
+const EXAMPLE: &str = "\"time [s],position [deg],torque [N m]\" (or position [counts] with --counts-per-turn, current [A] with --torque-constant); titles of other names: --columns \"time=TITLE,position=TITLE,torque=TITLE\"";
 
 /// Header of the DaRUS log, without its `%`, and its columns.
 const FOUR_BAR: &str = "Time s, Goal Current mA, Present Current mA, Present Voltage V, Present Position rad, Present Velocity rad/s";
@@ -105,11 +105,9 @@ pub fn drive_log(name: &str, files: impl Files, layout: &LogLayout) -> Result<Dr
             let values = columns.get(index).map(<[f64]>::to_vec);
             values.ok_or_else(|| columns.lacks(message, &plain, EXAMPLE))
         };
-        let is_share = columns
-            .unit(TORQUE_COLUMN)
-            .and_then(columns::share)
-            .is_some();
-        if layout.rated_torque.is_some() && !is_share {
+        let torque_unit = columns.unit(TORQUE_COLUMN);
+        let is_share = torque_unit.and_then(columns::share).is_some();
+        if layout.rated_torque.is_some() && torque_unit.is_some() && !is_share {
             let problem = Problem::new(
                 "--rated-torque is given, but the log has no torque in per mille or % of it",
             );

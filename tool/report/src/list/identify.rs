@@ -13,7 +13,9 @@ use serde::Serialize;
 use crate::answer::Answer;
 use crate::answer::schema::Data;
 use crate::table::reading::Reading;
-use jred_analysis::identify::{CurvePoint, Estimate, Fault, Identified, OTHER, Repair, shift};
+use jred_analysis::identify::{
+    CurvePoint, Estimate, Fault, Identified, OTHER, Repair, Shaft, shift,
+};
 use jred_file::model::machine::MachineFile;
 use jred_file::number::rounding::{percent, short};
 use jred_sizing::cell::Cell;
@@ -41,6 +43,14 @@ pub struct Designed {
     pub coulomb: f64,
 }
 
+/// V′ of the design as a log shows it: in one direction with the part of Coulomb friction that depends on the angle.
+pub fn slopes(designed: &[Designed], direction: Option<f64>) -> Vec<f64> {
+    let mean = designed.iter().map(|at| at.coulomb).sum::<f64>() / designed.len().max(1) as f64;
+    let friction = |at: &Designed| direction.map_or(0.0, |sign| sign * (at.coulomb - mean));
+    let each = designed.iter();
+    each.map(|at| at.potential_slope + friction(at)).collect()
+}
+
 /// The result of one log.
 #[derive(Clone, Debug)]
 pub struct LogResult {
@@ -58,6 +68,8 @@ pub struct LogResult {
     pub encoder_step: Option<f64>,
     /// The signs that were turned.
     pub signs: Signs,
+    /// The shaft that it is taken to be of.
+    pub shaft: Shaft,
     /// Position of the log at φ = 0 (rad), at the shaft of the log.
     pub zero: f64,
     /// Signed ratio of that shaft to the drive link.
@@ -65,13 +77,17 @@ pub struct LogResult {
 }
 
 impl LogResult {
-    /// Whether the log has a fault from which a wrong J follows.
-    fn has_wrong_sign_or_scale(&self) -> bool {
+    /// Whether a sign, a scale or the shaft is wrong, from which wrong curves follow.
+    fn is_misread(&self) -> bool {
         let mut faults = self.found.faults.iter();
         faults.any(|fault| {
             matches!(
                 fault,
-                Fault::Reversed { .. } | Fault::Mirrored | Fault::Scale { .. }
+                Fault::Reversed { .. }
+                    | Fault::Mirrored
+                    | Fault::Scale { .. }
+                    | Fault::Shaft
+                    | Fault::Torque { .. }
             )
         })
     }
@@ -128,7 +144,7 @@ impl IdentifyView<'_> {
     /// Whether a fault spoils a result.
     pub fn has_fault(&self) -> bool {
         let all = self.logs.iter().flat_map(|log| &log.found.faults);
-        let other = self.deviation(&self.curves(), |p| p.inertia.value, |d| d.inertia);
+        let other = self.deviation(&self.curves(), |p| p.inertia.value, &self.inertias());
         other.share.abs() > OTHER
             || all
                 .into_iter()
@@ -195,6 +211,16 @@ impl IdentifyView<'_> {
         (0..count).map(curve).collect()
     }
 
+    /// V′ of the design as these logs show it.
+    pub(crate) fn slopes(&self) -> Vec<f64> {
+        let first = self.logs.first();
+        slopes(&self.designed, first.and_then(|log| log.found.direction()))
+    }
+
+    fn inertias(&self) -> Vec<f64> {
+        self.designed.iter().map(|design| design.inertia).collect()
+    }
+
     /// The largest J of the design (kg·m²).
     fn largest_inertia(&self) -> f64 {
         let each = self.designed.iter().map(|design| design.inertia);
@@ -221,17 +247,13 @@ impl IdentifyView<'_> {
         &self,
         curves: &[CurvePoint],
         found: fn(&CurvePoint) -> f64,
-        designed: fn(&Designed) -> f64,
+        designed: &[f64],
     ) -> Deviation {
-        let most = self
-            .designed
-            .iter()
-            .map(|d| designed(d).abs())
-            .fold(0.0, f64::max);
-        let each = curves.iter().zip(&self.designed).enumerate();
+        let most = designed.iter().fold(0.0f64, |most, d| most.max(d.abs()));
+        let each = curves.iter().zip(designed).enumerate();
         let each = each.map(|(at, (point, design))| Deviation {
             at,
-            share: (found(point) - designed(design)) / most.max(1e-300),
+            share: (found(point) - design) / most.max(1e-300),
         });
         each.max_by(|a, b| a.share.abs().total_cmp(&b.share.abs()))
             .unwrap_or(Deviation { at: 0, share: 0.0 })
@@ -240,8 +262,10 @@ impl IdentifyView<'_> {
     /// The answer.
     pub fn answer(&self) -> Answer<'static> {
         let curves = self.curves();
-        let inertia = self.deviation(&curves, |p| p.inertia.value, |d| d.inertia);
-        let potential = self.deviation(&curves, |p| p.potential_slope.value, |d| d.potential_slope);
+        let misread = self.logs.iter().any(LogResult::is_misread);
+        let inertia = self.deviation(&curves, |p| p.inertia.value, &self.inertias());
+        let slopes = self.slopes();
+        let potential = self.deviation(&curves, |p| p.potential_slope.value, &slopes);
         let data = IdentifyData {
             deviation: inertia.share,
             deviation_at: curves.get(inertia.at).map_or(0.0, |point| point.phi),
@@ -255,7 +279,9 @@ impl IdentifyView<'_> {
             &data,
         );
         answer.fact("J against the design", self.of_inertia(&curves, &inertia));
-        if let Some(more) = self.added(&curves) {
+        if misread {
+            // The fault of the log says why.
+        } else if let Some(more) = self.added(&curves) {
             answer.warning(format!(
                 "J has a constant of {} kg m^2 {} than the design: {}",
                 short(more.abs()),
@@ -266,18 +292,12 @@ impl IdentifyView<'_> {
                     "is --rotor-inertia too large, or the log of the drive link (--shaft link)?"
                 }
             ));
-        } else if inertia.share.abs() > OTHER
-            && !self.logs.iter().any(LogResult::has_wrong_sign_or_scale)
-        {
+        } else if inertia.share.abs() > OTHER {
             answer.warning(
                 "this is not the machine of the design, or the log is of another shaft, in another unit or with another torque constant",
             );
         }
-        if self
-            .designed
-            .iter()
-            .any(|design| design.potential_slope != 0.0)
-        {
+        if slopes.iter().any(|slope| *slope != 0.0) {
             let share = percent(potential.share.abs());
             let side = side(potential.share);
             let text = format!(
@@ -296,7 +316,9 @@ impl IdentifyView<'_> {
         }
         self.friction(&mut answer);
         self.friction_over_the_turn(&curves, &mut answer);
-        self.negative_friction(&curves, &mut answer);
+        if !misread {
+            self.negative_friction(&curves, &mut answer);
+        }
         self.cogging_left_out(&mut answer);
         for log in &self.logs {
             if self.logs.len() > 1 {
@@ -349,8 +371,13 @@ impl IdentifyView<'_> {
     }
 
     fn table(&self, curves: &[CurvePoint]) -> Reading {
-        let rows = curves.iter().zip(&self.designed).step_by(EVERY);
-        let rows = rows.map(|(point, design)| {
+        let slopes = self.slopes();
+        let rows = curves
+            .iter()
+            .zip(&self.designed)
+            .zip(&slopes)
+            .step_by(EVERY);
+        let rows = rows.map(|((point, design), slope)| {
             [
                 point.phi.to_degrees().round(),
                 point.inertia.value,
@@ -358,7 +385,7 @@ impl IdentifyView<'_> {
                 design.inertia,
                 point.potential_slope.value,
                 point.potential_slope.band,
-                design.potential_slope,
+                *slope,
             ]
             .map(Cell::Number)
             .into()

@@ -28,15 +28,10 @@ pub fn identify_page(shown: &IdentifyView) -> String {
         };
         Figure::live(&Chart::new(ChartKind::Course, &axes, &series), caption)
     };
-    let both = || curves.iter().zip(&shown.designed);
-    let inertia = both().map(|(p, d)| [p.inertia.value, p.inertia.band, d.inertia]);
-    let potential = both().map(|(p, d)| {
-        [
-            p.potential_slope.value,
-            p.potential_slope.band,
-            d.potential_slope,
-        ]
-    });
+    let inertia = curves.iter().zip(&shown.designed);
+    let inertia = inertia.map(|(p, d)| [p.inertia.value, p.inertia.band, d.inertia]);
+    let potential = curves.iter().zip(shown.slopes());
+    let potential = potential.map(|(p, d)| [p.potential_slope.value, p.potential_slope.band, d]);
     let sections = vec![Section::new(
         "Designed and identified curves",
         vec![
@@ -48,7 +43,7 @@ pub fn identify_page(shown: &IdentifyView) -> String {
             plot(
                 "V′ [N·m]",
                 potential.collect(),
-                "Slope of the potential energy: weight and springs.",
+                "Slope of the potential energy: weight and springs; in a log of one direction with the part of friction that depends on the angle.",
             ),
         ],
     )];

@@ -211,20 +211,28 @@ fn or_mapped(titles: &[Title], format: &Format, layout: &Layout) -> String {
             None => format!(" [{}]", suggested_unit(known)),
             Some(_) => String::new(),
         };
-        entries.push(format!(
-            "{} = \"{}{unit}\"",
-            known.key(),
-            plain::cut(&title.whole)
-        ));
+        entries.push([known.key().to_owned(), plain::cut(&title.whole) + &unit]);
     }
     if entries.len() < 2 {
         return String::new();
     }
+    let join = |quote: &str, equals: &str, comma: &str| {
+        let each = entries.iter();
+        let each = each.map(|[key, title]| format!("{key}{equals}{quote}{title}{quote}"));
+        each.collect::<Vec<_>>().join(comma)
+    };
+    // A log has no section of a machine file, but options.
+    let place = if layout.section.is_empty() {
+        format!("give --columns \"{}\"", join("", "=", ","))
+    } else {
+        format!(
+            "write into {}: columns = {{ {} }}",
+            layout.section,
+            join("\"", " = ", ", ")
+        )
+    };
     format!(
-        "; or leave the file as it is and write into {}: columns = {{ {} }}, with the units that the file has: its other columns are then \
-         passed over",
-        layout.section,
-        entries.join(", ")
+        "; or leave the file as it is and {place}, with the units that the file has: its other columns are then passed over"
     )
 }
 
@@ -261,6 +269,9 @@ fn own_titles(table: &CsvTable, titles: &[Title], layout: &Layout) -> String {
         Some(_) => String::new(),
         None => format!("skip_rows = {lines} and "),
     };
+    if layout.section.is_empty() {
+        return "give the columns titles of their own in the header".to_owned();
+    }
     format!(
         "give the columns titles of their own, in {}: {above}header = [{}]",
         layout.section,
@@ -285,11 +296,18 @@ pub(super) fn check_first_lines(
         let suggested: Vec<String> = (format.known.iter().take(titles.len()))
             .map(|known| format!("\"{} [{}]\"", known.key(), known.kind.unit))
             .collect();
-        let help = format!(
-            "write the titles of its {} columns into {section}, with the units that the file has: header = [{}]",
-            titles.len(),
-            suggested.join(", ")
-        );
+        let help = if section.is_empty() {
+            format!(
+                "write a first line with the titles of its columns and their units: {}",
+                suggested.join(",").replace('"', "")
+            )
+        } else {
+            format!(
+                "write the titles of its {} columns into {section}, with the units that the file has: header = [{}]",
+                titles.len(),
+                suggested.join(", ")
+            )
+        };
         let message = "the file has no header: its first line has numbers";
         return first(message, "numbers", help);
     }

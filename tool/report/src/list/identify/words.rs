@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use miette::{Report, miette};
 
-use jred_analysis::identify::{Fault, Obstacle, RecordFault, Repair};
+use jred_analysis::identify::{Fault, Obstacle, RecordFault, Repair, Shaft};
 use jred_file::number::rounding::{percent, short};
 
 use super::{LogResult, Signs};
@@ -54,6 +54,9 @@ pub(super) fn of_log(answer: &mut Answer, log: &LogResult) {
     }
     for fault in &found.faults {
         answer.warning(fault_words(fault, log));
+    }
+    if log.is_misread() {
+        return;
     }
     if motion.step > SLOW {
         answer.warning(format!(
@@ -119,7 +122,8 @@ fn repaired(repair: &Repair) -> String {
             row,
             longest,
         } => format!(
-            "samples are missing in {count} places, the first before row {row}, the longest for {} ms; up to 4 ms they are interpolated, others are left out: check the bus or the recorder",
+            "samples are missing in {}, the first before row {row}, the longest for {} ms; up to 4 ms they are interpolated, others are left out: check the bus or the recorder",
+            places(count),
             short(longest * 1e3)
         ),
         Repair::Jitter { by, equal } => format!(
@@ -191,6 +195,23 @@ fn fault_words(fault: &Fault, log: &LogResult) -> String {
                 || "check the unit of the position".to_owned(),
                 |counts| format!("give --counts-per-turn {}", short(counts / by)),
             )
+        ),
+        Fault::Shaft => format!(
+            "the curves are those of the design if the log is of the {}: run again with --shaft {}",
+            if log.shaft == Shaft::Motor {
+                "drive link"
+            } else {
+                "motor"
+            },
+            if log.shaft == Shaft::Motor {
+                "link"
+            } else {
+                "motor"
+            }
+        ),
+        Fault::Torque { by } => format!(
+            "J and V' are {} times those of the design: check --torque-constant, --rated-torque and the unit of the torque",
+            short(by)
         ),
         Fault::NotPositive { at, inertia } => format!(
             "J at {} deg is {} kg m^2, not positive: take less out of the log (--rotor-inertia, the drive train of the machine file, --shaft), or accelerate harder",
@@ -268,6 +289,10 @@ pub fn refusal(name: &str, why: &Obstacle, repairs: &[Repair]) -> Report {
     }
 }
 
+fn places(count: usize) -> String {
+    format!("{count} place{}", if count == 1 { "" } else { "s" })
+}
+
 /// The samples that are left out, and why.
 fn because(repairs: &[Repair]) -> String {
     let words = repairs.iter().filter_map(|repair| match *repair {
@@ -275,7 +300,7 @@ fn because(repairs: &[Repair]) -> String {
             "; {count} samples at the torque limit {} N m are left out",
             short(torque)
         )),
-        Repair::Gaps { count, .. } => Some(format!("; samples are missing in {count} places")),
+        Repair::Gaps { count, .. } => Some(format!("; samples are missing in {}", places(count))),
         _ => None,
     });
     words.collect()
