@@ -53,6 +53,7 @@ export function codeMirror(habits: Habits, text: string): Writing {
     set text(now: string) {
       told = false;
       view.dispatch({ changes: difference(view.state.doc.toString(), now), annotations: Transaction.addToHistory.of(false) });
+      view.scrollDOM.scrollLeft = 0;
       told = true;
     },
     mark(places, message) {

@@ -23,18 +23,21 @@ export class Curves {
 
   show(columns: Columns): void {
     const x = columns.columns[0] ?? '';
-    const pick = (test: (name: string) => boolean): Line[] => columns.columns.flatMap((name, k) => (k > 0 && test(name)
-      ? [{ name: plain(name), style: 'line' as const, points: closed(columns.rows.map((row): [number | null, number | null] => [row[0] ?? null, row[k] ?? null]), x) }]
-      : []));
+    const pick = (test: (name: string) => boolean, of = columns): Line[] => of.columns.flatMap((name, k) => {
+      if (k === 0 || !test(name)) return [];
+      const points = of.rows.map((row): [number | null, number | null] => [row[of.columns.indexOf(x)] ?? null, row[k] ?? null]);
+      return [{ name: plain(name), style: 'line' as const, points: of === columns ? closed(points, x) : points }];
+    });
+    const unitOf = (pattern: RegExp): string => columns.columns.map((name) => pattern.exec(name)?.[1]).find((found) => found) ?? '';
     const inertia = pick((name) => /^(J|m)_red \[/.test(name));
-    const drive = pick((name) => /^[TF]_(drive|input) \[/.test(name));
+    const drive = pick((name) => /^[TF]_(drive|input) \[/.test(name) && name.endsWith(`[${unitOf(/^[TF]_drive \[(.*)\]/)}]`), columns.path);
     // Without a motion there is no torque of the drive yet: the load at rest.
+    // One axis has one unit: that of the drive link.
     const torque = drive.length > 0 ? drive : pick((name) => /^[TF]_(potential|process) \[/.test(name));
     this.inertia.element.hidden = inertia.length === 0;
     this.torque.element.hidden = torque.length === 0;
-    const unit = (pattern: RegExp): string => unitShown(columns.columns.map((name) => pattern.exec(name)?.[1]).find((found) => found) ?? '');
-    this.inertia.show({ title: this.texts.reducedInertia, x: plain(x, true), y: `${/^m_/.test(columns.columns[1] ?? '') ? 'm' : 'J'} [${unit(/^[Jm]_red \[(.*)\]/)}]`, lines: inertia });
-    this.torque.show({ title: this.texts.torqueOverTurn, x: plain(x, true), y: `[${unit(/^[TF]_\w+ \[(.*)\]/)}]`, lines: torque });
+    this.inertia.show({ title: this.texts.reducedInertia, x: plain(x, true), y: `${/^m_/.test(columns.columns[1] ?? '') ? 'm' : 'J'} [${unitShown(unitOf(/^[Jm]_red \[(.*)\]/))}]`, lines: inertia });
+    this.torque.show({ title: this.texts.torqueOverTurn, x: plain(x, true), y: `[${unitShown(unitOf(/^[TF]_\w+ \[(.*)\]/))}]`, lines: torque });
   }
 }
 

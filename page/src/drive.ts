@@ -78,7 +78,7 @@ export class DrivePanel {
 
   private unsized(fault: Fault): void {
     this.name.textContent = this.texts.notSized;
-    this.say(`${fault.message} ${fault.help}`.trim());
+    this.say([fault.message, fault.help].filter(Boolean).join('. '));
     this.bars.replaceChildren();
     this.plane.element.hidden = true;
     this.brief(this.texts.notSized);

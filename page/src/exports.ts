@@ -35,7 +35,7 @@ export function exportsPanel(texts: Texts, bench: Workbench, drawing: () => stri
     h('h3', {}, texts.results),
     h('div', { class: 'row' },
       button(texts.machineFile, () => save(bench.source.name, 'application/toml', bench.source.text)),
-      button(texts.report, () => void ask({ do: 'report' as const, day: day() }, ({ html }) => save(`${bare()}.html`, 'text/html', html))),
+      button(texts.report, () => void ask({ do: 'report' as const, day: day(), ...(bench.pinned && bench.drive ? { drive: bench.drive } : {}) }, ({ html }) => save(`${bare()}.html`, 'text/html', html))),
       button(texts.sizingJson, () => void ask({ do: 'size' as const }, (answer) => save(`${bare()}-size.json`, 'application/json', JSON.stringify(answer, null, 1)))),
       button(texts.drawingSvg, () => {
         const svg = drawing();

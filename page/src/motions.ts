@@ -10,6 +10,7 @@ interface Gentlest {
   motions: { motion: string; rms_torque: number; peak_torque: number; peak_speed: number; work_drawn: number }[];
   nodes: number[][];
   unit: string;
+  rules_not_kept: { rule: string }[];
 }
 
 interface Fastest {
@@ -56,7 +57,7 @@ export function motionsPanel(texts: Texts, bench: Workbench): HTMLElement {
       ];
     });
   const gentlest = new Asked(texts, bench, texts.findGentlest, texts.gentlestIs,
-    () => ({ do: 'gentlest' as const, ...(bench.pinned && bench.drive ? { drive: bench.drive } : {}) }),
+    () => ({ do: 'gentlest' as const, ...(bench.drive ? { drive: bench.drive } : {}) }),
     (answer: Answers['gentlest']) => {
       const found = answer as unknown as Gentlest;
       draw(texts.gentlest, found.nodes.map((node) => [node[0] ?? null, node[2] ?? null]));
@@ -64,7 +65,8 @@ export function motionsPanel(texts: Texts, bench: Workbench): HTMLElement {
       const sorted = [...found.motions].sort((a, b) => a.rms_torque - b.rms_torque);
       const [torque, speed] = found.unit === 'm' ? ['N', 'm/s'] : ['N m', 'rad/s'];
       const head = [texts.motion, `${texts.rmsTorque} [${torque}]`, `${texts.peakTorque} [${torque}]`, `${texts.peakSpeed} [${speed}]`, `${texts.work} [J]`];
-      return [table(texts.motions, head, sorted.map((motion) => [
+      const broken = found.rules_not_kept.map(({ rule }) => rule).join(', ');
+      return [...(broken === '' ? [] : [h('p', {}, `${texts.drive} ${bench.drive}: ${texts.misses} `, h('span', { lang: 'en' }, broken))]), table(texts.motions, head, sorted.map((motion) => [
         h('span', { lang: 'en' }, motion.motion), shown(motion.rms_torque), shown(motion.peak_torque), shown(motion.peak_speed), shown(motion.work_drawn)]))];
     });
   return h('div', {}, plot.element, fastest.element, gentlest.element);

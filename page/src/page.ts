@@ -49,7 +49,7 @@ export class Page {
     this.inputs = new Tabs(texts.input, [
       { id: 'quantities', name: texts.quantities, panel: new Sliders(texts, bench).element },
       { id: 'text', name: texts.text, panel: editor.element, shown: () => void editor.upgrade() },
-      { id: 'draw', name: texts.draw, panel: this.draw.element },
+      { id: 'draw', name: texts.draw, panel: this.draw.element, shown: () => void this.draw.shown() },
     ]);
     const button = (name: string, act: () => void): HTMLButtonElement => h('button', { type: 'button', onclick: act }, name);
     const file = h('input', { type: 'file', class: 'unseen', tabindex: -1, 'aria-hidden': 'true', multiple: true, accept: '.toml,.csv,.linkage2,.txt,.url' });
@@ -115,7 +115,7 @@ export class Page {
     clearTimeout(this.timer);
     this.message.hidden = false;
     this.message.textContent = words;
-    if (!stays) this.timer = self.setTimeout(() => (this.message.hidden = true), 6000);
+    if (!stays) this.timer = self.setTimeout(() => (this.message.hidden = true), 4000);
   }
 
   private skip(event: Event): void {
@@ -133,7 +133,8 @@ export class Page {
     this.stale.hidden = fault === undefined;
     document.querySelector('main')?.classList.toggle('old', fault !== undefined);
     if (!fault) return;
-    const words = fault.panic ? `${this.texts.panicked} ${fault.message}` : `${this.texts.stale} ${fault.message}`;
+    const stale = fault.sheet ? this.texts.staleSheet : this.texts.stale;
+    const words = fault.panic ? `${this.texts.panicked} ${fault.message}` : `${stale} ${fault.message}`;
     if (this.stale.textContent !== words) this.stale.textContent = words;
   }
 

@@ -35,7 +35,7 @@ export type Request =
   /** A file to download: the table of `jred export` in this form. `torqueError` such as "0.5 N m"; `day` is the date of a PLCopen file. */
   | ({ do: 'export'; form: ExportForm; torqueError: string; day?: string } & Source)
   /** The HTML report of `jred size --report`; takes about a second. */
-  | ({ do: 'report'; day: string } & Source)
+  | ({ do: 'report'; day: string; drive?: string } & Source)
   /** Every quantity of the text, for sliders. */
   | ({ do: 'quantities' } & Source)
   /** The text with quantities replaced in place, for example `{ "slider.mass": "43 kg" }`. */
@@ -83,6 +83,8 @@ export interface Fault {
   file?: string | null;
   /** The core panicked and was started anew; `message` is the panic's. */
   panic?: true;
+  /** The sheet holds no machine that moves. */
+  sheet?: true;
 }
 
 /** Named columns: "phi [deg]", "J_red [kg m^2]", …, "T_drive [N m]"; null where there is no value. */
@@ -92,6 +94,8 @@ export interface Columns {
   notes: string[];
   columns: string[];
   rows: (number | null)[][];
+  /** The same over time, if the drive comes to one place with several speeds: its torque is no function of the place. */
+  path?: Columns;
 }
 
 /** See `Animation` in tool/report/src/drawing.rs. */
@@ -216,11 +220,15 @@ export interface Linkage {
   guides: { point: string; angle: number; on?: string; body?: string; mass?: number }[];
   /** The pin (a ground point) that is driven, or the name of the guided point. */
   drive: string;
-  /** Constant speed of the drive (rpm; mm/s if it slides). */
+  /** Constant speed of the drive (rpm; mm/s if it slides); not given: the motion in `rest`. */
   speed?: number;
-  loads: { name: string; on: string; at: string; force?: [number, number]; opposing?: number }[];
+  /** At a point, or with moments (N m) at a body (`at` is empty). */
+  loads: { name: string; on: string; at: string; force?: [number, number]; opposing?: number; moment?: number; opposingMoment?: number }[];
+  /** Tables of the machine file that the sheet does not show, as they are. */
+  rest?: string;
   /** Down: [0, −9.81] (m/s²). */
   gravity?: [number, number];
+  flywheel?: number;
 }
 
 export interface Drawn {
@@ -237,9 +245,12 @@ export interface Drawn {
 export interface Pins {
   title: string;
   gravity: [number, number];
+  /** kg m² at the drive */
+  flywheel: number;
   /** Two bodies, null is the ground; none of a joint that is neither pin nor guide. A guide has an angle, its second body slides. */
   joints: { bodies: (string | null)[]; at: [number, number]; angle?: number }[];
-  links: { name: string; mass: number; inertia: number; com: [number, number]; points: { name: string; at: [number, number] }[] }[];
+  /** `frame`: origin of the link and the end of its axis u. */
+  links: { name: string; mass: number; inertia: number; com: [number, number]; frame: [number, number][]; points: { name: string; at: [number, number] }[] }[];
   /** Index of the driven joint. */
   drive: number;
   /** What the machine has besides. */

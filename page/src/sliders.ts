@@ -9,6 +9,8 @@ interface Row {
   slider: HTMLInputElement;
   field: HTMLInputElement;
   element: HTMLElement;
+  /** A number is being typed. */
+  edited?: boolean;
 }
 
 export class Sliders {
@@ -58,14 +60,16 @@ export class Sliders {
     const element = h('div', { class: 'quantity', title: quantity.help },
       h('label', { for: id, lang: 'en' }, name), slider, field, h('span', { class: 'unit' }, unitShown(quantity.unit)),
       quantity.help && h('span', { class: 'unseen', id: `${id}-help`, lang: 'en' }, quantity.help));
-    const row = { quantity, slider, field, element };
+    const row: Row = { quantity, slider, field, element };
     this.scale(row, quantity);
     slider.addEventListener('input', () => {
       field.value = slider.value;
       this.ask(quantity.key, slider.value);
     });
     slider.addEventListener('change', () => this.ask(quantity.key, slider.value, true));
+    field.addEventListener('input', () => (row.edited = true));
     field.addEventListener('change', () => {
+      row.edited = false;
       const bad = field.value === '' || !field.validity.valid;
       field.setAttribute('aria-invalid', String(bad));
       if (bad) return;
@@ -91,6 +95,8 @@ export class Sliders {
 
   private update(quantity: Quantity): void {
     const row = this.rows.get(quantity.key)!;
+    // Values that are typed, or on their way to the core, stay.
+    if (row.edited || this.asking) return;
     if (row.quantity.number !== quantity.number || Number(row.field.value) !== quantity.number) this.scale(row, quantity);
     row.quantity = quantity;
   }

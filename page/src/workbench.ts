@@ -76,9 +76,17 @@ export class Workbench {
 
   /** The text of a drawing; the steps of one drawing are undone together. */
   replace(name: string, text: string): void {
-    if (text === this.source.text) return;
-    this.history.push({ name, text }, 'drawing');
+    if (text === this.source.text) {
+      if (this.fault?.sheet) this.judge(undefined);
+      return;
+    }
+    this.history.push({ ...this.source, name, text }, 'drawing');
     this.changed('draw');
+  }
+
+  /** The sheet holds no machine that moves. */
+  refuse(message: string): void {
+    this.judge({ message, help: '', places: [], sheet: true });
   }
 
   open(source: Source): void {
@@ -145,8 +153,9 @@ export class Workbench {
   }
 
   private async list(): Promise<void> {
+    const version = this.version;
     const told = await this.live.ask<'quantities'>({ do: 'quantities', ...this.source });
-    if (told && 'answer' in told) this.tell('quantities', told.answer);
+    if (told && 'answer' in told && version === this.version) this.tell('quantities', told.answer);
   }
 
   private async follow(): Promise<void> {
@@ -158,7 +167,7 @@ export class Workbench {
     const judged = this.live.ask<'size'>({ do: 'size', ...choice, ...source });
     const [drawn, curved] = [await drawing, await curves];
     if (drawn && 'answer' in drawn) this.tell('drawing', drawn.answer);
-    if (curved && 'answer' in curved) this.tell('curves', curved.answer);
+    if (curved && 'answer' in curved) this.tell('curves', await this.withPath(curved.answer, source));
     const failed = [drawn, curved].find((told) => told && 'error' in told);
     if (drawn && curved && version === this.version) this.judge(failed && 'error' in failed ? failed.error : undefined);
     const sized = await judged;
@@ -166,6 +175,13 @@ export class Workbench {
     this.tell('judged', sized.answer);
     if (!this.pinned) this.drive = firstOf(sized.answer) ?? this.drive;
     await this.plot();
+  }
+
+  private async withPath(curves: Columns, source: Source): Promise<Columns> {
+    const drive = curves.columns.findIndex((name) => /^[TF]_drive \[/.test(name));
+    if (drive < 0 || curves.rows.some((row) => row[drive] !== null)) return curves;
+    const timed = await this.live.ask<'curves'>({ do: 'curves', positions: 360, over: 'time', ...source }, 'path');
+    return timed && 'answer' in timed ? { ...curves, path: timed.answer } : curves;
   }
 
   private async plot(): Promise<void> {

@@ -65,19 +65,19 @@ test('two degrees of freedom, none, and no drive are explained', async () => {
   await page.locator('[data-point="C"]').focus();
   await page.keyboard.press('Enter');
   await page.getByLabel('fixed to the frame').uncheck();
-  await page.getByText('3 degrees of freedom, not one').waitFor();
+  await page.locator('.drawn').getByText('3 degrees of freedom, not one').waitFor();
   assert.match((await state(page))!, /Degrees of freedom: 3/);
   await page.getByLabel('fixed to the frame').check();
   await page.getByText('The drive turns on and on').waitFor();
   await page.locator('[data-point="B"]').focus();
   await page.keyboard.press('Enter');
   await page.getByLabel('fixed to the frame').check();
-  await page.getByText('-1 degrees of freedom, not one').waitFor();
+  await page.locator('.drawn').getByText('-1 degrees of freedom, not one').waitFor();
   await page.getByLabel('fixed to the frame').uncheck();
   await page.locator('[data-point="O"]').focus();
   await page.keyboard.press('Enter');
   await page.getByLabel('is driven').uncheck();
-  await page.getByText('No joint is driven').waitFor();
+  await page.locator('.drawn').getByText('No joint is driven').waitFor();
 });
 
 test('a slider-crank is drawn from nothing with the pointer', async () => {
@@ -116,7 +116,46 @@ test('the pins of another machine come onto the sheet', async () => {
   await page.getByRole('button', { name: 'Take over the machine file' }).click();
   await page.locator('.sheet-canvas .joint').nth(3).waitFor();
   assert.equal(await page.locator('.sheet-canvas .body').count(), 3);
-  assert.match((await state(page))!, /leaves out: .*motion/);
+  // The sheet shows the machine file as it is changed elsewhere; a change on the sheet keeps load and motion.
+  const motion = /\[motion\][^]*$/.exec(await text(page))![0].trim();
+  await page.getByRole('tab', { name: 'Quantities' }).click();
+  const mass = page.locator('input[type=number][aria-label$="mass [kg]"]').first();
+  await mass.fill('3.25');
+  await mass.press('Enter');
+  await holds(page, /mass = "3.25 kg"/);
+  await sheet(page);
+  for (let k = 0; k < 20 && !(await text(page)).includes('"linkage"'); k++) {
+    await page.locator('.sheet-canvas [data-point="B"]').focus();
+    await page.keyboard.press('ArrowUp');
+    await page.waitForTimeout(300);
+  }
+  await holds(page, /type = "linkage"[^]*flywheel = "0.01 kg m\^2"[^]*mass = "3.25 kg"[^]*name = "weight of the part"/);
+  assert.ok((await text(page)).includes(motion), 'the motion stays');
+});
+
+test('a length is typed, and the other links keep theirs; a moment acts on a link', async () => {
+  const { page } = await open();
+  await sized(page);
+  await sheet(page);
+  await page.getByRole('button', { name: 'New: four-bar' }).click();
+  await page.locator('[data-body="crank"]').focus();
+  await page.keyboard.press('Enter');
+  await page.getByRole('spinbutton', { name: 'Length', exact: true }).fill('80');
+  await page.getByRole('spinbutton', { name: 'Length', exact: true }).press('Enter');
+  await holds(page, /"A" = \["80 mm", "0 mm"\][^]*"B" = \["245.967478 mm", "0 mm"\][^]*"C" = \["171.172428 mm", "0 mm"\]/);
+  await page.locator('[data-body="rocker"]').focus();
+  await page.keyboard.press('Enter');
+  await page.getByLabel('Moment against the motion').fill('15');
+  await page.getByLabel('Moment against the motion').press('Enter');
+  await holds(page, /on = "rocker"\nopposing_moment = "15 N m"/);
+  await sized(page);
+  // No joint is driven: what is shown is the last machine.
+  await page.locator('[data-point="O"]').focus();
+  await page.keyboard.press('Enter');
+  await page.getByLabel('is driven').uncheck();
+  await page.getByText('those of the last one that did').waitFor();
+  await page.getByLabel('is driven').check();
+  await page.getByText('those of the last one that did').waitFor({ state: 'hidden' });
 });
 
 test('a file of Linkage comes onto the sheet, lengths in millimetres', async () => {

@@ -66,12 +66,14 @@ pub(crate) fn linkage(request: &Request) -> Result<String> {
         let points = mechanism.points().iter().filter(|point| point.link == k);
         let points =
             points.map(|p| json!({"name": p.name, "at": frame.point(p.at).map(|c| c.value)}));
+        let axis = [[0.0, 0.0], [1.0, 0.0]].map(|at| frame.point(at).map(|c| c.value));
         json!({
             "name": mechanism.link_names().get(k),
             "mass": link.mass(),
             "inertia": link.inertia(),
             "com": frame.point(link.com()).map(|c| c.value),
             "points": points.collect::<Vec<_>>(),
+            "frame": axis,
         })
     });
     let lost = [
@@ -79,7 +81,6 @@ pub(crate) fn linkage(request: &Request) -> Result<String> {
         ("springs and dampers", file.machine.elements().is_empty()),
         ("the drive train", file.drive_train.stages().is_empty()),
         ("the motion", file.motion.is_none()),
-        ("the flywheel", file.flywheel == 0.0),
     ];
     let lost = lost.iter().filter(|(_, none)| !none).map(|(what, _)| *what);
     let (drawn, links, lost): (Vec<_>, Vec<_>, Vec<_>) =
@@ -87,6 +88,7 @@ pub(crate) fn linkage(request: &Request) -> Result<String> {
     Ok(json!({
         "title": file.title,
         "gravity": file.machine.gravity(),
+        "flywheel": file.flywheel,
         "joints": drawn,
         "links": links,
         "drive": mechanism.drive(),

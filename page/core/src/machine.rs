@@ -132,7 +132,7 @@ pub(crate) fn export(request: &Request) -> Result<String> {
         OutputForm::Json | OutputForm::Cia402 => ("json", about.clone()),
         OutputForm::Image => {
             let bytes = export.image().unwrap_or_default();
-            let name = json!(format!("{stem}.bin"));
+            let name = json!(format!("{stem}.jred"));
             return Ok(format!(
                 "{{\"name\":{name},\"bytes\":{},\"about\":{about}}}",
                 json!(bytes)

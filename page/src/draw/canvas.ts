@@ -61,7 +61,9 @@ export class Canvas {
     const parts: SVGElement[] = [
       s('defs', {}, s('pattern', { id: 'grid', width: grid, height: grid, patternUnits: 'userSpaceOnUse' },
         s('path', { d: `M${grid} 0H0V${grid}`, class: 'grid', 'stroke-width': unit }))),
-      s('rect', { ...view, fill: 'url(#grid)' }),
+      s('rect', { x: view.x - view.width, y: view.y - view.height, width: 3 * view.width, height: 3 * view.height, fill: 'url(#grid)' }),
+      s('path', { class: 'scale', d: `M${view.x + 8 * unit} ${view.y + view.height - 8 * unit}h${grid}`, 'stroke-width': 3 * unit }),
+      s('text', { transform: `translate(${view.x + 8 * unit} ${view.y + view.height - 14 * unit}) scale(${unit})` }, `${grid} mm`),
     ];
     for (const guide of linkage.guides) {
       const at = place(guide.point);

@@ -3,14 +3,14 @@ import { h } from '../dom';
 import type { Linkage } from '../protocol';
 import type { Texts } from '../texts';
 import type { Sheet } from './canvas';
-import { addLink, bodyOf, changeBody, changePoint, setGuide, setLoad, toggleOnLink, type Body, type Point } from './linkage';
+import { addLink, bodyOf, changeBody, changePoint, setGuide, setLength, setLoad, toggleOnLink, type Body, type Point } from './linkage';
 
 let fields = 0;
 
 /** A number field; an empty one is `undefined`. */
-function number(label: string, unit: string, value: number | undefined, set: (value: number | undefined) => void, hint = ''): HTMLElement {
+function number(label: string, unit: string, value: number | undefined, set: (value: number | undefined) => unknown, hint = ''): HTMLElement {
   const id = `draw-${++fields}`;
-  const input = h('input', { type: 'number', step: 'any', id, value: value ?? '', placeholder: hint });
+  const input = h('input', { type: 'number', step: 'any', id, value: value === undefined ? '' : Math.round(value * 1e6) / 1e6, placeholder: hint });
   input.addEventListener('change', () => {
     const bad = !input.validity.valid;
     input.setAttribute('aria-invalid', String(bad));
@@ -44,7 +44,7 @@ function whole(texts: Texts, sheet: Sheet): Node[] {
   return [
     h('h3', {}, texts.wholeLinkage),
     h('div', { class: 'fields' },
-      number(texts.driveSpeed, guided ? 'mm/s' : 'rpm', linkage.speed, (speed) => sheet.change(withOptional(linkage, 'speed', speed), '')),
+      number(texts.driveSpeed, guided ? 'mm/s' : 'rpm', linkage.speed, (speed) => sheet.change(withOptional(linkage, 'speed', speed), ''), linkage.rest === undefined ? '60' : texts.asInFile),
       number(`${texts.gravity} x`, 'm/s²', gx, (x) => sheet.change({ ...linkage, gravity: [x ?? 0, gy] }, '')),
       number(`${texts.gravity} y`, 'm/s²', gy, (y) => sheet.change({ ...linkage, gravity: [gx, y ?? 0] }, ''))),
     list(texts.joints, 'point', linkage.points.map(({ name }) => name)),
@@ -98,6 +98,9 @@ function ofBody(texts: Texts, sheet: Sheet, body: Body): Node[] {
   const { name } = body;
   const set = (change: Body): void => sheet.change(changeBody(linkage, name, () => change), '');
   const com = body.com;
+  const load = linkage.loads.find((old) => old.on === name && old.at === '');
+  // One of the two.
+  const loads = (key: 'moment' | 'opposingMoment', moment: number | undefined): void => sheet.change(setLoad(linkage, '', name, moment === undefined ? undefined : { [key]: moment }), '');
   const [a, b] = body.points.map((point) => linkage.points.find((other) => other.name === point));
   const length = a && b ? Math.hypot(b.x - a.x, b.y - a.y) : 0;
   const turn = (to: string): Linkage => {
@@ -116,10 +119,13 @@ function ofBody(texts: Texts, sheet: Sheet, body: Body): Node[] {
   return [
     h('h3', {}, `${texts.link} `, called),
     h('div', { class: 'fields' },
+      ...(body.points.length === 2 ? [number(texts.length, 'mm', length, (to) => to !== undefined && to > 0 && sheet.change(setLength(linkage, body, to), ''))] : []),
       number(texts.mass, 'kg', body.mass, (mass) => set(withOptional(body, 'mass', mass))),
       number(texts.inertia, 'kg m²', body.inertia, (inertia) => set(withOptional(body, 'inertia', inertia)), texts.ofRod),
       number(`${texts.centreOfMass} u`, 'mm', com?.[0], (u) => set(withOptional(body, 'com', u === undefined ? undefined : [u, com?.[1] ?? 0])), String(Math.round(length / 2))),
-      number(`${texts.centreOfMass} v`, 'mm', com?.[1], (v) => set(withOptional(body, 'com', v === undefined ? undefined : [com?.[0] ?? length / 2, v])), '0')),
+      number(`${texts.centreOfMass} v`, 'mm', com?.[1], (v) => set(withOptional(body, 'com', v === undefined ? undefined : [com?.[0] ?? length / 2, v])), '0'),
+      number(texts.moment, 'N m', load?.moment, (moment) => loads('moment', moment)),
+      number(texts.opposingMoment, 'N m', load?.opposingMoment, (moment) => loads('opposingMoment', moment))),
     h('div', { class: 'ticks' }, h('span', {}, texts.jointsOfLink), ...linkage.points.map((point) =>
       tick(point.name, body.points.includes(point.name), () => sheet.change(toggleOnLink(linkage, name, point.name), '')))),
     h('button', { type: 'button', class: 'danger', onclick: () => sheet.remove() }, texts.remove),

@@ -73,6 +73,38 @@ export function changeBody(linkage: Linkage, name: string, change: (body: Body) 
   return { ...linkage, bodies: linkage.bodies.map((body) => (body.name === name ? { ...body, ...change(body) } : body)) };
 }
 
+/**
+ * With another length of a link of two joints. The other links keep theirs, and fixed joints and lines of blocks their places, if they can: all joints
+ * are moved by half of each error, over and over; else only the end of this link moves.
+ */
+export function setLength(linkage: Linkage, body: Body, length: number): Linkage {
+  const at = new Map(linkage.points.map(({ name, x, y }) => [name, { x, y }]));
+  const size = (a: string, b: string): number => Math.hypot(at.get(b)!.x - at.get(a)!.x, at.get(b)!.y - at.get(a)!.y);
+  const pairs = linkage.bodies.flatMap(({ name, points }) => points.flatMap((a, k) => points.slice(k + 1).map((b) => ({ a, b, wanted: name === body.name ? length : size(a, b) }))));
+  const lines = linkage.guides.filter(({ on }) => on === undefined).map(({ point, angle }) => ({ point, from: { ...at.get(point)! }, c: Math.cos((angle * Math.PI) / 180), s: Math.sin((angle * Math.PI) / 180) }));
+  const loose = (name: string): number => (linkage.points.find((point) => point.name === name)?.ground && !lines.some(({ point }) => point === name) ? 0 : 1);
+  const stretch = (a: string, b: string, wanted: number): number => {
+    const [p, q, now] = [at.get(a)!, at.get(b)!, size(a, b)];
+    const share = (now - wanted) / ((now || 1) * (loose(a) + loose(b) || 1));
+    const [x, y] = [(q.x - p.x) * share, (q.y - p.y) * share];
+    at.set(a, { x: p.x + x * loose(a), y: p.y + y * loose(a) });
+    at.set(b, { x: q.x - x * loose(b), y: q.y - y * loose(b) });
+    return Math.abs(now - wanted);
+  };
+  const moved = (): Linkage => ({ ...linkage, points: linkage.points.map((point) => ({ ...point, ...at.get(point.name) })) });
+  for (let round = 0; round < 5000; round++) {
+    const worst = Math.max(...pairs.map(({ a, b, wanted }) => stretch(a, b, wanted)));
+    for (const { point, from, c, s } of lines) {
+      const along = (at.get(point)!.x - from.x) * c + (at.get(point)!.y - from.y) * s;
+      at.set(point, { x: from.x + along * c, y: from.y + along * s });
+    }
+    if (worst < 1e-9) return moved();
+  }
+  for (const { name, x, y } of linkage.points) at.set(name, { x, y });
+  stretch(body.points[0]!, body.points[1]!, length);
+  return moved();
+}
+
 export function removeBody(linkage: Linkage, name: string): Linkage {
   return {
     ...linkage,
@@ -105,9 +137,9 @@ export function setGuide(linkage: Linkage, point: string, angle: number | undefi
 }
 
 export function setLoad(linkage: Linkage, at: string, on: string, load: Partial<Load> | undefined): Linkage {
-  const others = linkage.loads.filter((old) => old.at !== at);
+  const others = linkage.loads.filter((old) => old.at !== at || (at === '' && old.on !== on));
   if (load === undefined) return { ...linkage, loads: others };
-  return { ...linkage, loads: [...others, { name: `load at ${at}`, on, at, ...load }] };
+  return { ...linkage, loads: [...others, { name: `load ${at === '' ? `on ${on}` : `at ${at}`}`, on, at, ...load }] };
 }
 
 /** The link or the name of the guided slide block that a point belongs to. */

@@ -2,14 +2,14 @@
 import type { Core } from '../core';
 import { h, shown } from '../dom';
 import { History } from '../history';
-import type { Answer, Drawn, Linkage } from '../protocol';
+import type { Answer, Answers, Drawn, Linkage, Source } from '../protocol';
 import type { Texts } from '../texts';
 import type { Workbench } from '../workbench';
 import { Canvas, type Selected, type Sheet, type Tool } from './canvas';
 import { properties } from './form';
 import { BEGIN, EMPTY, removeBody, removePoint } from './linkage';
 import { linkageOf } from './read';
-import { drivesGuide, freedoms, machineText, wideStroke } from './write';
+import { drivesGuide, freedoms, machineText, tables, wideStroke } from './write';
 
 /** Name of the machine file of a drawing. */
 const NAME = 'drawing.toml';
@@ -19,6 +19,10 @@ export class DrawPanel implements Sheet {
   selected: Selected;
   tool: Tool = 'move';
   private history = new History<Linkage>(BEGIN);
+  /** The machine file that the sheet has written or taken over. */
+  private text = '';
+  /** While it takes one over, nothing else changes the sheet; a new drawing ends that. */
+  private loading: object | undefined;
   private readonly canvas: Canvas;
   private readonly form = h('div', { class: 'properties' });
   private readonly state = h('div', { class: 'drawn', role: 'status' });
@@ -36,6 +40,9 @@ export class DrawPanel implements Sheet {
         h('button', { type: 'button', onclick: () => this.canvas.fit() }, texts.fit)),
       h('p', { class: 'note' }, texts.drawingHelp),
       this.canvas.element, this.state, this.form);
+    bench.on('source', ({ by }) => {
+      if (by !== 'draw' && this.element.offsetParent) void this.shown();
+    });
     this.use('move');
     this.canvas.fit();
     this.form.replaceChildren(...properties(texts, this));
@@ -51,7 +58,7 @@ export class DrawPanel implements Sheet {
   }
 
   change(linkage: Linkage, tag: string): void {
-    if (linkage === this.linkage) return;
+    if (linkage === this.linkage || this.loading) return;
     this.history.push(linkage, tag);
     this.changed();
   }
@@ -81,30 +88,58 @@ export class DrawPanel implements Sheet {
   /** Another linkage on the sheet. */
   begin(linkage: Linkage): void {
     this.selected = undefined;
+    this.use('move');
+    this.loading = undefined;
     this.history.push(linkage);
     this.canvas.fit();
     this.changed();
   }
 
+  /** The sheet is looked at: it takes over a machine file that was changed elsewhere. */
+  async shown(): Promise<void> {
+    if (this.bench.source.text !== this.text) await this.load();
+  }
+
   /** The linkage of the machine file. */
   async load(): Promise<void> {
-    const told = await this.live.ask<'linkage'>({ do: 'linkage', ...this.bench.source });
-    if (!told) return;
-    if ('error' in told) {
-      this.state.replaceChildren(h('p', { class: 'fault', lang: 'en' }, told.error.message));
+    const { source } = this.bench;
+    const loading = (this.loading = {});
+    const told = await this.live.ask<'linkage'>({ do: 'linkage', ...source });
+    if (loading !== this.loading) return;
+    if (!told) {
+      this.loading = undefined;
       return;
     }
-    const linkage = linkageOf(told.answer);
+    const linkage = 'error' in told ? { problem: told.error.message } : linkageOf(told.answer);
     if ('problem' in linkage) {
-      this.say([h('p', { class: 'fault' }, `${this.texts.notDrawable} ${linkage.problem}`)]);
+      this.loading = undefined;
+      this.say([h('p', { class: 'fault' }, `${this.texts.notDrawable} ${linkage.problem}`), h('p', {}, this.texts.replaces)]);
       return;
     }
+    // What the sheet does not show stays as it is, if the machine stays the same with it.
+    const { speed, ...own } = linkage;
+    const whole = { ...own, rest: tables(source.text, (table) => table !== 'mechanism') };
+    const moved = await this.moved(whole);
+    const same = moved && 'answer' in moved.told && await this.isSame(source, machineText(whole, moved.stroke, moved.told.answer.range));
+    if (loading !== this.loading) return;
+    this.loading = undefined;
     this.selected = undefined;
-    this.history.push(linkage);
+    this.text = source.text;
+    this.history = new History<Linkage>(same ? whole : { ...own, ...(speed === undefined ? {} : { speed }) });
     this.canvas.fit();
     this.form.replaceChildren(...properties(this.texts, this));
-    const { lost } = told.answer;
-    this.say(lost.length === 0 ? [] : [h('p', {}, `${this.texts.leavesOut} ${lost.join(', ')}`)]);
+    const { lost } = (told as { answer: Answers['linkage'] }).answer;
+    this.say(same || lost.length === 0 ? [] : [h('p', {}, `${this.texts.leavesOut} ${lost.join(', ')}`)]);
+  }
+
+  /** Whether another text has the curves of a machine. */
+  private async isSame(source: Source, text: string): Promise<boolean> {
+    const ask = (own: string): Promise<Answer<'curves'> | undefined> => this.live.ask<'curves'>({ do: 'curves', positions: 24, ...source, text: own }, `same ${own === text}`);
+    const [one, other] = await Promise.all([ask(source.text), ask(text)]);
+    if (!one || !other || 'error' in one || 'error' in other) return false;
+    const [a, b] = [one.answer, other.answer];
+    const near = (x: number | null, y: number | null, k: number): boolean => x === y || Math.abs((x ?? NaN) - (y ?? NaN)) <= 1e-6 * Math.max(...a.rows.map((row) => Math.abs(row[k] ?? 0)));
+    return a.columns.join() === b.columns.join() && a.rows.every((row, r) => row.every((x, k) => near(x, b.rows[r]?.[k] ?? null, k)));
   }
 
   private changed(): void {
@@ -116,14 +151,10 @@ export class DrawPanel implements Sheet {
     void this.examine();
   }
 
-  /** Whether it moves; then the machine file follows. */
-  private async examine(): Promise<void> {
-    const { linkage } = this;
-    if (linkage.drive === '') {
-      this.say([this.freedoms(), h('p', { class: 'fault' }, this.texts.noDriveDrawn)]);
-      return;
-    }
-    const ask = (stroke: string): Promise<Answer<'draw'> | undefined> => this.live.ask<'draw'>({ do: 'draw', name: NAME, text: machineText(linkage, stroke, null).replace(/\n\[motion\][^]*$/, '') });
+  /** Whether a linkage moves, with the stroke of a drive that does not turn fully, and the dead points that limit it. */
+  private async moved(linkage: Linkage): Promise<{ told: Answer<'draw'>; stroke: string; dead: string[] } | undefined> {
+    const { rest, ...own } = linkage;
+    const ask = (stroke: string): Promise<Answer<'draw'> | undefined> => this.live.ask<'draw'>({ do: 'draw', name: NAME, text: machineText(own, stroke, null).replace(/\n\[motion\][^]*$/, '') });
     let stroke = drivesGuide(linkage) ? wideStroke(linkage) : '';
     let told = await ask(stroke);
     const dead: string[] = [];
@@ -133,14 +164,28 @@ export class DrawPanel implements Sheet {
       stroke = proposed;
       told = await ask(stroke);
     }
-    if (!told || linkage !== this.linkage) return;
+    return told && { told, stroke, dead };
+  }
+
+  /** Whether it moves; then the machine file follows. */
+  private async examine(): Promise<void> {
+    const { linkage } = this;
+    const moved = linkage.drive === '' ? undefined : await this.moved(linkage);
+    if (linkage !== this.linkage || (linkage.drive !== '' && !moved)) return;
+    const { told, stroke, dead } = moved ?? { told: { error: { message: this.texts.noDriveDrawn, help: '', places: [] } }, stroke: '', dead: [] };
     if ('error' in told) {
-      this.say([this.freedoms(), h('p', { class: 'fault', lang: 'en' }, `${told.error.message} ${told.error.help}`)]);
+      this.say([this.freedoms(), h('p', { class: 'fault', lang: moved ? 'en' : null }, `${told.error.message} ${told.error.help}`)]);
+      this.bench.refuse(told.error.message);
       return;
     }
     const drawn = told.answer;
     this.say(this.words({ ...drawn, dead: [...dead, ...drawn.dead] }));
-    if (drawn.obstacle === '') this.bench.replace(NAME, machineText(linkage, stroke, drawn.range));
+    if (drawn.obstacle !== '') {
+      this.bench.refuse(drawn.obstacle);
+      return;
+    }
+    this.text = machineText(linkage, stroke, drawn.range);
+    this.bench.replace(NAME, this.text);
   }
 
   private freedoms(): HTMLElement {

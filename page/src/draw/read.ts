@@ -8,8 +8,8 @@ const NEAR = 1e-3;
 /** The linkage, or why the sheet cannot hold this machine. */
 export function linkageOf(pins: Pins): Linkage | { problem: string } {
   if (pins.joints.some(({ bodies }) => bodies.length === 0)) return { problem: 'gears, cams, slots or rigid joints' };
-  const mm = ([x, y]: [number, number]): [number, number] => [Math.round(x * 1e9) / 1e6, Math.round(y * 1e9) / 1e6];
-  const linkage: Linkage = { title: pins.title, points: [], bodies: [], guides: [], drive: '', speed: 60, loads: [], gravity: pins.gravity };
+  const mm = ([x, y]: [number, number]): [number, number] => [x * 1e3, y * 1e3];
+  const linkage: Linkage = { title: pins.title, points: [], bodies: [], guides: [], drive: '', speed: 60, loads: [], gravity: pins.gravity, ...(pins.flywheel > 0 ? { flywheel: pins.flywheel } : {}) };
   const on = new Map<string, string[]>();
   const joint = (at: [number, number], wanted?: string): string => {
     const [x, y] = mm(at);
@@ -52,6 +52,16 @@ export function linkageOf(pins: Pins): Linkage | { problem: string } {
     if (blocks.has(link.name)) continue;
     for (const point of link.points) add(link.name, joint(point.at, point.name));
     const points = on.get(link.name) ?? [];
+    // The first two give the frame of the body; that of the machine, if they can, so that its loads keep their places.
+    const [origin, ahead] = link.frame as [[number, number], [number, number]];
+    const rank = (name: string): number => {
+      const point = linkage.points.find((other) => other.name === name)!;
+      const [x, y] = [point.x / 1e3 - origin[0], point.y / 1e3 - origin[1]];
+      const [c, s] = [ahead[0] - origin[0], ahead[1] - origin[1]];
+      if (Math.hypot(x, y) < 1e-6) return 0;
+      return Math.abs(y * c - x * s) < 1e-6 && x * c + y * s > 0 ? 1 : 2;
+    };
+    points.sort((a, b) => rank(a) - rank(b));
     if (points.length < 2) return { problem: `the link ${link.name} with one joint` };
     const body = { name: link.name, points, mass: link.mass, inertia: link.inertia };
     linkage.bodies.push({ ...body, com: inFrame(linkage, body, ...mm(link.com)) });

@@ -53,6 +53,7 @@ export function machineText(linkage: Linkage, stroke: string, range: [number, nu
     'type = "linkage"',
     `drive = ${quoted(`${drivesGuide(linkage) ? 'guide' : 'bearing'} ${linkage.drive}`)}`,
     ...(stroke === '' ? [] : [stroke]),
+    ...(linkage.flywheel === undefined ? [] : [`flywheel = "${figure(linkage.flywheel)} kg m^2"`]),
     `ground = { ${fixed.map(({ name, x, y }) => `${quoted(name)} = ${lengths([x, y])}`).join(', ')} }`,
     ...linkage.bodies.flatMap((body) => bodyLines(linkage, body)),
     ...linkage.guides.flatMap((guide) => [
@@ -64,14 +65,28 @@ export function machineText(linkage: Linkage, stroke: string, range: [number, nu
       const body = linkage.bodies.find(({ name }) => name === load.on);
       return [
         '', '[[load]]', `name = ${quoted(load.name)}`, `on = ${quoted(load.on)}`,
-        ...(body ? [`at = ${lengths(inFrame(linkage, body, ...place(linkage, load.at)))}`] : []),
+        ...(body && load.at !== '' ? [`at = ${lengths(inFrame(linkage, body, ...place(linkage, load.at)))}`] : []),
         ...(load.force ? [`force = ["${figure(load.force[0])} N", "${figure(load.force[1])} N"]`] : []),
+        ...(load.moment === undefined ? [] : [`moment = "${figure(load.moment)} N m"`]),
+        ...(load.opposingMoment === undefined ? [] : [`opposing_moment = "${figure(load.opposingMoment)} N m"`]),
         ...(load.opposing === undefined ? [] : [`opposing_force = "${figure(load.opposing)} N"`]),
       ];
     }),
-    ...motionLines(linkage, range),
+    ...(linkage.speed === undefined && /^\s*\[motion/m.test(linkage.rest ?? '') ? [] : motionLines(linkage, range)),
+    ...(linkage.rest ? ['', tables(linkage.rest, (table) => table !== 'motion' || linkage.speed === undefined)] : []),
     '',
   ].join('\n');
+}
+
+/** The tables of a machine file whose first names are wanted, as they are. */
+export function tables(text: string, wanted: (table: string) => boolean): string {
+  let kept = false;
+  const lines = text.split('\n').filter((line) => {
+    const table = /^\s*\[\[?\s*([\w-]+)[\w. -]*\]\]?\s*(#.*)?$/.exec(line)?.[1];
+    if (table !== undefined) kept = wanted(table);
+    return kept;
+  });
+  return lines.join('\n').trim();
 }
 
 function bodyLines(linkage: Linkage, body: Body): string[] {

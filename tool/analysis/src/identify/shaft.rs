@@ -19,6 +19,7 @@ jred_file::words! {
 
 impl Shaft {
     /// The other of the two.
+    #[must_use]
     pub const fn other(self) -> Self {
         match self {
             Self::Motor => Self::Link,

@@ -105,7 +105,12 @@ impl Set for CurveColumns {
             heads.push(Column::other(train, unit));
         }
         if self.moves {
-            let (effort, unit) = (coordinate.effort(), coordinate.effort_unit());
+            // Stages begin with a shaft that turns, also those of a link that slides.
+            let at_input = match source.file.drive_train.stages() {
+                [] => coordinate,
+                _ => Coordinate::Angle,
+            };
+            let (effort, unit) = (at_input.effort(), at_input.effort_unit());
             heads.extend(coordinate.rates());
             heads.extend(terms(coordinate));
             heads.push(coordinate.drive_effort());

@@ -135,6 +135,6 @@ fn the_other_shaft_is_named_and_friction_is_no_deviation() {
         "{}",
         of_motor.out
     );
-    let twice = jred_of("identify {} {} --machine machines/press.toml", [&log, &log]);
+    let twice = jred_of("identify {} {} --machine {}", [&log, &log, &machine]);
     assert!(twice.err.contains("is given twice"), "{}", twice.err);
 }

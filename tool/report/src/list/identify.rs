@@ -144,7 +144,7 @@ impl IdentifyView<'_> {
     /// Whether a fault spoils a result.
     pub fn has_fault(&self) -> bool {
         let all = self.logs.iter().flat_map(|log| &log.found.faults);
-        let other = self.deviation(&self.curves(), |p| p.inertia.value, &self.inertias());
+        let other = deviation(&self.curves(), |p| p.inertia.value, &self.inertias());
         other.share.abs() > OTHER
             || all
                 .into_iter()
@@ -243,29 +243,13 @@ impl IdentifyView<'_> {
         Some(spread.fold(0.0, f64::max) / most)
     }
 
-    fn deviation(
-        &self,
-        curves: &[CurvePoint],
-        found: fn(&CurvePoint) -> f64,
-        designed: &[f64],
-    ) -> Deviation {
-        let most = designed.iter().fold(0.0f64, |most, d| most.max(d.abs()));
-        let each = curves.iter().zip(designed).enumerate();
-        let each = each.map(|(at, (point, design))| Deviation {
-            at,
-            share: (found(point) - design) / most.max(1e-300),
-        });
-        each.max_by(|a, b| a.share.abs().total_cmp(&b.share.abs()))
-            .unwrap_or(Deviation { at: 0, share: 0.0 })
-    }
-
     /// The answer.
     pub fn answer(&self) -> Answer<'static> {
         let curves = self.curves();
         let misread = self.logs.iter().any(LogResult::is_misread);
-        let inertia = self.deviation(&curves, |p| p.inertia.value, &self.inertias());
+        let inertia = deviation(&curves, |p| p.inertia.value, &self.inertias());
         let slopes = self.slopes();
-        let potential = self.deviation(&curves, |p| p.potential_slope.value, &slopes);
+        let potential = deviation(&curves, |p| p.potential_slope.value, &slopes);
         let data = IdentifyData {
             deviation: inertia.share,
             deviation_at: curves.get(inertia.at).map_or(0.0, |point| point.phi),
@@ -406,6 +390,17 @@ impl IdentifyView<'_> {
             ..Reading::default()
         }
     }
+}
+
+fn deviation(curves: &[CurvePoint], found: fn(&CurvePoint) -> f64, designed: &[f64]) -> Deviation {
+    let most = designed.iter().fold(0.0f64, |most, d| most.max(d.abs()));
+    let each = curves.iter().zip(designed).enumerate();
+    let each = each.map(|(at, (point, design))| Deviation {
+        at,
+        share: (found(point) - design) / most.max(1e-300),
+    });
+    each.max_by(|a, b| a.share.abs().total_cmp(&b.share.abs()))
+        .unwrap_or(Deviation { at: 0, share: 0.0 })
 }
 
 const fn side(share: f64) -> &'static str {

@@ -185,16 +185,20 @@ fn motions(findings: &Findings, answer: &mut Answer) {
         } else {
             "ok"
         };
-        let angle = transmission.angle.map_or_else(String::new, |angle| {
-            format!("a transmission angle of {} deg; ", short(angle))
-        });
+        let angle = transmission.angle;
+        let angle = angle.map(|angle| format!("a transmission angle of {} deg", short(angle)));
+        let links = Some(transmission.links.join(", ")).filter(|links| !links.is_empty());
+        let because: Vec<String> = [angle, links].into_iter().flatten().collect();
+        let because = match because.join("; ") {
+            none if none.is_empty() => none,
+            words => format!(" ({words})"),
+        };
         answer.fact(
             "transmission index",
             format!(
-                "at least {} {} ({angle}{}): {verdict}",
+                "at least {} {}{because}: {verdict}",
                 short(transmission.index),
-                words::place(transmission, c),
-                transmission.links.join(", ")
+                words::place(transmission, c)
             ),
         );
         let branch = if transmission.branch_kept {

@@ -14,13 +14,14 @@ impl fmt::Display for Empty {
         let [asks, allows] = names;
         let unit = axis.coordinate.speed_unit();
         let rate = |rate: f64| short(axis.rate(rate));
+        let [least, most] = told_apart([self.least.0, self.most.0].map(|rate| axis.rate(rate)));
         write!(
             f,
             "no acceleration is left at {} and {} {unit}: the {asks} requires at least {} {unit}^2, the {allows} allows at most {}",
             axis.place(self.phi),
             rate(self.speed),
-            rate(self.least.0),
-            rate(self.most.0)
+            least,
+            most
         )
     }
 }

@@ -118,8 +118,8 @@ impl IdentifyView<'_> {
                 "{},{:.9e},{:.9e},{:.9e},{:.9e},{:.9e}",
                 short(point.phi.to_degrees()),
                 point.inertia.value,
-                -loads.mean_load,
-                -point.potential_slope.value,
+                0.0 - loads.mean_load,
+                0.0 - point.potential_slope.value,
                 loads.viscous,
                 loads.coulomb(point.coulomb.value)
             );
