@@ -1,7 +1,7 @@
 //! The observer and the monitor: the torque of the load, seen from the encoder alone, and compared with itself.
 //!
 //! A simulated press, four steps a tick, turns under a noisy torque and an encoder with counts. The observer sees the torque that the table does not
-//! contain. The monitor learns it from 64 turns; then a part jams, and later a heavier die is mounted, whose mass the observer's load gives.
+//! contain. The monitor learns it from 64 turns, and goes on with the reference that it kept; then a part jams, and later a heavier die is mounted, whose mass the observer's load gives.
 //!
 //! ```text
 //! cargo run -p jred --example 11_observer                                                    on the host
@@ -127,35 +127,31 @@ fn turn(machine: &mut Machine, monitor: &mut Monitor<Q31, BINS>) -> (u32, Cycle)
     }
 }
 
-fn run() -> Result<(), Failure> {
-    let image = Image::from_bytes(include_image!("data/press_q31.jred"))?;
-    let press: Press = image.model()?;
-    let scale = *press.table().scale();
-    let observer = Observer::with_bandwidth(BANDWIDTH, TICK, &press)?;
-    let mut machine = Machine {
-        press,
-        step: Period::new(0.25 * TICK, &press)?,
-        motion: MotionState::default(),
-        noise: 1,
-        dies: 0,
-        speed: scale.omega(OMEGA).value,
-        observer,
-        seen: Observed::default(),
-    };
-    let speed = machine.speed;
-    let unit = |phase| -scale.torque_si(die(&press, phase, speed));
-    let mut monitor = Monitor::<Q31, BINS>::new(WATCH, unit, &press)?;
-
-    for _ in 0..2500 {
-        machine.tick(0.0);
-    }
+/// Learns the reference: the words for flash, and the number of turns.
+#[inline(never)]
+fn reference(
+    machine: &mut Machine,
+    unit: impl Fn(Phase) -> f32,
+) -> Result<([u32; Monitor::<Q31, BINS>::REFERENCE_WORDS], u32), Failure> {
+    let mut monitor = Monitor::<Q31, BINS>::new(WATCH, unit, &machine.press)?;
     let mut turns = 0;
     while !monitor.is_watching() {
-        turn(&mut machine, &mut monitor);
+        turn(machine, &mut monitor);
         turns += 1;
     }
-    println!("{turns} turns are the reference");
-    println!("  phase   usual load    a jam is beyond");
+    let mut words = [0; Monitor::<Q31, BINS>::REFERENCE_WORDS];
+    let reference = monitor.reference().ok_or("no reference")?;
+    for (word, learned) in words.iter_mut().zip(reference) {
+        *word = learned;
+    }
+    Ok((words, turns))
+}
+
+/// After a loss of power: watches, with the words that were in flash.
+#[inline(never)]
+fn watch(machine: &mut Machine, unit: impl Fn(Phase) -> f32, words: &[u32]) -> Result<(), Failure> {
+    let press = machine.press;
+    let mut monitor = Monitor::<Q31, BINS>::with_reference(words, WATCH, unit, &press)?;
     for eighth in 0..8u32 {
         let phase = Phase::from_bits(eighth << 29);
         let [mean, limit] = monitor.usual(phase).ok_or("a bin is not known")?;
@@ -168,7 +164,7 @@ fn run() -> Result<(), Failure> {
     }
     let mut alarms = 0;
     for _ in 0..20 {
-        let (jams, cycle) = turn(&mut machine, &mut monitor);
+        let (jams, cycle) = turn(machine, &mut monitor);
         alarms += jams + u32::from(cycle.wear || cycle.wrong_payload);
     }
     println!("20 turns later: {alarms} alarms");
@@ -216,7 +212,7 @@ fn run() -> Result<(), Failure> {
     );
     let mut turns = 0;
     let cycle = loop {
-        let (_, cycle) = turn(&mut machine, &mut monitor);
+        let (_, cycle) = turn(machine, &mut monitor);
         turns += 1;
         if cycle.wrong_payload {
             break cycle;
@@ -233,6 +229,31 @@ fn run() -> Result<(), Failure> {
     } else {
         Err("the monitor is not as good as it says".into())
     }
+}
+
+fn run() -> Result<(), Failure> {
+    let image = Image::from_bytes(include_image!("data/press_q31.jred"))?;
+    let press: Press = image.model()?;
+    let scale = *press.table().scale();
+    let observer = Observer::with_bandwidth(BANDWIDTH, TICK, &press)?;
+    let mut machine = Machine {
+        press,
+        step: Period::new(0.25 * TICK, &press)?,
+        motion: MotionState::default(),
+        noise: 1,
+        dies: 0,
+        speed: scale.omega(OMEGA).value,
+        observer,
+        seen: Observed::default(),
+    };
+    let speed = machine.speed;
+    let unit = |phase| -scale.torque_si(die(&press, phase, speed));
+    for _ in 0..2500 {
+        machine.tick(0.0);
+    }
+    let (words, turns) = reference(&mut machine, unit)?;
+    println!("{turns} turns are the reference\n  phase   usual load    a jam is beyond");
+    watch(&mut machine, unit, &words)
 }
 
 program!(run);

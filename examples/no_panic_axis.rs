@@ -158,6 +158,15 @@ fn every_observer<F: Format, const SET: CurveSet>(
             Monitor::is_watching(monitor),
             Monitor::usual(monitor, phase),
         ));
+        let mut words = [0; 57];
+        if let Some(reference) = Monitor::reference(monitor) {
+            for (word, learned) in words.iter_mut().zip(reference) {
+                *word = learned;
+            }
+        }
+        let restored: Result<Monitor<F::Number, 16>, _> =
+            Monitor::with_reference(black_box(&words), watch, |_| 0.0, model);
+        let _ = black_box(restored);
     }
 }
 

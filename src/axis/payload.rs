@@ -7,8 +7,8 @@ use crate::tick::MachineUnits;
 
 /// How much payload a machine carries, by least squares of the load torque d of an [`Observer`] over the torque of a unit of payload.
 ///
-/// The torque u that moves one unit of payload, such as 1 kg, comes from a second model: that of the same mechanism with the payload alone. In each
-/// tick it is the model's torque for the observed motion. Then
+/// The torque u that moves one unit of payload, such as 1 kg, comes from a second model: that of the same mechanism with the payload alone, for
+/// which docs/observer.md has a machine file. In each tick it is the model's torque for the observed motion. Then
 ///
 /// ```text
 /// d = −m·u + d₀         m = −cov(u, d)/var(u)

@@ -170,6 +170,117 @@ fn faults_are_told_apart() {
     faults_are_told::<Spline<Q31>>(bases());
 }
 
+/// A monitor from the words of another is the same at the end of its reference, and watches at once.
+fn the_reference_comes_back<F: Format>(scale: Scale) {
+    with_reference::<F>(scale, 5, |mut watched| {
+        let words: Vec<u32> = watched.monitor.reference().unwrap().collect();
+        assert_eq!(words.len(), Monitor::<F::Number, BINS>::REFERENCE_WORDS);
+        let make = |words: &[u32]| {
+            Monitor::<F::Number, BINS>::with_reference(words, WATCH, unit, &watched.model)
+        };
+        let restored = make(&words).unwrap();
+        assert!(restored == watched.monitor);
+        let mut other = Watched {
+            monitor: restored,
+            ..watched.clone()
+        };
+        watched.plant.machine.coulomb += 0.1;
+        other.plant.machine.coulomb += 0.1;
+        for _ in 0..20 {
+            let (seen, again) = (watched.turn(), other.turn());
+            assert!(seen == again && seen.1.judged, "{seen:?} {again:?}");
+        }
+        assert!(watched.monitor == other.monitor);
+    });
+}
+
+#[test]
+fn a_reference_is_kept_bit_for_bit() {
+    the_reference_comes_back::<Spline<f32>>(Scale::SI);
+    the_reference_comes_back::<Spline<Q31>>(bases());
+}
+
+#[test]
+fn references_that_no_monitor_writes_are_refused() {
+    with_model_of::<Spline<f32>, SET>(&CRANK, Scale::SI, |model| {
+        let mut monitor = Monitor::<f32, 2>::new(WATCH, |_| 0.0, &model).unwrap();
+        assert!(monitor.reference().is_none());
+        for _ in 0..2 * WATCH.reference {
+            // The second bin has too few ticks.
+            for torque in [1.0, 1.1] {
+                monitor.tick(Phase::default(), torque);
+            }
+            monitor.end_cycle();
+        }
+        let words: Vec<u32> = monitor.reference().unwrap().collect();
+        let make =
+            |words: &[u32], watch| Monitor::<f32, 2>::with_reference(words, watch, |_| 0.0, &model);
+        assert_eq!(make(&words, WATCH).unwrap(), monitor);
+        let refused = |at: usize, word: u32| {
+            let mut words = words.clone();
+            words[at] = word;
+            make(&words, WATCH).unwrap_err().to_string()
+        };
+        for (at, word, fault) in [
+            (0, u32::MAX, "the version of the reference is more than"),
+            (
+                1,
+                51.0_f32.to_bits(),
+                "the largest torque of the reference is 51, but must be that of",
+            ),
+            (
+                3,
+                f32::NAN.to_bits(),
+                "a figure of the reference's cycles is not a",
+            ),
+            (
+                4,
+                (-1.0_f32).to_bits(),
+                "a figure of the reference's cycles is -1, but must be finite, and",
+            ),
+            (
+                7,
+                f32::INFINITY.to_bits(),
+                "a figure of the reference's cycles is infinite",
+            ),
+            (
+                10,
+                1 << 22,
+                "a mean of the reference, in counts, is 4194304, but must be at most",
+            ),
+            (
+                11,
+                0,
+                "a deviation of the reference, in counts, is 0, but must be from 1 to",
+            ),
+            (
+                11,
+                f32::NAN.to_bits(),
+                "a deviation of the reference, in counts, is not a finite number",
+            ),
+            (
+                14,
+                (-1.0_f32).to_bits(),
+                "a deviation of the reference, in counts, is -1, but",
+            ),
+        ] {
+            let error = refused(at, word);
+            assert!(error.starts_with(fault), "{at}: {error}");
+        }
+        let short = make(&words[3..], WATCH).unwrap_err().to_string();
+        assert_eq!(
+            short,
+            "the number of words of the reference is 12, but must be 9, and 3 for each bin"
+        );
+        assert!(make(&[], WATCH).is_err() && make(&[u32::MAX; 15], WATCH).is_err());
+        let larger = Watch {
+            largest: 60.0,
+            ..WATCH
+        };
+        assert!(make(&words, larger).is_err());
+    });
+}
+
 /// A monitor of 16 ticks a bin, after a reference of torques that are `noise` or its opposite.
 fn after_reference(
     payload: impl Fn(u32) -> f32,

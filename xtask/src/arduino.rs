@@ -87,6 +87,7 @@ fn make(folder: &Path, rustc: &[&str]) -> Result<()> {
         ("ffi/arduino/library.properties", "library.properties"),
         ("ffi/arduino/library.json", "library.json"),
         ("ffi/arduino/link.py", "link.py"),
+        ("ffi/arduino/README.md", "README.md"),
         (
             "ffi/arduino/examples/axis/axis.ino",
             "examples/axis/axis.ino",
@@ -145,15 +146,20 @@ impl Precompiled {
         let mut gcc = compile("arm-none-eabi-gcc");
         gcc.args(["-std=c99", "-c", "ffi/examples/startup.c", "-o"]);
         done(gcc.arg(&object))?;
-        let mut gcc = compile("arm-none-eabi-g++");
-        gcc.args(["-std=gnu++11", "-fno-exceptions", "-fno-rtti"])
-            // Only because the output is compared to the last bit, and the sketch computes its set-point itself.
-            .arg("-ffp-contract=off")
-            .args(["-Iffi/tests/arduino", "-include", "Arduino.h", "-I"])
-            .arg(folder.join("src"))
-            .args(["-x", "c++"])
-            .arg(source)
-            .arg("ffi/tests/arduino/main.cpp")
+        let cpp = || {
+            let mut gcc = compile("arm-none-eabi-g++");
+            gcc.args(["-std=gnu++11", "-fno-exceptions", "-fno-rtti"])
+                // Only because the output is compared to the last bit, and the sketch computes its set-point itself.
+                .arg("-ffp-contract=off")
+                .args(["-Iffi/tests/arduino", "-include", "Arduino.h", "-I"])
+                .arg(folder.join("src"))
+                .args(["-x", "c++"])
+                .arg(&source);
+            gcc
+        };
+        done(cpp().args(["-DMACHINE", "-fsyntax-only"]))?;
+        let mut gcc = cpp();
+        gcc.arg("ffi/tests/arduino/main.cpp")
             .args(["-x", "none"])
             .arg(object)
             .arg("-L")

@@ -13,6 +13,8 @@ pub(super) struct Bin {
     pub(super) mean: i32,
     sum: i64,
     squares: i64,
+    /// After learning σ and a count, in counts; 0: not known.
+    pub(super) deviation: f32,
     /// The least deviation from the mean that is no noise; 0: not known.
     pub(super) limit: i32,
     /// 2²⁴/σ, at most 2²⁴.
@@ -55,13 +57,18 @@ impl Bin {
         [mean, if variance > 0.0 { variance } else { 0.0 }]
     }
 
-    /// Ends learning: with the variance of all bins as the least, and the multiple of σ that is no noise.
-    pub(super) fn finish(&mut self, least: f32, multiple: f32) {
+    /// Ends learning, with the variance of all bins as the least.
+    pub(super) fn finish(&mut self, least: f32) {
         let [mean, variance] = self.moments();
         let variance = if variance > least { variance } else { least };
-        let deviation = Real::sqrt(variance) + 1.0;
         self.mean += nearest(mean);
-        self.limit = (multiple * deviation) as i32;
-        self.inverse = (16_777_216.0 / deviation) as i32;
+        self.deviation = Real::sqrt(variance) + 1.0;
+        [self.sum, self.squares] = [0; 2];
+    }
+
+    /// With the multiple of σ that is no noise, after learning.
+    pub(super) fn set_limit(&mut self, multiple: f32) {
+        self.limit = (multiple * self.deviation) as i32;
+        self.inverse = (16_777_216.0 / self.deviation) as i32;
     }
 }

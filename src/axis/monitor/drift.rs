@@ -8,11 +8,11 @@ use crate::number::Real;
 pub(super) struct Drift {
     cycles: u32,
     /// The first number, from which the sums count; then the mean.
-    mean: f32,
+    pub(super) mean: f32,
     sum: f32,
     squares: f32,
-    /// 1/(2·σ); 0: not known.
-    scale: f32,
+    /// 1/(2·σ); 0: not known, or the number is always the same.
+    pub(super) scale: f32,
     /// Sums of what exceeds the allowance, upwards and downwards.
     sums: [f32; 2],
 }
@@ -42,8 +42,16 @@ impl Drift {
         } else {
             0.0
         };
-        self.mean += mean;
-        self.scale = 0.5 / (deviation + least);
+        let deviation = deviation + least;
+        *self = Self {
+            mean: self.mean + mean,
+            scale: if deviation > 0.0 {
+                0.5 / deviation
+            } else {
+                0.0
+            },
+            ..Self::default()
+        };
     }
 
     /// Takes the number of a cycle: how far it is from the mean, and whether a sum exceeds the limit.

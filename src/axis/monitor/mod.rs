@@ -47,6 +47,7 @@
 mod bin;
 mod drift;
 mod figures;
+mod reference;
 
 use bin::Bin;
 use drift::Drift;
@@ -83,7 +84,8 @@ struct Sums {
 
 /// Compares a torque with itself in earlier cycles, in `BINS` parts of the range. See the [module](self).
 ///
-/// One monitor is for one direction: a machine that goes there and back has two. After a repair, or for another motion, make a new one.
+/// One monitor is for one direction: a machine that goes there and back has two. After a repair, or for another motion, make a new one; after a loss of
+/// power one [`with_reference`](Self::with_reference).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Monitor<N, const BINS: usize> {
     count: TorqueCount<N>,
@@ -330,16 +332,26 @@ impl<N: Number, const BINS: usize> Monitor<N, BINS> {
         let bins = self.bins.iter();
         let ticks = bins.fold(0u32, |sum, bin| sum.saturating_add(bin.ticks));
         self.ticks = ticks / self.watch.reference.max(1);
-        // Ticks of all cycles without a false alarm, on both sides.
-        let ticks = 2.0 * self.watch.cycles as f32 * self.ticks.max(1) as f32;
-        let multiple = Real::sqrt(2.0 * logarithm(ticks / self.watch.false_alarm));
         let variance = self.mean(|bin| {
             let [_, variance] = bin.moments();
             variance
         });
+        for bin in self.bins.iter_mut().filter(|bin| bin.is_known()) {
+            bin.finish(variance);
+        }
+        self.set_limits();
+        self.stage = Stage::Cycles;
+        self.learned = 0;
+    }
+
+    /// Limits, and weights of the payload without their mean, from what is usual.
+    fn set_limits(&mut self) {
+        // Ticks of all cycles without a false alarm, on both sides.
+        let ticks = 2.0 * self.watch.cycles as f32 * self.ticks.max(1) as f32;
+        let multiple = Real::sqrt(2.0 * logarithm(ticks / self.watch.false_alarm));
         let payload = self.mean(|bin| bin.weight as f32);
         for bin in self.bins.iter_mut().filter(|bin| bin.is_known()) {
-            bin.finish(variance, 1.5 * multiple);
+            bin.set_limit(1.5 * multiple);
             bin.weight = nearest(bin.weight as f32 - payload);
         }
         let squared = |share: f32| share * share;
@@ -351,8 +363,6 @@ impl<N: Number, const BINS: usize> Monitor<N, BINS> {
         if square > 0.0 {
             self.payload_scale = 1.0 / square;
         }
-        self.stage = Stage::Cycles;
-        self.learned = 0;
     }
 
     fn finish_cycles(&mut self) {
@@ -361,5 +371,6 @@ impl<N: Number, const BINS: usize> Monitor<N, BINS> {
         self.spread.finish(1.0 / 256.0);
         self.payload.finish(Real::sqrt(self.payload_scale));
         self.stage = Stage::Watching;
+        self.learned = 0;
     }
 }

@@ -90,7 +90,14 @@ fn check(page: &Path) -> usize {
             while let Some(line) = lines.next_if(|line| !line.starts_with("$ ")) {
                 shown.push(line);
             }
+            let (command, file) = match command.split_once(" > ") {
+                Some((command, file)) => (command, Some(file)),
+                None => (command, None),
+            };
             let run = jred_in(&folder.path(""), &words(command));
+            if let Some(file) = file {
+                folder.file(file, run.out.clone());
+            }
             // A message is shown where the page is about one.
             let refused = run.code == 2 && shown.iter().any(|line| line.starts_with("  × "));
             assert!(
@@ -122,6 +129,11 @@ fn the_tutorial_prints_what_it_shows() {
 #[test]
 fn the_five_steps_print_what_they_show() {
     assert!(check(&root().join("docs/from-cad.md")) >= 3);
+}
+
+#[test]
+fn the_table_of_a_payload_is_exported() {
+    assert_eq!(check(&root().join("docs/observer.md")), 1);
 }
 
 #[test]
