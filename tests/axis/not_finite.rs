@@ -457,6 +457,22 @@ const CASES: &[Case] = &[
             .max(refused(monitor(m, 10.0, x, 1.0)))
             .max(refused(monitor(m, 10.0, 0.01, x)))
     }),
+    ("Monitor::with_reference", Refused, |m, x| {
+        let watch = Watch {
+            largest: x,
+            reference: 32,
+            cycles: 1000,
+            false_alarm: 0.01,
+        };
+        // Numbers of cycles that are not finite, and a largest torque.
+        let mut words = [0; Monitor::<f32, 8>::REFERENCE_WORDS];
+        [words[0], words[1], words[3]] = [1, 10.0f32.to_bits(), x.to_bits()];
+        let of = |watch| Monitor::<f32, 8>::with_reference(&words, watch, |_| 1.0, m);
+        refused(of(watch)).max(refused(of(Watch {
+            largest: 10.0,
+            ..watch
+        })))
+    }),
     ("Monitor::tick", Flagged, |m, x| {
         // Infinity is a torque beyond the largest one.
         let mut monitor = monitor(m, 10.0, 0.01, 1.0).unwrap();
@@ -642,6 +658,7 @@ fn every_function_of_the_axis_is_tried() {
         "Payload::estimate",
         "Monitor::end_cycle",
         "Monitor::is_watching",
+        "Monitor::reference",
         "Monitor::usual",
         "Counter",
         "Mounting",

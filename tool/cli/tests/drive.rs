@@ -197,6 +197,15 @@ fn a_value_beyond_the_range_of_its_parameter_is_left_out_with_a_cure() {
         warnings.contains("Yaskawa Sigma-7 Pn100: 50000"),
         "{warnings}"
     );
+    assert!(remark.contains("give another --bandwidth"), "{remark}");
+    assert!(!warnings.contains("is not one of"), "{warnings}");
+    let line = format!("drive {{}} --drive {NAMED} --maker akd --format json");
+    let of_another = jred_of(&line, [&shipped("press.toml")]).json();
+    let warnings = of_another["warnings"].to_string();
+    assert!(
+        warnings.contains("is not one of Kollmorgen AKD"),
+        "{warnings}"
+    );
     assert_eq!(json["makers"].as_array().unwrap().len(), 1);
 }
 

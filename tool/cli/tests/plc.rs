@@ -121,6 +121,12 @@ fn a_cam_too_long_names_the_limit_and_the_cure() {
     assert!(!out.exists());
     let run = jred_of("gentlest {} --cam-form siemens", [&press]).ends(2);
     run.says(&["--cam <FILE>"]);
+    let of = |rows: &str| {
+        let line = format!("gentlest {{}} --steps 300 --cam-form siemens --rows {rows} --cam {{}}");
+        jred_of(&line, [&press, &out]).ends(0).out
+    };
+    assert!(of("1001").contains("or use --rows 1000"));
+    assert!(!of("1000").contains("--rows"));
 }
 
 /// The literals of the function block are the words of the image, bit for bit.
@@ -300,6 +306,12 @@ fn torque_offsets_of_a_drive_are_those_of_its_motor() {
     let disc = folder.file("disc.toml", disc(2.0));
     let line = "export {} --format cia402 --drive sgm7a-25a+tp004mf-4 --counts-per-turn 100000000 --rows 201";
     let run = jred_of(line, [&disc]).ends(0);
+    assert!(!run.err.contains("times the rated torque"), "{}", run.err);
+    let weak = jred_of(
+        "export {} --format cia402 --rated-torque '0.1 N m' --rows 201",
+        [&disc],
+    );
+    assert!(weak.err.contains("times the rated torque"), "{}", weak.err);
     let rows = offsets(&run.out);
     // A quarter of a turn, times 2, which reverses, times 4.
     assert_eq!(rows[200][1], -2e8);

@@ -9,7 +9,7 @@ use std::sync::OnceLock;
 use crate::support::numerics::{derivative, trapezoid};
 use crate::support::press::{self, Input, figures};
 use crate::support::{
-    Columns, Folder, budget, jred_of, largest, near, near_column, press_file, within,
+    Columns, Folder, budget, jred_of, largest, near, near_column, press_file, shipped, within,
 };
 use drives::{ONE_GEARBOX, ONE_MOTOR};
 use jred_file::units::RPM;
@@ -287,4 +287,31 @@ fn the_rms_needs_no_steps() {
     let errors = [16, 250, 2000, 16_000].map(|steps| (rms(&press, steps) / limit - 1.0).abs());
     println!("relative errors of the RMS: {errors:?}");
     assert!(errors.iter().all(|error| *error < budget::FINE_STEPS));
+}
+
+/// A screw's input turns although the drive link slides: F·v = η·T·ω where it drives, with 97 % of the belt and 88 % of the screw, lead 10 mm, i = 2.
+#[test]
+fn the_input_of_a_screw_is_a_torque() {
+    let run = jred_of(
+        "reduce {} --over time --positions 401 --format csv",
+        [&shipped("excavator-bucket.toml")],
+    );
+    let columns = run.ends(0).columns();
+    let [force, torque, speed, acceleration] =
+        ["F_drive [N]", "T_input [N m]", "v [m/s]", "a [m/s^2]"].map(|name| columns.get(name));
+    let per_metre = 2.0 * TAU / 0.01;
+    let mut seen = 0;
+    for k in 0..force.len() {
+        let steady = acceleration[k].abs() < 1e-2 && force[k] * speed[k] > 50.0;
+        if steady {
+            let ideal = force[k] / per_metre / (0.97 * 0.88);
+            assert!(
+                (torque[k] / ideal - 1.0).abs() < 0.01,
+                "{} {ideal}",
+                torque[k]
+            );
+            seen += 1;
+        }
+    }
+    assert!(seen > 0);
 }

@@ -67,6 +67,18 @@ impl CamForm {
         }
     }
 
+    /// The rows that it takes as it is delivered, and what takes more.
+    pub const fn usual(self) -> Option<(usize, &'static str)> {
+        match self {
+            Self::Siemens => Some((1000, "a TO_Cam takes 1000 points, and a TO_Cam_10k these")),
+            Self::Sew => Some((
+                1024,
+                "MOVI-C takes 1024 points, and these with a larger gc_uMaxNumberOfInterpPoints",
+            )),
+            _ => None,
+        }
+    }
+
     /// Whether its rows have the derivatives.
     pub const fn has_derivatives(self) -> bool {
         matches!(self, Self::Csv | Self::Codesys | Self::Twincat)

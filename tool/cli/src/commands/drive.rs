@@ -55,6 +55,7 @@ pub(super) fn run(options: &Drive) -> Result<Completion> {
     let shown = DriveView {
         title: &file.title,
         drive: &candidate.drive.name(),
+        amplifier: candidate.drive.amplifier,
         holds,
         settings: &settings,
         makers: &makers,

@@ -244,6 +244,7 @@ fn contents(
         OutputForm::St | OutputForm::Plcopen => {
             let name = name.cloned();
             let name = name.unwrap_or_else(|| Name::for_plc_of_file(&file(), &BLOCK_NAMES));
+            terminal::say(&format!("the block is {}", name.as_str()));
             let about = list::export::about_plc(export);
             let text = if format == OutputForm::St {
                 export.structured_text(&name, &about)

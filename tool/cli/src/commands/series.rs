@@ -37,7 +37,12 @@ pub(super) fn write(
         let name = path.file_name().unwrap_or_default().to_string_lossy();
         let text = cam.text(options.cam_form, &name)?;
         files.add(path, text.as_bytes())?;
-        written.push(format!("cam table written to {}", plain::path(path)));
+        let usual = options.cam_form.usual();
+        let more = usual.filter(|(most, _)| cam.rows.len() > *most);
+        let more = more.map_or_else(String::new, |(most, words)| {
+            format!("; {words}: or use --rows {most}")
+        });
+        written.push(format!("cam table written to {}{more}", plain::path(path)));
     }
     Ok(written)
 }

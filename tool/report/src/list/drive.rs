@@ -11,6 +11,7 @@ use jred_file::number::rounding::{down, rounded, significant};
 use jred_file::plain;
 use jred_file::problem;
 use jred_file::text::problem::Result;
+use jred_sizing::catalogue::Amplifier;
 use jred_sizing::cell::Cell;
 use jred_sizing::settings::{Figure, Setting, Settings};
 
@@ -93,6 +94,8 @@ pub struct DriveView<'a> {
     pub title: &'a str,
     /// Name of the drive.
     pub drive: &'a str,
+    /// Its amplifier.
+    pub amplifier: Option<&'a Amplifier>,
     /// Whether it satisfies its rules.
     pub holds: bool,
     /// Its figures.
@@ -198,8 +201,21 @@ impl Parameter {
         self.beyond = self.value != value;
         self.remark = match value {
             Some(value) if self.beyond => format!(
-                "{value} is beyond the range {}: choose another motor or gear ratio, or set the nearest value and check the motion",
-                self.range
+                "{value} is beyond the range {}: {}, or set the nearest value and check the motion",
+                self.range,
+                if matches!(
+                    self.setting,
+                    Some(
+                        Setting::Bandwidth
+                            | Setting::SpeedGain
+                            | Setting::IntegralTime
+                            | Setting::PositionGain
+                    )
+                ) {
+                    "give another --bandwidth"
+                } else {
+                    "choose another motor or gear ratio"
+                }
             ),
             _ => if without_base { of_base } else { remark }.to_owned(),
         };
@@ -258,6 +274,15 @@ impl DriveView<'_> {
                 "the cycle takes {} N m, more than the torque limit, {} N m: choose a stronger drive, or a slower motion",
                 significant(peak, DIGITS),
                 significant(limit, DIGITS)
+            ));
+        }
+        if let (Some(amplifier), [maker]) = (self.amplifier, makers)
+            && maker.key != "cia402"
+            && !maker.name.starts_with(amplifier.maker.as_str())
+        {
+            warnings.push(format!(
+                "the amplifier {} is not one of {}: check that one of its amplifiers drives this motor with its encoder",
+                amplifier.key, maker.name
             ));
         }
         let rotor = get(Setting::RotorInertia);

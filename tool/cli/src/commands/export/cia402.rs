@@ -12,10 +12,14 @@ use jred_export::{ShaftInstant, TorqueOffsets};
 use jred_file::argument::Argument;
 use jred_file::model::coordinate::Coordinate;
 use jred_file::model::machine::MachineFile;
+use jred_file::number::rounding::short;
 use jred_file::plain;
 use jred_file::text::key::EFFORT;
 use jred_sizing::catalogue::Drive;
 use jred_sizing::study::chosen::ChosenDrive;
+
+/// More than these times the rated torque is beyond most drives.
+const USUAL: f64 = 5.0;
 
 /// Writes or prints the table.
 ///
@@ -84,6 +88,15 @@ pub(super) fn run(options: &Export, file: &MachineFile) -> Result<Completion> {
     let text = table.csv()?;
     let fastest = course.iter().map(|instant| instant.omega.abs());
     warn(file, [fastest.fold(0.0, f64::max), 0.0])?;
+    let peak = table.instants.iter().map(|instant| instant.torque.abs());
+    let times = peak.fold(0.0, f64::max) / rated;
+    if times > USUAL {
+        terminal::warn(&format!(
+            "the largest torque is {} times the rated torque, and object 0x6072 usually allows 3 to 5 times: is the rated torque that of this motor, \
+             and the torque that at its shaft? --drive MOTOR+GEARBOX takes both from the catalogue",
+            short(times)
+        ));
+    }
     let Some(out) = &options.out else {
         return print(&text);
     };
