@@ -306,12 +306,20 @@ fn torque_offsets_of_a_drive_are_those_of_its_motor() {
     let disc = folder.file("disc.toml", disc(2.0));
     let line = "export {} --format cia402 --drive sgm7a-25a+tp004mf-4 --counts-per-turn 100000000 --rows 201";
     let run = jred_of(line, [&disc]).ends(0);
-    assert!(!run.err.contains("times the rated torque"), "{}", run.err);
+    assert!(
+        run.err.contains("times the rated torque") && run.err.contains("`jred size` shows"),
+        "{}",
+        run.err
+    );
     let weak = jred_of(
         "export {} --format cia402 --rated-torque '0.1 N m' --rows 201",
         [&disc],
     );
-    assert!(weak.err.contains("times the rated torque"), "{}", weak.err);
+    assert!(
+        weak.err.contains("times the rated torque") && weak.err.contains("--drive MOTOR"),
+        "{}",
+        weak.err
+    );
     let rows = offsets(&run.out);
     // A quarter of a turn, times 2, which reverses, times 4.
     assert_eq!(rows[200][1], -2e8);

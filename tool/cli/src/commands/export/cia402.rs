@@ -91,9 +91,14 @@ pub(super) fn run(options: &Export, file: &MachineFile) -> Result<Completion> {
     let peak = table.instants.iter().map(|instant| instant.torque.abs());
     let times = peak.fold(0.0, f64::max) / rated;
     if times > USUAL {
+        let cure = match drive {
+            Some(_) => "`jred size` shows which rules this drive violates",
+            None => {
+                "is the rated torque that of this motor, and the torque that at its shaft? --drive MOTOR+GEARBOX takes both from the catalogue"
+            }
+        };
         terminal::warn(&format!(
-            "the largest torque is {} times the rated torque, and object 0x6072 usually allows 3 to 5 times: is the rated torque that of this motor, \
-             and the torque that at its shaft? --drive MOTOR+GEARBOX takes both from the catalogue",
+            "the largest torque is {} times the rated torque, and object 0x6072 usually allows 3 to 5 times: {cure}",
             short(times)
         ));
     }
