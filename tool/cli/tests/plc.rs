@@ -312,7 +312,7 @@ fn torque_offsets_of_a_drive_are_those_of_its_motor() {
         run.err
     );
     let weak = jred_of(
-        "export {} --format cia402 --rated-torque '1 N m' --rows 201",
+        "export {} --format cia402 --rated-torque '30 N m' --rows 201",
         [&disc],
     );
     assert!(
