@@ -57,6 +57,10 @@ pub(super) fn run(options: &Drive) -> Result<Completion> {
         drive: &candidate.drive.name(),
         holds,
         settings: &settings,
+        amplifier: candidate
+            .drive
+            .amplifier
+            .map(|a| [a.key.as_str(), a.maker.as_str()]),
         makers: &makers,
     };
     let page = || Ok(page::drive_page(&file, &shown));
