@@ -244,6 +244,30 @@ fn disc(inertia: f64) -> String {
     )
 }
 
+/// The disc takes 10/√3·s/t²·J/i at most: 1.134 N m with s = π/2, t = 0.2 s, J = 0.01 kg m² and i = 2.
+#[test]
+fn a_torque_that_no_drive_takes_is_said() {
+    let folder = Folder::new();
+    let [light, heavy] = [("light.toml", 0.01), ("heavy.toml", 0.5)]
+        .map(|(name, inertia)| folder.file(name, disc(inertia)));
+    let run = |file, more: &str| {
+        let line = format!("export {{}} --format cia402 --rows 201 {more}");
+        jred_of(&line, [file]).ends(0).message()
+    };
+    let message = run(&light, "--rated-torque '0.1 N m'");
+    for words in ["11336 per mille", "5000 (0x6072)", "--drive MOTOR+GEARBOX"] {
+        assert!(message.contains(words), "{message}");
+    }
+    assert!(!run(&light, "--rated-torque '0.25 N m'").contains("per mille"));
+    // Directly coupled the motor has at most 23.9 N m.
+    let message = run(&heavy, "--drive sgm7a-25a");
+    assert!(
+        message.contains("above the peak torque of motor and amplifier, 23.9 N m"),
+        "{message}"
+    );
+    assert!(!run(&heavy, "--drive sgm7a-25a+tp004mf-4").contains("above"));
+}
+
 /// Time, counts and per mille of a table for a drive.
 fn offsets(text: &str) -> Vec<Vec<f64>> {
     let rows = text.lines().filter(|line| !line.starts_with(['#', 't']));

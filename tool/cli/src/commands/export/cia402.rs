@@ -15,6 +15,7 @@ use jred_file::model::machine::MachineFile;
 use jred_file::plain;
 use jred_file::text::key::EFFORT;
 use jred_sizing::catalogue::Drive;
+use jred_sizing::motor::envelope::Envelope;
 use jred_sizing::study::chosen::ChosenDrive;
 
 /// Writes or prints the table.
@@ -71,10 +72,11 @@ pub(super) fn run(options: &Export, file: &MachineFile) -> Result<Completion> {
             None => instant.input_torque + rotor * instant.input_alpha,
         },
     });
+    let instants: Vec<ShaftInstant> = instants.collect();
     let name = drive.as_ref().map(Drive::name);
     let table = TorqueOffsets {
         title: &file.title,
-        instants: &instants.collect::<Vec<_>>(),
+        instants: &instants,
         rated,
         counts_per_turn: options.counts_per_turn,
         rotor,
@@ -82,6 +84,13 @@ pub(super) fn run(options: &Export, file: &MachineFile) -> Result<Completion> {
         unit: coordinate.effort_unit(),
     };
     let text = table.csv()?;
+    let peak = drive.as_ref().map(|drive| {
+        let envelope = Envelope::at(drive.motor, drive.amplifier, &file.site);
+        envelope.peak_torque(1.0, 0.0)
+    });
+    if let Some(warning) = table.excess(peak.filter(|peak| peak.is_finite())) {
+        terminal::warn(&warning);
+    }
     let fastest = course.iter().map(|instant| instant.omega.abs());
     warn(file, [fastest.fold(0.0, f64::max), 0.0])?;
     let Some(out) = &options.out else {
