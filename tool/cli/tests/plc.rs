@@ -119,8 +119,52 @@ fn a_cam_too_long_names_the_limit_and_the_cure() {
         "use --rows 10000",
     ]);
     assert!(!out.exists());
+    // As delivered they take fewer; the default fits.
+    for (form, more, limit) in [
+        ("siemens", 1000, "use a TO_Cam_10k"),
+        ("sew", 1024, "raise gc_u"),
+    ] {
+        let line = format!("gentlest {{}} --steps 300 --cam-form {form} --cam {{}}");
+        let run = jred_of(&line, [&press, &out]).ends(0);
+        assert!(!run.message().contains("as delivered"), "{}", run.message());
+        let rows = more + 1;
+        let run = jred_of(&format!("{line} --rows {rows}"), [&press, &out]).ends(0);
+        let fault = format!("the cam has {rows} rows; the form {form} takes {more} as delivered");
+        run.says(&[&fault, limit, &format!("or use --rows {more}")]);
+    }
     let run = jred_of("gentlest {} --cam-form siemens", [&press]).ends(2);
     run.says(&["--cam <FILE>"]);
+}
+
+/// A name that is not that of the file is said, of a block, of a table in C and of a cam.
+#[test]
+fn a_name_that_is_not_that_of_the_file_is_said() {
+    let folder = Folder::new();
+    let press = folder.file("press.toml", press_text());
+    let changed = "the name in it is";
+    let block = "export {} --torque-error '2 N m' --format";
+    let cam = "gentlest {} --steps 300 --cam-form codesys --cam {}";
+    for (line, file, name) in [
+        (
+            format!("{block} st --out {{}}"),
+            "1-press.st",
+            Some("machine_1_press"),
+        ),
+        (format!("{block} c --out {{}}"), "Größe.h", Some("Groesse")),
+        (
+            format!("{block} st --name other --out {{}}"),
+            "1-press.st",
+            None,
+        ),
+        (format!("{block} st --out {{}}"), "press.st", None),
+        (cam.to_owned(), "Größe.st", Some("Groesse")),
+        (cam.replace("codesys", "csv"), "Größe.csv", None),
+    ] {
+        let run = jred_of(&line, [&press, &folder.path(file)]).ends(0);
+        let said = name.map(|name| format!("{changed} {name}"));
+        assert_eq!(run.out.contains(changed), said.is_some(), "{}", run.out);
+        assert!(run.out.contains(&said.unwrap_or_default()), "{}", run.out);
+    }
 }
 
 /// The literals of the function block are the words of the image, bit for bit.

@@ -67,6 +67,41 @@ impl CamForm {
         }
     }
 
+    /// Rows that the maker's program takes as delivered, and how to have more; none if that is no fewer than it ever takes.
+    const fn delivered(self) -> Option<(usize, &'static str)> {
+        match self {
+            Self::Siemens => Some((1_000, "use a TO_Cam_10k instead of a TO_Cam")),
+            Self::Sew => Some((1_024, "raise gc_uMaxNumberOfInterpPoints of MOVI-C")),
+            _ => None,
+        }
+    }
+
+    /// The number of rows that suits the maker's program as delivered: steps of half a degree, or finer.
+    pub const fn usual_rows(self) -> u32 {
+        if self.delivered().is_some() {
+            721
+        } else {
+            2001
+        }
+    }
+
+    /// The fault and cure of a number of rows that the maker's program takes only after a change.
+    pub fn excess(self, rows: usize) -> Option<String> {
+        let (most, cure) = self.delivered().filter(|(most, _)| rows > *most)?;
+        Some(format!(
+            "the cam has {rows} rows; the form {self} takes {most} as delivered: {cure}, or use --rows {most}"
+        ))
+    }
+
+    /// The name of the cam in a file of this name, in forms that have names.
+    pub fn name(self, file: &str) -> Option<Name> {
+        matches!(
+            self,
+            Self::Codesys | Self::Twincat | Self::Rockwell | Self::Siemens
+        )
+        .then(|| Name::for_plc_of_file(file, &NAMES))
+    }
+
     /// Whether its rows have the derivatives.
     pub const fn has_derivatives(self) -> bool {
         matches!(self, Self::Csv | Self::Codesys | Self::Twincat)
