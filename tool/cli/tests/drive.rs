@@ -67,6 +67,26 @@ fn parameters_of_a_named_drive_follow_its_data_sheet() {
     assert_eq!(value("akd", "VL.THRESH"), Some(6000.0));
     let hardware = "limit of the motor, not of the machine";
     assert_eq!(remark(&json, "speed-limit"), hardware);
+    // 7.96 N m with 15.6 A, and from there on a line to 23.9 N m with 51 A.
+    let constant = 7.96 / 15.6;
+    near(
+        "MOTOR.KT",
+        value("akd", "MOTOR.KT").unwrap(),
+        constant,
+        1e-4,
+    );
+    let computed = parameter(&json, "akd", "MOTOR.KT")["remark"].to_string();
+    assert!(
+        computed.contains("computed from other figures"),
+        "{computed}"
+    );
+    let current = 15.6 + (limit - 7.96) * (51.0 - 15.6) / (23.9 - 7.96);
+    let typed = value("akd", "IL.LIMITP").unwrap();
+    assert!(typed <= current && typed > current - 2e-3, "{typed}");
+    assert_eq!(value("akd", "PL.KP"), Some(62.832));
+    assert_eq!(value("akd", "MOTOR.INERTIA"), Some(3.19));
+    let ratio = figure(&json, "inertia-ratio").unwrap();
+    near("VL.LMJR", value("akd", "VL.LMJR").unwrap(), ratio, 2e-4);
     // A data sheet without the torque at standstill.
     let unknown = parameter(&json, "ax8000", "0x6072");
     assert_eq!(unknown["value"], Value::Null);
@@ -74,6 +94,29 @@ fn parameters_of_a_named_drive_follow_its_data_sheet() {
         unknown["remark"],
         "not given; read it from the motor's data sheet"
     );
+}
+
+/// A sheet for another maker's amplifier says so; that of its own maker, and the profile of all makers, do not.
+#[test]
+fn the_amplifier_of_another_maker_is_named() {
+    for (makers, others) in [
+        ("", Some("Beckhoff and Kollmorgen")),
+        ("--maker akd", Some("Kollmorgen")),
+        ("--maker sigma-7", None),
+        ("--maker cia402", None),
+    ] {
+        let line = format!("drive {{}} --drive {NAMED} {makers} --format json");
+        let json = jred_of(&line, [&shipped("press.toml")]).json();
+        let warnings = json["warnings"].to_string();
+        let says = "sgd7s-200a is of Yaskawa: the parameters of ";
+        let said = warnings.split_once(says).map(|(_, rest)| rest);
+        assert_eq!(said.is_some(), others.is_some(), "{makers}: {warnings}");
+        assert!(
+            said.unwrap_or_default()
+                .starts_with(others.unwrap_or_default()),
+            "{warnings}"
+        );
+    }
 }
 
 /// A ram that goes up and down needs no constant torque: none is typed in.
@@ -139,6 +182,8 @@ fn a_screw_follows_its_closed_form() {
     let gain = figure(&json, "speed-gain").unwrap() / 0.519;
     near("torque constant", akd("MOTOR.KT"), 0.519, 1e-9);
     near("A/(rad/s)", akd("VL.KP"), gain, 1e-3);
+    let weight = figure(&json, "weight-torque").unwrap() / 0.519;
+    near("IL.OFFSET", akd("IL.OFFSET"), weight, 1e-3);
 }
 
 /// ∫J·α² dt/∫α² dt of a Scotch yoke, J = J_0 + m·r²·sin²φ, integrated here over the law 3-4-5.
@@ -189,21 +234,17 @@ fn a_value_beyond_the_range_of_its_parameter_is_left_out_with_a_cure() {
     assert_eq!(gain["value"], Value::Null);
     let remark = gain["remark"].as_str().unwrap();
     assert!(
-        remark.starts_with("50000 is beyond the range 10 to 20000: "),
+        remark.starts_with("50000 is beyond the range 10 to 20000: give a lower --bandwidth"),
         "{remark}"
+    );
+    let time = parameter(&json, "sigma-7", "Pn101")["remark"].to_string();
+    assert!(
+        time.contains("13 is beyond the range 15 to 51200: give a lower"),
+        "{time}"
     );
     let warnings = json["warnings"].to_string();
     assert!(
         warnings.contains("Yaskawa Sigma-7 Pn100: 50000"),
-        "{warnings}"
-    );
-    assert!(remark.contains("give another --bandwidth"), "{remark}");
-    assert!(!warnings.contains("is not one of"), "{warnings}");
-    let line = format!("drive {{}} --drive {NAMED} --maker akd --format json");
-    let of_another = jred_of(&line, [&shipped("press.toml")]).json();
-    let warnings = of_another["warnings"].to_string();
-    assert!(
-        warnings.contains("is not one of Kollmorgen AKD"),
         "{warnings}"
     );
     assert_eq!(json["makers"].as_array().unwrap().len(), 1);

@@ -67,16 +67,39 @@ impl CamForm {
         }
     }
 
-    /// The rows that it takes as it is delivered, and what takes more.
-    pub const fn usual(self) -> Option<(usize, &'static str)> {
+    /// Rows that the maker's program takes as delivered, and how to have more; none if that is no fewer than it ever takes.
+    const fn delivered(self) -> Option<(usize, &'static str)> {
         match self {
-            Self::Siemens => Some((1000, "a TO_Cam takes 1000 points, and a TO_Cam_10k these")),
-            Self::Sew => Some((
-                1024,
-                "MOVI-C takes 1024 points, and these with a larger gc_uMaxNumberOfInterpPoints",
-            )),
+            Self::Siemens => Some((1_000, "use a TO_Cam_10k instead of a TO_Cam")),
+            Self::Sew => Some((1_024, "raise gc_uMaxNumberOfInterpPoints of MOVI-C")),
             _ => None,
         }
+    }
+
+    /// The number of rows that suits the maker's program as delivered: steps of half a degree, or finer.
+    pub const fn usual_rows(self) -> u32 {
+        if self.delivered().is_some() {
+            721
+        } else {
+            2001
+        }
+    }
+
+    /// The fault and cure of a number of rows that the maker's program takes only after a change.
+    pub fn excess(self, rows: usize) -> Option<String> {
+        let (most, cure) = self.delivered().filter(|(most, _)| rows > *most)?;
+        Some(format!(
+            "the cam has {rows} rows; the form {self} takes {most} as delivered: {cure}, or use --rows {most}"
+        ))
+    }
+
+    /// The name of the cam in a file of this name, in forms that have names.
+    pub fn name(self, file: &str) -> Option<Name> {
+        matches!(
+            self,
+            Self::Codesys | Self::Twincat | Self::Rockwell | Self::Siemens
+        )
+        .then(|| Name::for_plc_of_file(file, &NAMES))
     }
 
     /// Whether its rows have the derivatives.

@@ -43,7 +43,37 @@ pub struct TorqueOffsets<'a> {
 /// Largest magnitude of a thousandth in an INTEGER16, whose least number is not used.
 const MOST: f64 = i16::MAX as f64;
 
+/// Peak torque over rated torque that most servo motors do not exceed.
+const USUAL_PEAK: f64 = 5.0;
+
 impl TorqueOffsets<'_> {
+    fn largest(&self) -> f64 {
+        let torques = self.instants.iter().map(|i| i.torque.abs());
+        torques.fold(0.0, f64::max)
+    }
+
+    /// The fault and cure of a torque above the drive's peak torque (N·m, or N), or above a usual one if that is not known.
+    pub fn excess(&self, peak: Option<f64>) -> Option<String> {
+        let (largest, unit) = (self.largest(), self.unit);
+        let per_mille = (largest / self.rated * 1e3).round();
+        let shown = format!("the largest torque, {} {unit}, is", rounded(largest));
+        match peak {
+            Some(peak) => (largest > peak).then(|| {
+                format!(
+                    "{shown} above the peak torque of motor and amplifier, {} {unit}: take a stronger drive, or a slower motion",
+                    rounded(peak)
+                )
+            }),
+            None => (largest > USUAL_PEAK * self.rated).then(|| {
+                format!(
+                    "{shown} {per_mille} per mille of the rated torque; most drives take up to {} (0x6072): give the rated torque of the motor, and a gearbox before the machine \
+                     with --drive MOTOR+GEARBOX or in the file",
+                    USUAL_PEAK * 1e3
+                )
+            }),
+        }
+    }
+
     /// The table as CSV, with base and frame in comments.
     ///
     /// # Errors
@@ -61,11 +91,7 @@ impl TorqueOffsets<'_> {
         }
         // The drive knows the rated torque in whole thousandths of a newton metre only.
         let rated = base * 1e-3;
-        let largest = self
-            .instants
-            .iter()
-            .map(|i| i.torque.abs())
-            .fold(0.0, f64::max);
+        let largest = self.largest();
         let frame = match self.drive {
             Some(drive) => format!("the motor of {drive}, with its gearbox and friction"),
             None => "the input of the machine file's drive train, or the drive link without one; a gearbox that is not in the file is not in the figures".to_owned(),

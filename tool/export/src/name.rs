@@ -62,8 +62,8 @@ impl Name {
         Self(plc_word(&Self::of_file(file).0, names))
     }
 
-    /// The name of a file without its extension. Characters other than letters and digits become underscores; letters outside ASCII become their
-    /// Unicode numbers, so that two names differ.
+    /// The name of a file without its extension. Characters other than letters and digits become underscores; an accent is left out, and letters outside
+    /// the Latin alphabet become their Unicode numbers, so that two names differ.
     pub fn of_file(file: &str) -> Self {
         let stem = Path::new(file).file_stem().unwrap_or_default();
         Self(word(&stem.to_string_lossy()))
@@ -88,6 +88,13 @@ impl Name {
             return Ok(Self(text.to_owned()));
         };
         Err((why.to_owned(), Self(valid)))
+    }
+
+    /// The end of a sentence about a file that has the name, if that is not the file's own.
+    pub fn changed(&self, file: &str) -> Option<String> {
+        let own = Path::new(file).file_stem().unwrap_or_default();
+        let own = own.to_string_lossy();
+        (own != self.0.as_str()).then(|| format!("; the name in it is {}", self.0))
     }
 
     /// The name as text.
@@ -116,12 +123,51 @@ fn plc_word(text: &str, names: &PlcNames) -> String {
     name
 }
 
+/// Letters without their accents, or as they are written without them.
+const LATIN: [(&str, &str); 21] = [
+    ("äæ", "ae"),
+    ("öøœ", "oe"),
+    ("ü", "ue"),
+    ("ß", "ss"),
+    ("å", "aa"),
+    ("àáâãăą", "a"),
+    ("çćč", "c"),
+    ("ďđ", "d"),
+    ("èéêëęě", "e"),
+    ("ğ", "g"),
+    ("ìíîïı", "i"),
+    ("ł", "l"),
+    ("ñńň", "n"),
+    ("òóôõő", "o"),
+    ("ŕř", "r"),
+    ("śšşș", "s"),
+    ("ţťț", "t"),
+    ("ùúûůű", "u"),
+    ("ýÿ", "y"),
+    ("źżž", "z"),
+    ("þ", "th"),
+];
+
+/// A Latin letter with an accent in ASCII, if it is one.
+fn latin(c: char) -> Option<String> {
+    let small = c.to_lowercase().next()?;
+    let (_, plain) = LATIN.iter().find(|(letters, _)| letters.contains(small))?;
+    let (first, rest) = plain.split_at(1);
+    Some(if c.is_uppercase() {
+        first.to_uppercase() + rest
+    } else {
+        (*plain).to_owned()
+    })
+}
+
 /// The nearest valid name.
 fn word(text: &str) -> String {
     let mut name = String::new();
     for c in text.chars() {
         if c.is_ascii_alphanumeric() {
             name.push(c);
+        } else if let Some(latin) = latin(c) {
+            name.push_str(&latin);
         } else if c.is_alphanumeric() {
             let _ = write!(name, "u{:x}", u32::from(c));
         } else {
@@ -147,6 +193,8 @@ mod tests {
             ("3 axis.toml", "machine_3_axis"),
             ("<stdin>", "machine__stdin_"),
             ("", "machine_"),
+            ("Größe.st", "Groesse"),
+            ("Übersetzung-écart", "Uebersetzung_ecart"),
             // Of equal length, but different: 冲 is U+51B2, 床 U+5E8A, 压 U+538B, 机 U+673A.
             ("\u{51b2}\u{5e8a}.h", "u51b2u5e8a"),
             ("\u{538b}\u{673a}.h", "u538bu673a"),
@@ -166,7 +214,7 @@ mod tests {
             ("", "machine_"),
             ("1st", "machine_1st"),
             ("_press", "machine__press"),
-            ("pr\u{e9}s", "prue9s"),
+            ("pr\u{e9}s", "pres"),
             ("\u{51b2}", "u51b2"),
             ("type", "type_table"),
             ("Self", "Self_table"),

@@ -43,6 +43,9 @@ pub struct Trace {
     nodes: Vec<Node>,
 }
 
+/// Share of the largest speed that counts as rest, and of the largest acceleration that is no jump: searches end with less.
+const NONE: f64 = 1e-3;
+
 impl Trace {
     /// A motion that starts at rest at a position, at t = 0.
     pub fn from_rest(coordinate: Coordinate, phi: f64) -> Self {
@@ -167,6 +170,22 @@ impl Trace {
             },
             _ => State::default(),
         }
+    }
+
+    /// The node where the acceleration jumps most, and by how much (rad/s², or m/s²); none if it is continuous. A motion that begins in motion goes on
+    /// from its end.
+    pub fn largest_jump(&self) -> Option<(&Node, f64)> {
+        let largest = |of: &dyn Fn(&Node) -> f64| self.nodes.iter().map(of).fold(0.0, f64::max);
+        let speed = largest(&|node| node.omega.abs());
+        let alpha = largest(&|node| node.alpha[0].abs().max(node.alpha[1].abs()));
+        let ends = [self.nodes.first()?, self.nodes.last()?];
+        let is_end = |node| ends.into_iter().any(|end| std::ptr::eq(end, node));
+        let goes_on = |node: &Node| is_end(node) && node.omega.abs() > NONE * speed;
+        let nodes = self.nodes.iter().filter(|node| !goes_on(node));
+        nodes
+            .map(|node| (node, (node.alpha[1] - node.alpha[0]).abs()))
+            .filter(|(_, jump)| *jump > NONE * alpha)
+            .max_by(|a, b| a.1.total_cmp(&b.1))
     }
 
     /// Travel (rad, or m) between the nodes around a time, at the end between the last two. Its sign is the direction, 0 at rest.

@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::catalogue::Drive;
 use crate::judge::Context;
+use crate::motor::winding::CurrentCurve;
 use jred_analysis::duty::{Duty, Instant};
 use jred_file::model::coordinate::Coordinate;
 use jred_file::model::machine::MachineFile;
@@ -43,6 +44,8 @@ const COUNTS_PER_TURN: &str = "give --counts-per-turn";
 const TURNS: &str = "the drive link slides, or no fraction up to 10000 is exact: then count the teeth of the stages";
 const BANDWIDTH: &str = "give --bandwidth";
 const WEIGHT: &str = "left out; it changes its sign, so that a constant torque would harm as much as help; `jred export --format cia402` has the whole torque";
+const TORQUE_CONSTANT: &str =
+    "computed from other figures of the motor; that of the data sheet may be up to a fifth larger";
 const BRAKE: &str = "read it from the motor's data sheet, if the motor has a brake";
 const RESISTOR: &str = "read it from the amplifier's manual, if it has a brake resistor";
 
@@ -89,6 +92,7 @@ settings! {
     context, duty, file, choices, limit: {
         let Drive { motor, gearbox, .. } = context.drive;
         let (winding, brake, rotor) = (&motor.winding, motor.brake.as_ref(), context.drive.rotor());
+        let curve = CurrentCurve::of(motor);
         let inertias = duty.figures(|i| i.input_inertia);
         let best = mean(duty, |i| i.input_inertia, |i| i.input_alpha.powi(2)).unwrap_or(inertias.mean);
         let [load, least, largest] = [best, inertias.min, inertias.max].map(|inertia| {
@@ -124,7 +128,9 @@ settings! {
     RatedCurrent "rated current of the motor" ["A RMS"] or NAME_PLATE = winding.rated_current;
     StandstillCurrent "current at standstill" ["A RMS"] or DATA_SHEET = winding.standstill_current;
     PeakCurrent "peak current of the motor" ["A RMS"] or DATA_SHEET = winding.peak_current;
-    TorqueConstant "torque constant" ["N m/A RMS"] or DATA_SHEET = winding.torque_constant;
+    TorqueConstant "torque constant" ["N m/A RMS"] or DATA_SHEET = curve.map(|curve| curve.torque_constant());
+    /// with the saturation of the iron
+    CurrentLimit "current at the torque limit" ["A RMS"] or DATA_SHEET = curve.map(|curve| curve.current(limit));
     SpeedLimit "speed limit of motor and gearbox" ["rad/s" RPM] or DATA_SHEETS = speed_limit(context).0;
     CyclePeakSpeed "largest speed of the cycle" ["rad/s" RPM] = Some(cycle.speed.peak());
     CountsPerTurn "encoder counts in a turn of the motor" ["counts"] or ENCODER = choices.counts_per_turn;
@@ -163,7 +169,12 @@ impl Settings {
             figure.remark = match (figure.setting, figure.value) {
                 (Setting::WeightTorque, None) => WEIGHT.to_owned(),
                 (_, None) => continue,
-                (Setting::TorqueLimit, _) => limited_by.clone(),
+                (Setting::TorqueLimit | Setting::CurrentLimit, _) => limited_by.clone(),
+                (Setting::TorqueConstant, _)
+                    if context.drive.motor.winding.torque_constant.is_none() =>
+                {
+                    TORQUE_CONSTANT.to_owned()
+                }
                 (Setting::SpeedLimit, _) => speed_limit(context).1.to_owned(),
                 _ => String::new(),
             };

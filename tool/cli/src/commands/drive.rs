@@ -55,9 +55,12 @@ pub(super) fn run(options: &Drive) -> Result<Completion> {
     let shown = DriveView {
         title: &file.title,
         drive: &candidate.drive.name(),
-        amplifier: candidate.drive.amplifier,
         holds,
         settings: &settings,
+        amplifier: candidate
+            .drive
+            .amplifier
+            .map(|a| [a.key.as_str(), a.maker.as_str()]),
         makers: &makers,
     };
     let page = || Ok(page::drive_page(&file, &shown));

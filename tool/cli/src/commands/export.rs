@@ -2,8 +2,6 @@
 
 mod cia402;
 
-use std::path::Path;
-
 use miette::{Result, miette};
 
 use crate::busy;
@@ -211,12 +209,22 @@ pub(super) fn run(options: &options::export::Export) -> Result<Completion> {
         }
         Err(Failure::Machine(error)) => return Err(core_report(error)),
     };
+    let mut says = "nothing written: use --out to write a file".to_owned();
     if let Some(out) = &options.out {
-        let bytes = contents(options.format, &export, name.as_ref(), out)?;
+        let file = out.file_name().unwrap_or_default().to_string_lossy();
+        let own = name_of_file(options.format, &file);
+        let bytes = contents(options.format, &export, name.as_ref().or(own.as_ref()))?;
         output::write(out, &bytes)?;
+        let changed = own.filter(|_| name.is_none());
+        let changed = changed.and_then(|name| name.changed(&file));
+        says = format!(
+            "written to {}{}",
+            plain::path(out),
+            changed.unwrap_or_default()
+        );
     }
     warn(&file, [omega, 0.0])?;
-    let done = show(options, &export)?;
+    let done = show(options, &export, says)?;
     Ok(if options.prove && !proof_holds(&export) {
         Completion::Violated
     } else {
@@ -224,42 +232,39 @@ pub(super) fn run(options: &options::export::Export) -> Result<Completion> {
     })
 }
 
-/// The contents of the file `out`. Without a name, the names of C and of a PLC begin with the name of the file.
-fn contents(
-    format: OutputForm,
-    export: &Export,
-    name: Option<&Name>,
-    out: &Path,
-) -> Result<Vec<u8>> {
+/// The name of the table in a file of this name, in C and in a PLC.
+fn name_of_file(format: OutputForm, file: &str) -> Option<Name> {
+    match format {
+        OutputForm::St | OutputForm::Plcopen => Some(Name::for_plc_of_file(file, &BLOCK_NAMES)),
+        OutputForm::C => Some(Name::of_file(file)),
+        _ => None,
+    }
+}
+
+/// The contents of a file.
+fn contents(format: OutputForm, export: &Export, name: Option<&Name>) -> Result<Vec<u8>> {
     let commented = |code: &str| list::export::commented(export, code).into_bytes();
-    let file = || out.file_name().unwrap_or_default().to_string_lossy();
     let one_table = || {
         miette!(
             help = "use --format rust, c or json",
             "one image cannot hold the tables of several pieces"
         )
     };
-    Ok(match format {
-        OutputForm::Image => export.image().ok_or_else(one_table)?,
-        OutputForm::St | OutputForm::Plcopen => {
-            let name = name.cloned();
-            let name = name.unwrap_or_else(|| Name::for_plc_of_file(&file(), &BLOCK_NAMES));
-            terminal::say(&format!("the block is {}", name.as_str()));
-            let about = list::export::about_plc(export);
-            let text = if format == OutputForm::St {
-                export.structured_text(&name, &about)
-            } else {
-                export.plcopen(&name, &about, &output::today())
-            };
+    let about = || list::export::about_plc(export);
+    Ok(match (format, name) {
+        (OutputForm::Image, _) => export.image().ok_or_else(one_table)?,
+        (OutputForm::St, Some(name)) => {
+            let text = export.structured_text(name, &about());
             text.ok_or_else(one_table)?.into_bytes()
         }
-        OutputForm::Rust => commented(&export.rust_source(name)),
-        OutputForm::C => {
-            let name = name.cloned().unwrap_or_else(|| Name::of_file(&file()));
-            commented(&export.c_source(&name))
+        (OutputForm::Plcopen, Some(name)) => {
+            let text = export.plcopen(name, &about(), &output::today());
+            text.ok_or_else(one_table)?.into_bytes()
         }
-        // `cia402` has no table, and writes its file itself.
-        OutputForm::Json | OutputForm::Cia402 => {
+        (OutputForm::Rust, _) => commented(&export.rust_source(name)),
+        (OutputForm::C, Some(name)) => commented(&export.c_source(name)),
+        // `cia402` has no table, and writes its file itself; C and a PLC always have a name.
+        _ => {
             let answer = list::export::answer(export);
             let parts = answer.write(Format::Json, Screen::default());
             parts.collect::<String>().into_bytes()
@@ -267,17 +272,14 @@ fn contents(
     })
 }
 
-/// Prints the table and the path of its file.
-fn show(options: &options::export::Export, export: &Export) -> Result<Completion> {
+/// Prints the table, and what was written.
+fn show(options: &options::export::Export, export: &Export, written: String) -> Result<Completion> {
     let mut answer = list::export::answer(export);
     let format = match (&options.out, options.format) {
         (None, OutputForm::Json) => Format::Json,
         _ => Format::Table,
     };
-    answer.sentence(match &options.out {
-        None => "nothing written: use --out to write a file".to_owned(),
-        Some(out) => format!("written to {}", plain::path(out)),
-    });
+    answer.sentence(written);
     print_answer(&answer, format)
 }
 

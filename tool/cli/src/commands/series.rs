@@ -5,6 +5,7 @@ use miette::Result;
 use crate::commands::profile_written;
 use crate::options::series::SeriesFiles;
 use crate::output::Files;
+use crate::terminal;
 use jred_export::Cam;
 use jred_file::model::machine::MachineFile;
 use jred_file::plain;
@@ -27,22 +28,24 @@ pub(super) fn write(
     }
     if let Some(path) = &options.cam {
         let coordinate = trace.coordinate;
+        let form = options.cam_form;
+        let rows = options.rows.unwrap_or(form.usual_rows()) as usize;
         let cam = Cam {
             title: &file.title,
-            rows: &trace.cam(options.rows as usize, options.master),
+            rows: &trace.cam(rows, options.master),
             master: options.master.word(),
             position: [coordinate.pick("phi", "s"), coordinate.unit()],
             turn: coordinate.pick(Some(coordinate.shown(std::f64::consts::TAU)), None),
         };
         let name = path.file_name().unwrap_or_default().to_string_lossy();
-        let text = cam.text(options.cam_form, &name)?;
+        let text = cam.text(form, &name)?;
+        if let Some(warning) = form.excess(rows) {
+            terminal::warn(&warning);
+        }
+        let named = form.name(&name).and_then(|cam| cam.changed(&name));
+        let named = named.unwrap_or_default();
         files.add(path, text.as_bytes())?;
-        let usual = options.cam_form.usual();
-        let more = usual.filter(|(most, _)| cam.rows.len() > *most);
-        let more = more.map_or_else(String::new, |(most, words)| {
-            format!("; {words}: or use --rows {most}")
-        });
-        written.push(format!("cam table written to {}{more}", plain::path(path)));
+        written.push(format!("cam table written to {}{named}", plain::path(path)));
     }
     Ok(written)
 }

@@ -86,7 +86,8 @@ pub struct Export {
     /// not given, the torque is that of the input of the machine.
     #[arg(long, value_name = "MOTOR+GEARBOX", conflicts_with = "rotor_inertia")]
     pub drive: Option<String>,
-    /// For --format cia402: increments of object 0x6064 in a turn of the shaft that the torque is of, for a column of positions.
+    /// For --format cia402: increments of object 0x6064 in a turn of the shaft that has the torque, for a column of positions: the motor with --drive,
+    /// else the input of the machine.
     #[arg(long, value_name = "COUNTS", value_parser = clap::value_parser!(u32).range(1..))]
     pub counts_per_turn: Option<u32>,
     /// For --format cia402: number of rows, at equal times over the motion; 1001 if not given.

@@ -21,9 +21,9 @@ pub struct SeriesFiles {
     /// Form of the cam table; names in it are that of the file.
     #[arg(long, value_name = "FORM", requires = "cam", value_parser = word::<CamForm>(), default_value_t)]
     pub cam_form: CamForm,
-    /// Number of rows of the cam table.
-    #[arg(long, default_value_t = 2001, value_parser = clap::value_parser!(u32).range(5..=1_000_000))]
-    pub rows: u32,
+    /// Number of rows of the cam table; if not given 2001, or 721 with --cam-form sew or siemens, which take fewer as delivered.
+    #[arg(long, value_parser = clap::value_parser!(u32).range(5..=1_000_000))]
+    pub rows: Option<u32>,
     /// Unit of the cam table's master, which makes one turn during the motion; the derivatives are with respect to it.
     #[arg(long, value_name = "UNIT", value_parser = word::<Master>(), default_value_t)]
     pub master: Master,

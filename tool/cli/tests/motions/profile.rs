@@ -3,7 +3,7 @@
 use serde_json::Value;
 
 use super::{PRESS_DRIVE, run};
-use crate::support::{Folder, edited, press_text, typed};
+use crate::support::{Folder, edited, jred_of, near, press_text, shipped, typed};
 
 /// The press with a rest of 1.5 s after each stroke.
 fn rested() -> String {
@@ -284,4 +284,29 @@ fn a_torque_without_a_speed() {
     run(&plain)
         .ends(2)
         .says(&["nothing limits the speed", "--max-speed", "--motor-speed"]);
+}
+
+/// The jump that the listing names is the largest one of the profile: from and to rest, or between two rows of one time. Ramps have none.
+#[test]
+fn a_jump_of_the_acceleration_is_said() {
+    let press = shipped("press.toml");
+    let line = "gentlest {} --steps 200";
+    let says = jred_of(line, [&press]).out;
+    let profile = jred_of(&format!("{line} --format csv"), [&press]).out;
+    let number = |cell: &str| cell.parse::<f64>().unwrap();
+    let rows = profile.lines().skip(1);
+    let rows: Vec<Vec<f64>> = rows
+        .map(|row| row.split(',').map(number).collect())
+        .collect();
+    let ends = [&rows[0], &rows[rows.len() - 1]].map(|row| row[3].abs());
+    let inner = rows.windows(2).filter(|two| two[0][0] >= two[1][0]);
+    let inner = inner.map(|two| (two[1][3] - two[0][3]).abs());
+    let largest = inner.chain(ends).fold(0.0, f64::max);
+    assert!(largest > 100.0, "{largest}");
+    let (_, said) = says.split_once("the acceleration jumps").expect(&says);
+    let (_, said) = said.split_once(" by ").unwrap();
+    let said = number(said.split_once(" rad/s^2").unwrap().0);
+    near("jump", said, largest, 1e-3);
+    let says = jred_of(&format!("{line} --ends zero"), [&press]).out;
+    assert!(!says.contains("jumps"), "{says}");
 }

@@ -11,7 +11,6 @@ use jred_file::number::rounding::{down, rounded, significant};
 use jred_file::plain;
 use jred_file::problem;
 use jred_file::text::problem::Result;
-use jred_sizing::catalogue::Amplifier;
 use jred_sizing::cell::Cell;
 use jred_sizing::settings::{Figure, Setting, Settings};
 
@@ -39,6 +38,9 @@ pub struct Maker {
     key: String,
     /// Name of the maker or profile.
     name: String,
+    /// The maker as catalogues name it; none for a profile of many makers.
+    #[serde(skip_serializing)]
+    amplifiers: Option<String>,
     /// Source of names, units and ranges.
     source: String,
     /// The parameters.
@@ -94,12 +96,12 @@ pub struct DriveView<'a> {
     pub title: &'a str,
     /// Name of the drive.
     pub drive: &'a str,
-    /// Its amplifier.
-    pub amplifier: Option<&'a Amplifier>,
     /// Whether it satisfies its rules.
     pub holds: bool,
     /// Its figures.
     pub settings: &'a Settings,
+    /// Name and maker of its amplifier.
+    pub amplifier: Option<[&'a str; 2]>,
     /// The makers to write for.
     pub makers: &'a [Maker],
 }
@@ -189,7 +191,12 @@ impl Parameter {
         let [(value, remark), (base, of_base)] = [of(self.setting), of(self.base)];
         let is_limit = matches!(
             self.setting,
-            Some(Setting::TorqueLimit | Setting::PeakCurrent | Setting::SpeedLimit)
+            Some(
+                Setting::TorqueLimit
+                    | Setting::PeakCurrent
+                    | Setting::CurrentLimit
+                    | Setting::SpeedLimit
+            )
         );
         let without_base = base.is_nan() && !value.is_nan();
         let base = self.base_of(base, is_limit, parameters);
@@ -200,25 +207,29 @@ impl Parameter {
         self.value = value.filter(|value| (least..=largest).contains(value));
         self.beyond = self.value != value;
         self.remark = match value {
-            Some(value) if self.beyond => format!(
-                "{value} is beyond the range {}: {}, or set the nearest value and check the motion",
-                self.range,
-                if matches!(
-                    self.setting,
-                    Some(
-                        Setting::Bandwidth
-                            | Setting::SpeedGain
-                            | Setting::IntegralTime
-                            | Setting::PositionGain
-                    )
-                ) {
-                    "give another --bandwidth"
-                } else {
-                    "choose another motor or gear ratio"
-                }
-            ),
+            Some(value) if self.beyond => {
+                let cure = match self.setting {
+                    Some(Setting::Bandwidth | Setting::SpeedGain | Setting::PositionGain) => {
+                        bandwidth(value > largest)
+                    }
+                    Some(Setting::IntegralTime) => bandwidth(value < least),
+                    _ => {
+                        "choose another motor or gear ratio, or set the nearest value and check the motion"
+                    }
+                };
+                format!("{value} is beyond the range {}: {cure}", self.range)
+            }
             _ => if without_base { of_base } else { remark }.to_owned(),
         };
+    }
+}
+
+/// The cure of a value that follows from too high a bandwidth, or too low a one.
+const fn bandwidth(is_high: bool) -> &'static str {
+    if is_high {
+        "give a lower --bandwidth"
+    } else {
+        "give a higher --bandwidth"
     }
 }
 
@@ -276,15 +287,6 @@ impl DriveView<'_> {
                 significant(limit, DIGITS)
             ));
         }
-        if let (Some(amplifier), [maker]) = (self.amplifier, makers)
-            && maker.key != "cia402"
-            && !maker.name.starts_with(amplifier.maker.as_str())
-        {
-            warnings.push(format!(
-                "the amplifier {} is not one of {}: check that one of its amplifiers drives this motor with its encoder",
-                amplifier.key, maker.name
-            ));
-        }
         let rotor = get(Setting::RotorInertia);
         let [least, largest] =
             [Setting::LeastLoadInertia, Setting::LargestLoadInertia].map(|load| rotor + get(load));
@@ -301,6 +303,22 @@ impl DriveView<'_> {
                  where the controller gives positions of the drive link, reverse the polarity (CiA 402: 192 in 0x607E), which leaves torques as they are"
                     .to_owned(),
             );
+        }
+        if let Some([amplifier, of]) = self.amplifier {
+            let is_other = |name: &&str| !name.eq_ignore_ascii_case(of);
+            let mut others: Vec<&str> = makers
+                .iter()
+                .filter_map(|maker| maker.amplifiers.as_deref())
+                .filter(is_other)
+                .collect();
+            others.sort_unstable();
+            others.dedup();
+            if !others.is_empty() {
+                warnings.push(format!(
+                    "the amplifier {amplifier} is of {of}: the parameters of {} are for another amplifier on this motor, whose currents are not checked",
+                    others.join(" and ")
+                ));
+            }
         }
         for maker in makers {
             let beyond = maker.parameters.iter().filter(|parameter| parameter.beyond);

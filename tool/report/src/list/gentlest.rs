@@ -178,6 +178,16 @@ fn describe(answer: &mut Answer, shown: &GentlestView, words: &Vocabulary) {
         let says = one_move(shown, gentle, request.goal);
         answer.fact(format!("move {}", k + 1), says);
     }
+    let trace = gentlest.trace.of_axis(&shown.file.axis());
+    if let (true, Some((node, jump))) = (request.ramp == 0.0, trace.largest_jump()) {
+        let unit = trace.coordinate.pick("rad/s^2", "m/s^2");
+        let says = format!(
+            "the acceleration jumps, most at t = {} s, by {} {unit}; with --ends zero it does not",
+            short(node.t),
+            short(jump)
+        );
+        answer.fact("ends", says);
+    }
     for (name, [own, best]) in &gentlest.standing {
         let says = format!(
             "{name} rests for {} s while the drive turns, in the file for {} s: a new motion of the drive changes that; to keep a dwell, prescribe it in [motion]",

@@ -12,14 +12,11 @@ use jred_export::{ShaftInstant, TorqueOffsets};
 use jred_file::argument::Argument;
 use jred_file::model::coordinate::Coordinate;
 use jred_file::model::machine::MachineFile;
-use jred_file::number::rounding::short;
 use jred_file::plain;
 use jred_file::text::key::EFFORT;
 use jred_sizing::catalogue::Drive;
+use jred_sizing::motor::envelope::Envelope;
 use jred_sizing::study::chosen::ChosenDrive;
-
-/// More than these times the rated torque is beyond most drives.
-const USUAL: f64 = 5.0;
 
 /// Writes or prints the table.
 ///
@@ -75,10 +72,11 @@ pub(super) fn run(options: &Export, file: &MachineFile) -> Result<Completion> {
             None => instant.input_torque + rotor * instant.input_alpha,
         },
     });
+    let instants: Vec<ShaftInstant> = instants.collect();
     let name = drive.as_ref().map(Drive::name);
     let table = TorqueOffsets {
         title: &file.title,
-        instants: &instants.collect::<Vec<_>>(),
+        instants: &instants,
         rated,
         counts_per_turn: options.counts_per_turn,
         rotor,
@@ -86,22 +84,15 @@ pub(super) fn run(options: &Export, file: &MachineFile) -> Result<Completion> {
         unit: coordinate.effort_unit(),
     };
     let text = table.csv()?;
+    let peak = drive.as_ref().map(|drive| {
+        let envelope = Envelope::at(drive.motor, drive.amplifier, &file.site);
+        envelope.peak_torque(1.0, 0.0)
+    });
+    if let Some(warning) = table.excess(peak.filter(|peak| peak.is_finite())) {
+        terminal::warn(&warning);
+    }
     let fastest = course.iter().map(|instant| instant.omega.abs());
     warn(file, [fastest.fold(0.0, f64::max), 0.0])?;
-    let peak = table.instants.iter().map(|instant| instant.torque.abs());
-    let times = peak.fold(0.0, f64::max) / rated;
-    if times > USUAL {
-        let cure = match drive {
-            Some(_) => "`jred size` shows which rules this drive violates",
-            None => {
-                "is the rated torque that of this motor, and the torque that at its shaft? --drive MOTOR+GEARBOX takes both from the catalogue"
-            }
-        };
-        terminal::warn(&format!(
-            "the largest torque is {} times the rated torque, and object 0x6072 usually allows 3 to 5 times: {cure}",
-            short(times)
-        ));
-    }
     let Some(out) = &options.out else {
         return print(&text);
     };
