@@ -110,7 +110,7 @@ class ExportOptions(TypedDict, total=False):
     drive: Option
     """For --format cia402: the drive whose motor has the torque, MOTOR+GEARBOX, or MOTOR for a direct drive, with its inertia, losses and friction; if not given, the torque is that of the input of the machine."""
     counts_per_turn: Option
-    """For --format cia402: increments of object 0x6064 in a turn of the motor, for a column of positions."""
+    """For --format cia402: increments of object 0x6064 in a turn of the shaft that has the torque, for a column of positions: the motor with --drive, else the input of the machine."""
     rows: Option
     """For --format cia402: number of rows, at equal times over the motion; 1001 if not given."""
     prove: bool
@@ -172,7 +172,7 @@ class FastestOptions(TypedDict, total=False):
     cam_form: Literal['csv', 'codesys', 'twincat', 'rockwell', 'siemens', 'sew', 'kollmorgen', 'lenze'] | None
     """Form of the cam table; names in it are that of the file."""
     rows: Option
-    """Number of rows of the cam table."""
+    """Number of rows of the cam table; if not given 2001, or 721 with --cam-form sew or siemens, which take fewer as delivered."""
     master: Literal['deg', 'rad', 'turn'] | None
     """Unit of the cam table's master, which makes one turn during the motion; the derivatives are with respect to it."""
     report: Option
@@ -218,7 +218,7 @@ class GentlestOptions(TypedDict, total=False):
     cam_form: Literal['csv', 'codesys', 'twincat', 'rockwell', 'siemens', 'sew', 'kollmorgen', 'lenze'] | None
     """Form of the cam table; names in it are that of the file."""
     rows: Option
-    """Number of rows of the cam table."""
+    """Number of rows of the cam table; if not given 2001, or 721 with --cam-form sew or siemens, which take fewer as delivered."""
     master: Literal['deg', 'rad', 'turn'] | None
     """Unit of the cam table's master, which makes one turn during the motion; the derivatives are with respect to it."""
     report: Option
