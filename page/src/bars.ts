@@ -27,8 +27,8 @@ export function used(check: Check): number | undefined {
 
 /** Violations and warnings first, then those that use most of their limits, then those that are not checked. */
 export function byUse(checks: Check[]): Check[] {
-  const order = (check: Check): number => ['fail', 'warn'].indexOf(check.verdict) >>> 0;
-  return [...checks].sort((a, b) => order(a) - order(b) || (used(b) ?? -1) - (used(a) ?? -1));
+  const urgency = ({ verdict }: Check): number => (verdict === 'fail' ? 2 : verdict === 'warn' ? 1 : 0);
+  return [...checks].sort((a, b) => urgency(b) - urgency(a) || (used(b) ?? -1) - (used(a) ?? -1));
 }
 
 /** The limit is a least value: more is better. */

@@ -30,9 +30,9 @@ export class Curves {
     });
     const unitOf = (pattern: RegExp): string => columns.columns.map((name) => pattern.exec(name)?.[1]).find((found) => found) ?? '';
     const inertia = pick((name) => /^(J|m)_red \[/.test(name));
+    // One axis has one unit: that of the drive link.
     const drive = pick((name) => /^[TF]_(drive|input) \[/.test(name) && name.endsWith(`[${unitOf(/^[TF]_drive \[(.*)\]/)}]`), columns.path);
     // Without a motion there is no torque of the drive yet: the load at rest.
-    // One axis has one unit: that of the drive link.
     const torque = drive.length > 0 ? drive : pick((name) => /^[TF]_(potential|process) \[/.test(name));
     this.inertia.element.hidden = inertia.length === 0;
     this.torque.element.hidden = torque.length === 0;

@@ -68,6 +68,7 @@ export class Sliders {
     });
     slider.addEventListener('change', () => this.ask(quantity.key, slider.value, true));
     field.addEventListener('input', () => (row.edited = true));
+    field.addEventListener('blur', () => (row.edited = false));
     field.addEventListener('change', () => {
       row.edited = false;
       const bad = field.value === '' || !field.validity.valid;

@@ -2,14 +2,14 @@
 import type { Core } from '../core';
 import { h, shown } from '../dom';
 import { History } from '../history';
-import type { Answer, Answers, Drawn, Linkage, Source } from '../protocol';
+import type { Answer, Drawn, Linkage, Source } from '../protocol';
 import type { Texts } from '../texts';
 import type { Workbench } from '../workbench';
 import { Canvas, type Selected, type Sheet, type Tool } from './canvas';
 import { properties } from './form';
 import { BEGIN, EMPTY, removeBody, removePoint } from './linkage';
 import { linkageOf } from './read';
-import { drivesGuide, freedoms, machineText, tables, wideStroke } from './write';
+import { drivesGuide, freedoms, machineText, mechanismText, tables, wideStroke } from './write';
 
 /** Name of the machine file of a drawing. */
 const NAME = 'drawing.toml';
@@ -110,10 +110,17 @@ export class DrawPanel implements Sheet {
       this.loading = undefined;
       return;
     }
-    const linkage = 'error' in told ? { problem: told.error.message } : linkageOf(told.answer);
-    if ('problem' in linkage) {
+    const refuse = (problem: string): void => {
       this.loading = undefined;
-      this.say([h('p', { class: 'fault' }, `${this.texts.notDrawable} ${linkage.problem}`), h('p', {}, this.texts.replaces)]);
+      this.say([h('p', { class: 'fault' }, `${this.texts.notDrawable} ${problem}`), h('p', {}, this.texts.replaces)]);
+    };
+    if ('error' in told) {
+      refuse(told.error.message);
+      return;
+    }
+    const linkage = linkageOf(told.answer);
+    if ('problem' in linkage) {
+      refuse(linkage.problem);
       return;
     }
     // What the sheet does not show stays as it is, if the machine stays the same with it.
@@ -128,14 +135,15 @@ export class DrawPanel implements Sheet {
     this.history = new History<Linkage>(same ? whole : { ...own, ...(speed === undefined ? {} : { speed }) });
     this.canvas.fit();
     this.form.replaceChildren(...properties(this.texts, this));
-    const { lost } = (told as { answer: Answers['linkage'] }).answer;
+    const { lost } = told.answer;
     this.say(same || lost.length === 0 ? [] : [h('p', {}, `${this.texts.leavesOut} ${lost.join(', ')}`)]);
   }
 
   /** Whether another text has the curves of a machine. */
   private async isSame(source: Source, text: string): Promise<boolean> {
-    const ask = (own: string): Promise<Answer<'curves'> | undefined> => this.live.ask<'curves'>({ do: 'curves', positions: 24, ...source, text: own }, `same ${own === text}`);
-    const [one, other] = await Promise.all([ask(source.text), ask(text)]);
+    if (source.text === text) return true;
+    const ask = (own: string, lane: string): Promise<Answer<'curves'> | undefined> => this.live.ask<'curves'>({ do: 'curves', positions: 24, ...source, text: own }, lane);
+    const [one, other] = await Promise.all([ask(source.text, 'file'), ask(text, 'sheet')]);
     if (!one || !other || 'error' in one || 'error' in other) return false;
     const [a, b] = [one.answer, other.answer];
     const near = (x: number | null, y: number | null, k: number): boolean => x === y || Math.abs((x ?? NaN) - (y ?? NaN)) <= 1e-6 * Math.max(...a.rows.map((row) => Math.abs(row[k] ?? 0)));
@@ -153,8 +161,7 @@ export class DrawPanel implements Sheet {
 
   /** Whether a linkage moves, with the stroke of a drive that does not turn fully, and the dead points that limit it. */
   private async moved(linkage: Linkage): Promise<{ told: Answer<'draw'>; stroke: string; dead: string[] } | undefined> {
-    const { rest, ...own } = linkage;
-    const ask = (stroke: string): Promise<Answer<'draw'> | undefined> => this.live.ask<'draw'>({ do: 'draw', name: NAME, text: machineText(own, stroke, null).replace(/\n\[motion\][^]*$/, '') });
+    const ask = (stroke: string): Promise<Answer<'draw'> | undefined> => this.live.ask<'draw'>({ do: 'draw', name: NAME, text: mechanismText(linkage, stroke) });
     let stroke = drivesGuide(linkage) ? wideStroke(linkage) : '';
     let told = await ask(stroke);
     const dead: string[] = [];

@@ -40,8 +40,8 @@ export function wideStroke(linkage: Linkage): string {
   return `stroke = ["-${size} mm", "${size} mm"]`;
 }
 
-/** The machine file. `stroke` is a line for the mechanism; with a `range` (deg or mm) the drive goes to and fro in it, else it turns on and on. */
-export function machineText(linkage: Linkage, stroke: string, range: [number, number] | null): string {
+/** The machine file without motion and what the sheet does not show. `stroke` is a line for the mechanism. */
+export function mechanismText(linkage: Linkage, stroke: string): string {
   const [gx, gy] = linkage.gravity ?? [0, -9.81];
   const guided = new Map(linkage.guides.map((guide) => [guide.point, guide]));
   const fixed = linkage.points.filter(({ name, ground }) => (guided.has(name) ? guided.get(name)!.on === undefined : ground));
@@ -72,10 +72,16 @@ export function machineText(linkage: Linkage, stroke: string, range: [number, nu
         ...(load.opposing === undefined ? [] : [`opposing_force = "${figure(load.opposing)} N"`]),
       ];
     }),
-    ...(linkage.speed === undefined && /^\s*\[motion/m.test(linkage.rest ?? '') ? [] : motionLines(linkage, range)),
-    ...(linkage.rest ? ['', tables(linkage.rest, (table) => table !== 'motion' || linkage.speed === undefined)] : []),
     '',
   ].join('\n');
+}
+
+/** The machine file; with a `range` (deg or mm) the drive goes to and fro in it, else it turns on and on. */
+export function machineText(linkage: Linkage, stroke: string, range: [number, number] | null): string {
+  const { rest = '', speed } = linkage;
+  const kept = speed === undefined ? rest : tables(rest, (table) => table !== 'motion');
+  const motion = /^\s*\[motion/m.test(kept) ? [] : motionLines(linkage, range);
+  return mechanismText(linkage, stroke) + [...motion, ...(kept === '' ? [] : ['', kept]), ''].join('\n');
 }
 
 /** The tables of a machine file whose first names are wanted, as they are. */

@@ -20,7 +20,7 @@ impl<N: Number, const BINS: usize> Monitor<N, BINS> {
     /// version, largest torque, ticks of a cycle, mean and 1/(2·σ) of friction, spread and payload of a cycle, then for each bin: ticks, mean, σ
     /// ```
     ///
-    /// Numbers that are not whole are bits of `f32`; means and σ of bins are in 2⁻²⁰ of the largest torque. They are the same for every number type.
+    /// The largest torque, the figures of a cycle and σ are bits of `f32`; mean and σ of a bin count 2⁻²⁰ of the largest torque. No word depends on `N`.
     pub fn reference(&self) -> Option<impl Iterator<Item = u32>> {
         let head = [VERSION, self.watch.largest.to_bits(), self.ticks];
         let drifts = [self.friction, self.spread, self.payload];

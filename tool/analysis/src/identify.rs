@@ -165,22 +165,19 @@ fn basis_of(samples: &Samples, options: &Options) -> Result<Basis, Obstacle> {
         harmonics: HARMONICS,
         mean: share > BOTH_WAYS,
         friction: if varied { FRICTION } else { 0 },
-        shape: if varied {
-            shape(&options.friction)
-        } else {
-            Vec::new()
-        },
+        shape: without_mean(options.friction.iter().copied().filter(|_| varied)),
         cogging,
         least: low.into_iter().max().unwrap_or(0) as usize,
     })
 }
 
-/// A curve without its mean; empty if it is constant.
-fn shape(curve: &[f64]) -> Vec<f64> {
+/// A curve without its mean; empty if it is constant but for rounding.
+pub fn without_mean(curve: impl Iterator<Item = f64>) -> Vec<f64> {
+    let curve: Vec<f64> = curve.collect();
     let mean = curve.iter().sum::<f64>() / curve.len().max(1) as f64;
-    let shape: Vec<f64> = curve.iter().map(|c| c - mean).collect();
-    let varies = shape.iter().any(|c| c.abs() > 1e-6 * mean.abs());
-    if varies { shape } else { Vec::new() }
+    let rest: Vec<f64> = curve.iter().map(|c| c - mean).collect();
+    let varies = rest.iter().any(|c| c.abs() > 1e-6 * mean.abs());
+    if varies { rest } else { Vec::new() }
 }
 
 /// The fit with as many harmonics as the rows suffice for, and with the delay searched for if it is far from the usual one.
@@ -195,6 +192,7 @@ fn fitted(samples: &Samples, basis: &Basis, options: &Options) -> Result<Fit, Ob
     // Constant friction has fewer unknowns, and needs no angle in both directions.
     if let (Err(_), 1..) = (&found, basis.friction) {
         basis = basis.with_friction(0);
+        basis.shape.clear();
         found = fit(samples, &basis, options, None, None);
     }
     let found = found.map_err(|unfit| obstacle(samples, unfit))?;

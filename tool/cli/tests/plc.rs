@@ -136,7 +136,7 @@ fn a_cam_too_long_names_the_limit_and_the_cure() {
     run.says(&["--cam <FILE>"]);
 }
 
-/// A name that is not that of the file is said, of a block, of a table in C and of a cam.
+/// The command names the block, the C table or the cam if it has not the name of its file.
 #[test]
 fn a_name_that_is_not_that_of_the_file_is_said() {
     let folder = Folder::new();

@@ -340,7 +340,7 @@ fn wrong_counts_are_named() {
         panic!("a good log is not identified again")
     });
     assert_eq!(right.faults, []);
-    // Another machine is none of these, though larger positions make its J smaller; a torque of another scale is one.
+    // No such fault is reported for another machine, although larger positions make its J smaller; a torque of half its size is reported.
     for (plant, by, torque) in [(press(), 1.0, false), (four_bar(), 0.5, true)] {
         let mut log = log(&plant, Encoder::Fine, false, 19, 15.0);
         for torque in &mut log.samples.torque {

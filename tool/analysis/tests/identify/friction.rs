@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use jred_analysis::identify::{CurvePoint, Identified, identify};
+use jred_analysis::identify::{CurvePoint, Identified, identify, without_mean};
 
 use super::plant::{
     Encoder, Log, OTHER, Plant, errors, four_bar, log_of, motion, press, reversing,
@@ -76,6 +76,16 @@ fn friction_with_the_form_of_the_design_is_found_with_its_corners() {
         identify(&one.samples, &one.options).unwrap().coulomb_shape,
         None
     );
+}
+
+/// The mean of 360 times 0.4 is not 0.4 to the last bit.
+#[test]
+fn rounding_of_a_constant_is_no_curve() {
+    let constant = || (0..360).map(|_| 0.4f64);
+    let mean = constant().sum::<f64>() / 360.0;
+    assert_ne!(mean.to_bits(), 0.4f64.to_bits());
+    assert!(without_mean(constant()).is_empty());
+    assert_eq!(without_mean([1.0, 2.0, 6.0].into_iter()), [-2.0, -1.0, 3.0]);
 }
 
 #[test]

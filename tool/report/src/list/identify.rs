@@ -14,7 +14,7 @@ use crate::answer::Answer;
 use crate::answer::schema::Data;
 use crate::table::reading::Reading;
 use jred_analysis::identify::{
-    CurvePoint, Estimate, Fault, Identified, OTHER, Repair, Shaft, shift,
+    CurvePoint, Estimate, Fault, Identified, OTHER, Repair, Shaft, shift, without_mean,
 };
 use jred_file::model::machine::MachineFile;
 use jred_file::number::rounding::{percent, short};
@@ -45,10 +45,11 @@ pub struct Designed {
 
 /// V′ of the design as a log shows it: in one direction with the part of Coulomb friction that depends on the angle.
 pub fn slopes(designed: &[Designed], direction: Option<f64>) -> Vec<f64> {
-    let mean = designed.iter().map(|at| at.coulomb).sum::<f64>() / designed.len().max(1) as f64;
-    let friction = |at: &Designed| direction.map_or(0.0, |sign| sign * (at.coulomb - mean));
-    let each = designed.iter();
-    each.map(|at| at.potential_slope + friction(at)).collect()
+    let sign = direction.unwrap_or(0.0);
+    let friction = without_mean(designed.iter().map(|at| at.coulomb)).into_iter();
+    let friction = friction.chain(std::iter::repeat(0.0));
+    let each = designed.iter().zip(friction);
+    each.map(|(at, c)| at.potential_slope + sign * c).collect()
 }
 
 /// The result of one log.

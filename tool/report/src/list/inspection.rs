@@ -189,9 +189,10 @@ fn motions(findings: &Findings, answer: &mut Answer) {
         let angle = angle.map(|angle| format!("a transmission angle of {} deg", short(angle)));
         let links = Some(transmission.links.join(", ")).filter(|links| !links.is_empty());
         let because: Vec<String> = [angle, links].into_iter().flatten().collect();
-        let because = match because.join("; ") {
-            none if none.is_empty() => none,
-            words => format!(" ({words})"),
+        let because = if because.is_empty() {
+            String::new()
+        } else {
+            format!(" ({})", because.join("; "))
         };
         answer.fact(
             "transmission index",

@@ -112,7 +112,7 @@ impl IdentifyView<'_> {
         let mut csv =
             "phi [deg],J [kg m^2],T [N m],T_potential [N m],b [N m s/rad],c [N m]\n".to_owned();
         for point in curves {
-            // Writing to a text cannot fail.
+            // Writing to a text cannot fail. A difference from 0 is never -0.
             let _ = writeln!(
                 csv,
                 "{},{:.9e},{:.9e},{:.9e},{:.9e},{:.9e}",

@@ -196,19 +196,15 @@ fn fault_words(fault: &Fault, log: &LogResult) -> String {
                 |counts| format!("give --counts-per-turn {}", short(counts / by)),
             )
         ),
-        Fault::Shaft => format!(
-            "the curves are those of the design if the log is of the {}: run again with --shaft {}",
-            if log.shaft == Shaft::Motor {
-                "drive link"
-            } else {
-                "motor"
-            },
-            if log.shaft == Shaft::Motor {
-                "link"
-            } else {
-                "motor"
-            }
-        ),
+        Fault::Shaft => {
+            let (name, word) = match log.shaft.other() {
+                Shaft::Motor => ("motor", "motor"),
+                Shaft::Link => ("drive link", "link"),
+            };
+            format!(
+                "the curves are those of the design if the log is of the {name}: run again with --shaft {word}"
+            )
+        }
         Fault::Torque { by } => format!(
             "J and V' are {} times those of the design: check --torque-constant, --rated-torque and the unit of the torque",
             short(by)
