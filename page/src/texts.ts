@@ -199,6 +199,7 @@ export const en = {
   jointsOfLink: 'Joints of this link:',
   notDrawable: 'The sheet holds pins and guides; this machine has:',
   replaces: 'A change on the sheet replaces the machine file; undo brings it back.',
+  keptLoads: 'Also acting, as in the machine file:',
   leavesOut: 'A change on the sheet writes the machine file anew. It leaves out:',
   noDriveDrawn: 'No joint is driven: choose a fixed joint or one that slides, and tick "is driven".',
   freedoms: 'Degrees of freedom:',

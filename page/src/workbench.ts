@@ -50,6 +50,8 @@ export class Workbench {
   private listeners: { [E in keyof Events]?: Listener<E>[] } = {};
   private rest = settled(REST, () => void this.settle());
   private version = 0;
+  /** The version that the sheet has refused to follow. */
+  private refused = -1;
 
   constructor(private readonly live: Core, private readonly slow: Core, source: Source) {
     this.history = new History(source);
@@ -77,7 +79,7 @@ export class Workbench {
   /** The text of a drawing; the steps of one drawing are undone together. */
   replace(name: string, text: string): void {
     if (text === this.source.text) {
-      if (this.fault?.sheet) this.judge(undefined);
+      this.follows();
       return;
     }
     this.history.push({ ...this.source, name, text }, 'drawing');
@@ -86,7 +88,14 @@ export class Workbench {
 
   /** The sheet holds no machine that moves. */
   refuse(message: string): void {
+    this.refused = this.version;
     this.judge({ message, help: '', places: [], sheet: true });
+  }
+
+  /** The sheet holds this machine. */
+  follows(): void {
+    this.refused = -1;
+    if (this.fault?.sheet) this.judge(undefined);
   }
 
   open(source: Source): void {
@@ -162,14 +171,15 @@ export class Workbench {
     const source = this.source;
     const version = this.version;
     const drawing = this.live.ask<'drawing'>({ do: 'drawing', ...source });
-    const curves = this.live.ask<'curves'>({ do: 'curves', positions: 360, ...source });
+    const told = this.live.ask<'curves'>({ do: 'curves', positions: 360, ...source });
     const choice = this.pinned && this.drive !== undefined ? { drive: this.drive } : { best: true };
     const judged = this.live.ask<'size'>({ do: 'size', ...choice, ...source });
-    const [drawn, curved] = [await drawing, await curves];
+    const [drawn, curved] = [await drawing, await told];
     if (drawn && 'answer' in drawn) this.tell('drawing', drawn.answer);
-    if (curved && 'answer' in curved) this.tell('curves', await this.withPath(curved.answer, source));
+    const curves = curved && 'answer' in curved ? await this.withPath(curved.answer, source, version) : undefined;
+    if (curves) this.tell('curves', curves);
     const failed = [drawn, curved].find((told) => told && 'error' in told);
-    if (drawn && curved && version === this.version) this.judge(failed && 'error' in failed ? failed.error : undefined);
+    if (drawn && curved && version === this.version && version !== this.refused) this.judge(failed && 'error' in failed ? failed.error : undefined);
     const sized = await judged;
     if (!sized || 'error' in sized) return;
     this.tell('judged', sized.answer);
@@ -177,11 +187,13 @@ export class Workbench {
     await this.plot();
   }
 
-  private async withPath(curves: Columns, source: Source): Promise<Columns> {
+  /** Undefined if the path is that of an older text. */
+  private async withPath(curves: Columns, source: Source, version: number): Promise<Columns | undefined> {
     const drive = curves.columns.findIndex((name) => /^[TF]_drive \[/.test(name));
     if (drive < 0 || curves.rows.some((row) => row[drive] !== null)) return curves;
     const timed = await this.live.ask<'curves'>({ do: 'curves', positions: 360, over: 'time', ...source }, 'path');
-    return timed && 'answer' in timed ? { ...curves, path: timed.answer } : curves;
+    if (!timed || version !== this.version) return undefined;
+    return 'answer' in timed ? { ...curves, path: timed.answer } : curves;
   }
 
   private async plot(): Promise<void> {

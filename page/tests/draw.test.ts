@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
 import type { Page } from 'playwright-core';
-import { begin, end, holds, open, sized, text } from './support';
+import { begin, end, holds, open, sized, text, write } from './support';
 
 before(begin);
 after(end);
@@ -52,7 +52,7 @@ test('a crank that is too long reaches dead points, which are named, and undo br
   assert.match((await state(page))!, /dead point at φ/);
   for (let k = 0; k < 3 && !/turns on and on/.test((await state(page))!); k++) {
     await page.getByRole('button', { name: 'Undo' }).click();
-    await page.waitForTimeout(800);
+    await page.getByText('The drive turns on and on').waitFor({ timeout: 10_000 }).catch(() => undefined);
   }
   assert.match((await state(page))!, /turns on and on/);
 });
@@ -131,6 +131,40 @@ test('the pins of another machine come onto the sheet', async () => {
   }
   await holds(page, /type = "linkage"[^]*flywheel = "0.01 kg m\^2"[^]*mass = "3.25 kg"[^]*name = "weight of the part"/);
   assert.ok((await text(page)).includes(motion), 'the motion stays');
+});
+
+test('a load of the machine file is shown at its link, follows its name, and goes with it', async () => {
+  const { page } = await open('#machine=four-bar.toml');
+  await sized(page);
+  await sheet(page);
+  const load = page.getByText('Also acting, as in the machine file: weight of the part');
+  await page.locator('.sheet-canvas .body').nth(3).waitFor({ state: 'detached' });
+  for (let k = 0; k < 3 && !(await load.isVisible()); k++) {
+    await page.locator('[data-body]').nth(k).focus();
+    await page.keyboard.press('Enter');
+  }
+  await load.waitFor();
+  await page.getByLabel('Name', { exact: true }).fill('arm "2"');
+  await page.getByLabel('Name', { exact: true }).press('Enter');
+  await holds(page, /on = "arm \\"2\\""/);
+  await page.getByText('The drive turns on and on').waitFor();
+  await page.getByRole('button', { name: 'Remove' }).click();
+  await page.locator('.drawn .fault').waitFor();
+  assert.match(await text(page), /weight of the part/);
+});
+
+test('a machine without a motion stays the same on the sheet, and gets one by a change', async () => {
+  const { page } = await open('#machine=four-bar.toml');
+  await sized(page);
+  const whole = await text(page);
+  await write(page, whole.slice(0, whole.indexOf('[motion]')));
+  await page.locator('.drive-name').getByText('Not sized').waitFor();
+  await sheet(page);
+  await page.locator('.sheet-canvas [data-point="B"]').waitFor();
+  await page.waitForFunction(() => document.querySelector('.drawn')!.textContent === '');
+  await page.locator('.sheet-canvas [data-point="B"]').focus();
+  await page.keyboard.press('ArrowUp');
+  await holds(page, /flywheel = "0.01 kg m\^2"[^]*speed = "60 rpm"[^]*name = "weight of the part"/);
 });
 
 test('a length is typed, and the other links keep theirs; a moment acts on a link', async () => {

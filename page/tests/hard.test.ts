@@ -59,7 +59,7 @@ test('a worker that was killed is replaced', async () => {
   const mass = field(page, 'mechanism slider mass [kg]');
   await mass.fill('60');
   await mass.press('Enter');
-  await page.waitForURL(/#1\./, { timeout: 90_000 });
+  await page.waitForURL(/#1\./);
   assert.match(await text(page), /60(\.0)? kg/);
 });
 
@@ -86,9 +86,9 @@ test('a text of one megabyte is answered, and the page goes on', async () => {
   await sized(page);
   const good = await text(page);
   await write(page, good + `# ${'x'.repeat(78)}\n`.repeat(13_200));
-  await page.locator('.faults .fault').waitFor({ timeout: 30_000 });
+  await page.locator('.faults .fault').waitFor();
   await write(page, good);
-  await page.locator('.stale').waitFor({ state: 'hidden', timeout: 30_000 });
+  await page.locator('.stale').waitFor({ state: 'hidden' });
   assert.deepEqual(errors, []);
 });
 
@@ -109,7 +109,7 @@ test('a machine that cannot be sized says why', async () => {
   await sized(page);
   const good = await text(page);
   await write(page, good.slice(0, good.indexOf('# One turn from top')));
-  await page.locator('.drive-name').getByText('Not sized').waitFor({ timeout: 30_000 });
+  await page.locator('.drive-name').getByText('Not sized').waitFor();
   assert.match((await page.locator('.drive .state').textContent()) ?? '', /motion/);
   assert.equal(await page.locator('.stale').isVisible(), false);
 });

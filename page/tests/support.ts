@@ -64,7 +64,7 @@ export async function open(fragment = '', options: BrowserContextOptions = {}, r
 
 /** Waits until the catalogue has been sized. */
 export async function sized(page: Page): Promise<string> {
-  await page.locator('.drive[aria-busy="false"] .drive-name strong').waitFor({ timeout: 60_000 });
+  await page.locator('.drive[aria-busy="false"] .drive-name strong').waitFor();
   return (await page.locator('.drive-name strong').textContent()) ?? '';
 }
 
@@ -100,6 +100,6 @@ export async function text(page: Page): Promise<string> {
 
 /** Waits until the machine file is what it should be: a drawing becomes a text once the core has answered. */
 export async function holds(page: Page, wanted: RegExp): Promise<void> {
-  for (let k = 0; k < 50 && !wanted.test(await text(page)); k++) await page.waitForTimeout(200);
+  for (let k = 0; k < 200 && !wanted.test(await text(page)); k++) await page.waitForTimeout(200);
   assert.match(await text(page), wanted);
 }

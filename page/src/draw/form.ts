@@ -3,7 +3,7 @@ import { h } from '../dom';
 import type { Linkage } from '../protocol';
 import type { Texts } from '../texts';
 import type { Sheet } from './canvas';
-import { addLink, bodyOf, changeBody, changePoint, setGuide, setLength, setLoad, toggleOnLink, type Body, type Point } from './linkage';
+import { addLink, bodyOf, changeBody, changePoint, keptLoads, renamedIn, setGuide, setLength, setLoad, toggleOnLink, type Body, type Point } from './linkage';
 
 let fields = 0;
 
@@ -99,13 +99,14 @@ function ofBody(texts: Texts, sheet: Sheet, body: Body): Node[] {
   const set = (change: Body): void => sheet.change(changeBody(linkage, name, () => change), '');
   const com = body.com;
   const load = linkage.loads.find((old) => old.on === name && old.at === '');
+  const kept = keptLoads(linkage, name);
   // One of the two.
   const loads = (key: 'moment' | 'opposingMoment', moment: number | undefined): void => sheet.change(setLoad(linkage, '', name, moment === undefined ? undefined : { [key]: moment }), '');
   const [a, b] = body.points.map((point) => linkage.points.find((other) => other.name === point));
   const length = a && b ? Math.hypot(b.x - a.x, b.y - a.y) : 0;
   const turn = (to: string): Linkage => {
     const renamed = changeBody(linkage, name, () => ({ name: to }));
-    return { ...renamed, guides: renamed.guides.map((guide) => (guide.on === name ? { ...guide, on: to } : guide)), loads: renamed.loads.map((load) => (load.on === name ? { ...load, on: to } : load)) };
+    return { ...renamed, ...renamedIn(linkage, name, to), guides: renamed.guides.map((guide) => (guide.on === name ? { ...guide, on: to } : guide)), loads: renamed.loads.map((load) => (load.on === name ? { ...load, on: to } : load)) };
   };
   const called = h('input', { type: 'text', value: name, 'aria-label': texts.name, maxlength: 40 });
   called.addEventListener('change', () => {
@@ -126,6 +127,7 @@ function ofBody(texts: Texts, sheet: Sheet, body: Body): Node[] {
       number(`${texts.centreOfMass} v`, 'mm', com?.[1], (v) => set(withOptional(body, 'com', v === undefined ? undefined : [com?.[0] ?? length / 2, v])), '0'),
       number(texts.moment, 'N m', load?.moment, (moment) => loads('moment', moment)),
       number(texts.opposingMoment, 'N m', load?.opposingMoment, (moment) => loads('opposingMoment', moment))),
+    ...(kept.length > 0 ? [h('p', {}, `${texts.keptLoads} ${kept.join(', ')}`)] : []),
     h('div', { class: 'ticks' }, h('span', {}, texts.jointsOfLink), ...linkage.points.map((point) =>
       tick(point.name, body.points.includes(point.name), () => sheet.change(toggleOnLink(linkage, name, point.name), '')))),
     h('button', { type: 'button', class: 'danger', onclick: () => sheet.remove() }, texts.remove),

@@ -75,7 +75,7 @@ export function changeBody(linkage: Linkage, name: string, change: (body: Body) 
 
 /**
  * With another length of a link of two joints. The other links keep theirs, and fixed joints and lines of blocks their places, if they can: all joints
- * are moved by half of each error, over and over; else only the end of this link moves.
+ * are moved by half of each error, over and over; else only the ends of this link move.
  */
 export function setLength(linkage: Linkage, body: Body, length: number): Linkage {
   const at = new Map(linkage.points.map(({ name, x, y }) => [name, { x, y }]));
@@ -105,9 +105,26 @@ export function setLength(linkage: Linkage, body: Body, length: number): Linkage
   return moved();
 }
 
+/** A load that is kept as text. */
+const KEPT = /^\[\[load\]\][ \t]*(?:#.*)?$(?:\n(?!\[).*)*/gm;
+const ON = /^(\s*on\s*=\s*)(["'])(.*?)\2/m;
+
+/** Names of the loads on a link that are kept as text. */
+export function keptLoads({ rest = '' }: Linkage, link: string): string[] {
+  const own = (rest.match(KEPT) ?? []).filter((load) => ON.exec(load)?.[3] === link);
+  return own.map((load, k) => /^\s*name\s*=\s*(["'])(.*?)\1/m.exec(load)?.[2] ?? String(k + 1));
+}
+
+/** The tables kept as text once a link has another name; without one it is gone, and so are its loads. */
+export function renamedIn(linkage: Linkage, link: string, name?: string): { rest?: string } {
+  const change = (load: string): string => (ON.exec(load)?.[3] !== link ? load : name === undefined ? '' : load.replace(ON, (_, key: string) => key + JSON.stringify(name)));
+  return linkage.rest === undefined ? {} : { rest: linkage.rest.replace(KEPT, change).trim() };
+}
+
 export function removeBody(linkage: Linkage, name: string): Linkage {
   return {
     ...linkage,
+    ...renamedIn(linkage, name),
     bodies: linkage.bodies.filter((body) => body.name !== name),
     guides: linkage.guides.filter((guide) => guide.on !== name && guide.body !== name),
     loads: linkage.loads.filter((load) => load.on !== name),

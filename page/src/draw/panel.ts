@@ -9,7 +9,7 @@ import { Canvas, type Selected, type Sheet, type Tool } from './canvas';
 import { properties } from './form';
 import { BEGIN, EMPTY, removeBody, removePoint } from './linkage';
 import { linkageOf } from './read';
-import { drivesGuide, freedoms, machineText, mechanismText, tables, wideStroke } from './write';
+import { drivesGuide, freedoms, hasMotion, machineText, mechanismText, tables, wideStroke } from './write';
 
 /** Name of the machine file of a drawing. */
 const NAME = 'drawing.toml';
@@ -21,8 +21,10 @@ export class DrawPanel implements Sheet {
   private history = new History<Linkage>(BEGIN);
   /** The machine file that the sheet has written or taken over. */
   private text = '';
-  /** While it takes one over, nothing else changes the sheet; a new drawing ends that. */
+  /** While it takes one over, nothing else changes the sheet; a new drawing, and another machine file, end that. */
   private loading: object | undefined;
+  /** Machine files that came from elsewhere. An answer to an older one is not written over it. */
+  private others = 0;
   private readonly canvas: Canvas;
   private readonly form = h('div', { class: 'properties' });
   private readonly state = h('div', { class: 'drawn', role: 'status' });
@@ -41,7 +43,10 @@ export class DrawPanel implements Sheet {
       h('p', { class: 'note' }, texts.drawingHelp),
       this.canvas.element, this.state, this.form);
     bench.on('source', ({ by }) => {
-      if (by !== 'draw' && this.element.offsetParent) void this.shown();
+      if (by === 'draw') return;
+      this.others++;
+      this.loading = undefined;
+      if (this.element.offsetParent) void this.shown();
     });
     this.use('move');
     this.canvas.fit();
@@ -80,6 +85,7 @@ export class DrawPanel implements Sheet {
 
   /** Whether a step was undone (or redone). */
   step(way: 'undo' | 'redo'): boolean {
+    if (this.loading) return false;
     const moved = way === 'undo' ? this.history.undo() : this.history.redo();
     if (moved) this.changed();
     return moved !== undefined;
@@ -125,7 +131,8 @@ export class DrawPanel implements Sheet {
     }
     // What the sheet does not show stays as it is, if the machine stays the same with it.
     const { speed, ...own } = linkage;
-    const whole = { ...own, rest: tables(source.text, (table) => table !== 'mechanism') };
+    const rest = tables(source.text, (table) => table !== 'mechanism');
+    const whole = { ...(hasMotion(rest) ? own : linkage), rest };
     const moved = await this.moved(whole);
     const same = moved && 'answer' in moved.told && await this.isSame(source, machineText(whole, moved.stroke, moved.told.answer.range));
     if (loading !== this.loading) return;
@@ -135,6 +142,7 @@ export class DrawPanel implements Sheet {
     this.history = new History<Linkage>(same ? whole : { ...own, ...(speed === undefined ? {} : { speed }) });
     this.canvas.fit();
     this.form.replaceChildren(...properties(this.texts, this));
+    this.bench.follows();
     const { lost } = told.answer;
     this.say(same || lost.length === 0 ? [] : [h('p', {}, `${this.texts.leavesOut} ${lost.join(', ')}`)]);
   }
@@ -146,8 +154,10 @@ export class DrawPanel implements Sheet {
     const [one, other] = await Promise.all([ask(source.text, 'file'), ask(text, 'sheet')]);
     if (!one || !other || 'error' in one || 'error' in other) return false;
     const [a, b] = [one.answer, other.answer];
-    const near = (x: number | null, y: number | null, k: number): boolean => x === y || Math.abs((x ?? NaN) - (y ?? NaN)) <= 1e-6 * Math.max(...a.rows.map((row) => Math.abs(row[k] ?? 0)));
-    return a.columns.join() === b.columns.join() && a.rows.every((row, r) => row.every((x, k) => near(x, b.rows[r]?.[k] ?? null, k)));
+    // A text without a motion has fewer columns; one of rounding errors has no size to compare with.
+    const at = a.columns.map((name) => b.columns.indexOf(name));
+    const near = (x: number | null, y: number | null, k: number): boolean => x === y || Math.abs((x ?? NaN) - (y ?? NaN)) <= 1e-12 + 1e-6 * Math.max(...a.rows.map((row) => Math.abs(row[k] ?? 0)));
+    return at.every((k) => k >= 0) && a.rows.every((row, r) => row.every((x, k) => near(x, b.rows[r]?.[at[k]!] ?? null, k)));
   }
 
   private changed(): void {
@@ -176,9 +186,9 @@ export class DrawPanel implements Sheet {
 
   /** Whether it moves; then the machine file follows. */
   private async examine(): Promise<void> {
-    const { linkage } = this;
+    const { linkage, others } = this;
     const moved = linkage.drive === '' ? undefined : await this.moved(linkage);
-    if (linkage !== this.linkage || (linkage.drive !== '' && !moved)) return;
+    if (linkage !== this.linkage || others !== this.others || (linkage.drive !== '' && !moved)) return;
     const { told, stroke, dead } = moved ?? { told: { error: { message: this.texts.noDriveDrawn, help: '', places: [] } }, stroke: '', dead: [] };
     if ('error' in told) {
       this.say([this.freedoms(), h('p', { class: 'fault', lang: moved ? 'en' : null }, `${told.error.message} ${told.error.help}`)]);

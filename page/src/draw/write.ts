@@ -80,8 +80,12 @@ export function mechanismText(linkage: Linkage, stroke: string): string {
 export function machineText(linkage: Linkage, stroke: string, range: [number, number] | null): string {
   const { rest = '', speed } = linkage;
   const kept = speed === undefined ? rest : tables(rest, (table) => table !== 'motion');
-  const motion = /^\s*\[motion/m.test(kept) ? [] : motionLines(linkage, range);
+  const motion = hasMotion(kept) ? [] : motionLines(linkage, range);
   return mechanismText(linkage, stroke) + [...motion, ...(kept === '' ? [] : ['', kept]), ''].join('\n');
+}
+
+export function hasMotion(tables: string): boolean {
+  return /^\s*\[motion/m.test(tables);
 }
 
 /** The tables of a machine file whose first names are wanted, as they are. */

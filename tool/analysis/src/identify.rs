@@ -165,7 +165,9 @@ fn basis_of(samples: &Samples, options: &Options) -> Result<Basis, Obstacle> {
         harmonics: HARMONICS,
         mean: share > BOTH_WAYS,
         friction: if varied { FRICTION } else { 0 },
-        shape: without_mean(options.friction.iter().copied().filter(|_| varied)),
+        shape: cornered(without_mean(
+            options.friction.iter().copied().filter(|_| varied),
+        )),
         cogging,
         least: low.into_iter().max().unwrap_or(0) as usize,
     })
@@ -178,6 +180,27 @@ pub fn without_mean(curve: impl Iterator<Item = f64>) -> Vec<f64> {
     let rest: Vec<f64> = curve.iter().map(|c| c - mean).collect();
     let varies = rest.iter().any(|c| c.abs() > 1e-6 * mean.abs());
     if varies { rest } else { Vec::new() }
+}
+
+/// Share (RMS) of the design's friction beyond the harmonics of c, below which they describe it. As an unknown it would then be nearly one of them.
+const SMOOTH: f64 = 0.01;
+
+/// The curve (without its mean); empty if the harmonics of c describe it.
+fn cornered(curve: Vec<f64>) -> Vec<f64> {
+    let wave = |order: usize, value: fn(f64) -> f64| {
+        let step = order as f64 * TAU / curve.len() as f64;
+        let each = curve.iter().zip(0u32..);
+        each.map(|(c, k)| c * value(f64::from(k) * step))
+            .sum::<f64>()
+    };
+    let size: f64 = curve.iter().map(|c| c * c).sum();
+    let told = (1..=FRICTION).map(|k| wave(k, math::cos).powi(2) + wave(k, math::sin).powi(2));
+    let beyond = size - told.sum::<f64>() * 2.0 / curve.len() as f64;
+    if beyond > SMOOTH * SMOOTH * size {
+        curve
+    } else {
+        Vec::new()
+    }
 }
 
 /// The fit with as many harmonics as the rows suffice for, and with the delay searched for if it is far from the usual one.

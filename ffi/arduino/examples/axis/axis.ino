@@ -20,12 +20,15 @@ static void every_tick() {
 #endif
 
 void setup() {
+#ifdef MACHINE
+    analogWriteResolution(12);
+    analogWrite(A2, 2048); // 0 N m until the timer runs
+#endif
     Serial.begin(115200);
     status = start(); // START of axis.h: the counter's reading now, after homing
     Serial.println(status == JRED_OK ? HEADING : jred_status_name(status));
 #ifdef MACHINE
     if (status != JRED_OK) return;
-    analogWriteResolution(12);
     timer.setOverflow((uint32_t)(1e6f * TICK + 0.5f), MICROSEC_FORMAT);
     timer.attachInterrupt(every_tick); // 3. call it from a timer, every TICK
     timer.resume();

@@ -164,10 +164,10 @@ fn curves_of(found: &Identified) -> impl Iterator<Item = [f64; 2]> {
 }
 
 /// Replaces the faults by that of wrong counts, of the wrong shaft or of a wrong torque, if such a log of the design would give these curves. `read`
-/// identifies the machine with the log read in another way.
+/// identifies the machine with the log read in another way; `design` gives J and V′ to compare with: of the direction of a log of one.
 pub fn judge_reading(
     found: &mut Identified,
-    designed: &[[f64; 2]],
+    design: impl Fn(&Identified) -> Vec<[f64; 2]>,
     read: impl Fn(Reading) -> Option<Identified>,
 ) {
     if found
@@ -177,7 +177,9 @@ pub fn judge_reading(
     {
         return;
     }
+    let designed = &design(found)[..];
     let here = off(curves_of(found), designed);
+    let same = SAME.powi(2) * designed.len() as f64;
     let both = || curves_of(found).zip(designed);
     let most = designed.iter().fold(0.0, |most: f64, [j, _]| most.max(*j));
     let other = both().any(|([j, _], [designed, _])| (j - designed).abs() > OTHER * most);
@@ -191,7 +193,8 @@ pub fn judge_reading(
                 Reading::Scaled(by) => Fault::Scale { by },
                 Reading::OtherShaft => Fault::Shaft,
             };
-            Some((fault, off(curves_of(&read(reading)?), designed)))
+            let read = read(reading)?;
+            Some((fault, off(curves_of(&read), &design(&read))))
         }));
     }
     let squares: f64 = designed.iter().map(|[j, _]| j * j).sum();
@@ -202,11 +205,10 @@ pub fn judge_reading(
         // A rotor that was not taken out is a constant more.
         let constant = off(curves_of(found).map(|[j, v]| [j - more, v]), designed);
         let scaled = off(scaled, designed);
-        if scaled < CAUSE * constant {
+        if scaled < CAUSE * constant && constant > same {
             causes.push((Fault::Torque { by }, scaled));
         }
     }
-    let same = SAME.powi(2) * designed.len() as f64;
     let best = causes.into_iter().min_by(|a, b| a.1.total_cmp(&b.1));
     if let Some((fault, _)) = best.filter(|best| best.1 < same.min(CAUSE * here)) {
         found.faults = vec![fault];

@@ -78,6 +78,22 @@ fn friction_with_the_form_of_the_design_is_found_with_its_corners() {
     );
 }
 
+/// Friction without corners is nearly a sum of the harmonics: as an unknown beside them it would not be determined.
+#[test]
+fn smooth_friction_of_the_design_is_left_to_the_harmonics() {
+    let mut plant = press();
+    plant.coulomb_wave = 0.6 * plant.coulomb;
+    let mut log = log_of(&plant, Encoder::Fine, false, 1, 40.0, reversing);
+    let angles = (0..3600).map(|k| f64::from(k) * TAU / 3600.0);
+    log.options.friction = angles.map(|phi| 2.0 + (0.3 * phi.cos()).exp()).collect();
+    let found = identify(&log.samples, &log.options).unwrap();
+    assert_eq!(found.coulomb_shape, None);
+    for point in &found.curves {
+        let off = (point.coulomb.value - plant.friction(point.phi)).abs();
+        assert!(off < 0.05 * plant.coulomb, "{off} at {}", point.phi);
+    }
+}
+
 /// The mean of 360 times 0.4 is not 0.4 to the last bit.
 #[test]
 fn rounding_of_a_constant_is_no_curve() {

@@ -12,7 +12,7 @@ use crate::output::{self, Files};
 use jred::Domain;
 use jred::machine::Reducible as _;
 use jred_analysis::checked;
-use jred_analysis::identify::{self, Options, Reading, Shaft};
+use jred_analysis::identify::{self, Identified, Options, Reading, Shaft};
 use jred_file::model::machine::MachineFile;
 use jred_file::model::variator;
 use jred_file::number::rounding::short;
@@ -174,11 +174,13 @@ fn one(
     };
     let read = |reading| found(reading).ok();
     let mut found = found(Reading::Scaled(1.0)).map_err(|why| refusal(&name, &why, &repairs))?;
-    let slopes = slopes(designed, found.direction());
-    let curves = designed.iter().zip(slopes);
-    let curves: Vec<[f64; 2]> = curves.map(|(at, slope)| [at.inertia, slope]).collect();
+    let design = |found: &Identified| -> Vec<[f64; 2]> {
+        let curves = designed.iter().zip(slopes(designed, found.direction()));
+        curves.map(|(at, slope)| [at.inertia, slope]).collect()
+    };
+    let curves = design(&found);
     identify::against_design(&mut found, &curves);
-    identify::judge_reading(&mut found, &curves, read);
+    identify::judge_reading(&mut found, design, read);
     Ok(LogResult {
         name,
         repairs,

@@ -197,12 +197,12 @@ fn fault_words(fault: &Fault, log: &LogResult) -> String {
             )
         ),
         Fault::Shaft => {
-            let (name, word) = match log.shaft.other() {
+            let (name, options) = match log.shaft.other() {
                 Shaft::Motor => ("motor", "motor"),
-                Shaft::Link => ("drive link", "link"),
+                Shaft::Link => ("drive link", "link, without --rotor-inertia"),
             };
             format!(
-                "the curves are those of the design if the log is of the {name}: run again with --shaft {word}"
+                "the curves are those of the design if the log is of the {name}: run again with --shaft {options}"
             )
         }
         Fault::Torque { by } => format!(
