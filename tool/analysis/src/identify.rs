@@ -26,6 +26,8 @@ mod solution;
 mod visits;
 mod weak;
 
+use jred_file::math;
+
 use basis::Basis;
 use fit::{DELAY_STEP, Fit, fit, needed, rest};
 use matrix::DIAGONALS;
