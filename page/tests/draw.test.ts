@@ -153,6 +153,24 @@ test('a load of the machine file is shown at its link, follows its name, and goe
   assert.match(await text(page), /weight of the part/);
 });
 
+test('a file that is opened while a drawing is examined stays', async () => {
+  const { page } = await open();
+  await sized(page);
+  await page.getByRole('button', { name: 'Machines', exact: true }).click();
+  await page.getByRole('button', { name: /scotch-yoke/ }).waitFor();
+  await page.keyboard.press('Escape');
+  await sheet(page);
+  await page.getByRole('button', { name: 'New: four-bar' }).click();
+  await page.getByText('The drive turns on and on').waitFor();
+  await page.evaluate(() => {
+    document.querySelector('.sheet-canvas [data-point="A"]')!.dispatchEvent(new KeyboardEvent('keydown', { key: 'ArrowUp', bubbles: true }));
+    [...document.querySelectorAll<HTMLButtonElement>('.gallery button')].find((button) => button.textContent!.includes('scotch-yoke'))!.click();
+  });
+  await page.waitForURL(/#machine=scotch-yoke\.toml/);
+  await page.waitForTimeout(1000);
+  assert.match(await text(page), /type = "scotch-yoke"/);
+});
+
 test('a machine without a motion stays the same on the sheet, and gets one by a change', async () => {
   const { page } = await open('#machine=four-bar.toml');
   await sized(page);
