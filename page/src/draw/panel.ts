@@ -45,7 +45,7 @@ export class DrawPanel implements Sheet {
     bench.on('source', ({ by }) => {
       if (by === 'draw') return;
       this.others++;
-      this.loading = undefined;
+      this.ready();
       if (this.element.offsetParent) void this.shown();
     });
     this.use('move');
@@ -95,7 +95,7 @@ export class DrawPanel implements Sheet {
   begin(linkage: Linkage): void {
     this.selected = undefined;
     this.use('move');
-    this.loading = undefined;
+    this.ready();
     this.history.push(linkage);
     this.canvas.fit();
     this.changed();
@@ -106,18 +106,24 @@ export class DrawPanel implements Sheet {
     if (this.bench.source.text !== this.text) await this.load();
   }
 
+  private ready(): void {
+    this.loading = undefined;
+    this.element.ariaBusy = 'false';
+  }
+
   /** The linkage of the machine file. */
   async load(): Promise<void> {
     const { source } = this.bench;
     const loading = (this.loading = {});
+    this.element.ariaBusy = 'true';
     const told = await this.live.ask<'linkage'>({ do: 'linkage', ...source });
     if (loading !== this.loading) return;
     if (!told) {
-      this.loading = undefined;
+      this.ready();
       return;
     }
     const refuse = (problem: string): void => {
-      this.loading = undefined;
+      this.ready();
       this.say([h('p', { class: 'fault' }, `${this.texts.notDrawable} ${problem}`), h('p', {}, this.texts.replaces)]);
     };
     if ('error' in told) {
@@ -136,7 +142,7 @@ export class DrawPanel implements Sheet {
     const moved = await this.moved(whole);
     const same = moved && 'answer' in moved.told && await this.isSame(source, machineText(whole, moved.stroke, moved.told.answer.range));
     if (loading !== this.loading) return;
-    this.loading = undefined;
+    this.ready();
     this.selected = undefined;
     this.text = source.text;
     this.history = new History<Linkage>(same ? whole : { ...own, ...(speed === undefined ? {} : { speed }) });
