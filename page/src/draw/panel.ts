@@ -145,7 +145,7 @@ export class DrawPanel implements Sheet {
     this.ready();
     this.selected = undefined;
     this.text = source.text;
-    this.history = new History<Linkage>(same ? whole : { ...own, ...(speed === undefined ? {} : { speed }) });
+    this.history = new History<Linkage>(same ? whole : linkage);
     this.canvas.fit();
     this.form.replaceChildren(...properties(this.texts, this));
     this.bench.follows();
